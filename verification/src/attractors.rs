@@ -100,7 +100,8 @@ fn of_equations(motion: &PlainMotion, model: &Model, state: &[f64]) -> Vec<f64> 
     let points = names.iter().filter_map(|name| model.system.model().point(name));
     let moved = |modes: &[f64], ground: f64| -> Vec<f64> {
         let of_point = |shape: &[f64]| shape.iter().zip(modes).map(|(a, b)| a * b).sum::<f64>();
-        points.clone().map(|point| of_point(&point.shape) + point.support_ratio * ground).collect()
+        let of_ground = |ratios: &[f64]| ratios.first().map_or(0.0, |ratio| ratio * ground);
+        points.clone().map(|point| of_point(&point.shape) + of_ground(&point.support_ratios)).collect()
     };
     let [u, v] = motion.ground();
     [moved(&state[..n], u), moved(&state[n..], v)].concat()

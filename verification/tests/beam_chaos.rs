@@ -117,7 +117,7 @@ fn motion_beyond_neimark_sacker_points_is_quasi_periodic() {
 fn periodic_windows_are_found_by_simulation_and_by_shooting() {
     let rig = paper_beam();
     let observable =
-        Observable { shape: rig.response.shape.clone(), support_ratio: rig.response.support_ratio };
+        Observable { shape: rig.response.shape.clone(), support_ratios: rig.response.support_ratios.clone() };
     let settings = SweepSettings { effort: effort(), sampled: 16, motion: ExactSettings::default() };
     let mut sweeper = Sweeper::new(&rig.system, &observable, settings).unwrap();
     let rest = vec![0.0; map(&rig, 57.0).dimension()];

@@ -25,7 +25,8 @@ fn bouncing(law: Law, amplitude: f64) -> Rig {
         shape: model.uniform_acceleration.clone(),
         harmonic: Harmonic { order: 0, amplitude: GRAVITY, phase: 0.0 },
     };
-    let load = Load { support: vec![Harmonic { order: 1, amplitude, phase: 0.0 }], forces: vec![weight] };
+    let load =
+        Load { support: vec![Harmonic { order: 1, amplitude, phase: 0.0 }.into()], forces: vec![weight] };
     let (table, response) = (element_at(&model, "mass", law), response_of(&model, "mass"));
     Rig { system: System::new(model, &load, vec![table]).unwrap(), response }
 }
@@ -102,8 +103,8 @@ impl Sampler<'_> {
         let relative = read(&element.shape, q);
         let force = element.law.force(relative, 0.0).value;
         let omega = TAU * self.orbit.frequency_hz;
-        let u = self.rig.system.support_motion(1.0, 0.0)[0] * (TAU * phase).cos();
-        let inertia = &model.support.as_ref().unwrap().inertia;
+        let u = self.rig.system.support_motions(1.0, 0.0)[0][0] * (TAU * phase).cos();
+        let inertia = &model.supports[0].inertia;
         let rate = |i: usize| {
             let damping: f64 = (0..n).map(|j| model.damping[(i, j)] * v[j]).sum();
             let load = inertia[i] * omega * omega * u + element.shape[i] * force;
@@ -112,8 +113,8 @@ impl Sampler<'_> {
         let rates: Vec<f64> = (0..n).map(rate).collect();
         let response = &self.rig.response;
         Values {
-            displacement: read(&response.shape, q) + response.support_ratio * u,
-            acceleration: read(&response.shape, &rates) - response.support_ratio * omega * omega * u,
+            displacement: read(&response.shape, q) + response.support_ratios[0] * u,
+            acceleration: read(&response.shape, &rates) - response.support_ratios[0] * omega * omega * u,
             clearance: relative - level,
             speed: read(&element.shape, v),
             force: -force,

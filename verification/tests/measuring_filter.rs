@@ -59,7 +59,7 @@ fn filter_of_850_hz_lowers_the_largest_acceleration_seven_times_and_leaves_the_d
     let (dof, angular) = (rig.system.dof(), TAU * FREQUENCY);
     let of_shape = |q: &[f64]| rig.response.shape.iter().zip(q).map(|(phi, q)| phi * q).sum::<f64>();
     let motion = states.iter().zip(&phases).map(|(state, phase)| {
-        let support = rig.response.support_ratio * 0.5015e-3 * (TAU * phase).cos();
+        let support = rig.response.support_ratios[0] * 0.5015e-3 * (TAU * phase).cos();
         let rate = rig.system.rate(FREQUENCY, *phase, state);
         (support + of_shape(&state[..dof]), of_shape(&rate[dof..]) - angular * angular * support)
     });

@@ -14,6 +14,7 @@ mod linear;
 mod many_attractors;
 mod marginal;
 mod measuring_filter;
+mod moving_supports;
 mod mutations;
 mod plain_motion;
 mod relations;

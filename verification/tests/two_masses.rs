@@ -45,7 +45,7 @@ fn rig(stiffness: f64) -> Rig {
     let between = LocalElement {
         name: "between".into(),
         shape: first.shape.iter().zip(&second.shape).map(|(a, b)| a - b).collect(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: Law::Linear(LinearStop::with_gap(stiffness, GAP).unwrap()),
     };
     let load = Load { support: vec![], forces: vec![force_at(&model, "first", 1, FORCE)] };

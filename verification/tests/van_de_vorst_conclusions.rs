@@ -118,11 +118,11 @@ fn shaken_by(amplitude: f64) -> Rig {
     let stop = LocalElement {
         name: "stop".into(),
         shape: point.shape.iter().map(|phi| -phi).collect(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: hertz(4.5e9, 0.0),
     };
     let system = System::new(model, &shaken(amplitude), vec![stop]).unwrap();
-    Rig { system, response: Response { shape: point.shape, support_ratio: point.support_ratio } }
+    Rig { system, response: Response { shape: point.shape, support_ratios: point.support_ratios } }
 }
 
 /// With no gap only the exponent 3/2 of the contact makes the response anything but proportional to the

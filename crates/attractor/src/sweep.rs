@@ -18,13 +18,13 @@ use crate::{
 /// Draws of a state of a diagram until a motion can begin at it.
 const MOST_DRAWS: usize = 1000;
 
-/// What is read off a motion: `shape . q + support_ratio u`.
+/// What is read off a motion: `shape . q + support_ratios . u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observable {
     /// Weights of the modal displacements, length n.
     pub shape: Vec<f64>,
-    /// Part of the support displacement [-].
-    pub support_ratio: f64,
+    /// Part of the displacement of each support [-].
+    pub support_ratios: Vec<f64>,
 }
 
 /// How the motions of a sweep are computed.
@@ -79,7 +79,7 @@ impl Sweeper {
         observable: &Observable,
         settings: SweepSettings,
     ) -> Result<Self, AttractorError> {
-        let watched = (observable.shape.as_slice(), observable.support_ratio);
+        let watched = (observable.shape.as_slice(), observable.support_ratios.as_slice());
         let watching = ExactIntegrator::watching(system.clone(), settings.motion, Some(watched))?;
         let map = SystemMap::new(system.clone(), 1.0, 1, settings.motion)?;
         Ok(Self { map, watching, observable: observable.clone(), settings })
@@ -122,13 +122,14 @@ impl Sweeper {
         };
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
         let mut state = classified.states.last().cloned().unwrap_or_default();
-        let support = self.map.integrator().system().support_motion(frequency_hz, 0.0)[0];
+        let system = self.map.integrator().system();
+        let carried = system.carried(&self.observable.support_ratios, frequency_hz, 0.0)[0];
         let (mut samples, mut largest, mut touches) = (Vec::with_capacity(periods), 0.0_f64, 0);
         // Of a state within a contact the map knows how that began.
         self.watching.set_memory(self.map.integrator().memory());
         for _ in 0..periods {
             let elastic: f64 = self.observable.shape.iter().zip(&state).map(|(a, b)| a * b).sum();
-            samples.push(elastic + self.observable.support_ratio * support);
+            samples.push(elastic + carried);
             self.watching.begin_course();
             let next = self.watching.advance(&stretch, &state);
             self.watching.end_course();

@@ -41,7 +41,7 @@ fn pressed(phase: f64, weight: f64) -> System {
 /// The orbit with [`PLAIN`], and the phase of the load that puts the middle of its contact at phase 0.
 fn orbit() -> (PeriodicSolution, f64) {
     let system = oscillator(PLAIN);
-    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     let orbit = find_start(&system, &response, FREQUENCY_HZ, 1, &OrbitSettings::default()).unwrap();
     let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
     let stretch = Stretch { frequency_hz: FREQUENCY_HZ, start: 0.0, end: 1.0 };
@@ -75,7 +75,7 @@ fn exponents_are_those_of_the_multipliers_whatever_lies_over_the_sections() {
 #[test]
 fn a_sweep_goes_on_from_within_a_contact() {
     let (orbit, phase) = orbit();
-    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    let observable = Observable { shape: vec![1.0], support_ratios: vec![0.0] };
     let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };
     let mut sweeper = Sweeper::new(&oscillator(phase), &observable, settings).unwrap();
     let first = sweeper.at(FREQUENCY_HZ - 0.001, &[0.0, 0.0]).unwrap();
@@ -98,7 +98,7 @@ fn a_sweep_goes_on_from_within_a_contact() {
 fn a_contact_that_stays_closed_is_refused_by_name() {
     let system = pressed(0.0, 8.0);
     let never_opens = |error: AttractorError| matches!(error, AttractorError::NeverOpens { .. });
-    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    let observable = Observable { shape: vec![1.0], support_ratios: vec![0.0] };
     let motion = ExactSettings::default();
     let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion };
     let mut sweeper = Sweeper::new(&system, &observable, settings).unwrap();
@@ -138,7 +138,7 @@ fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
 #[test]
 fn a_diagram_begins_in_front_of_contacts() {
     let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };
-    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    let observable = Observable { shape: vec![1.0], support_ratios: vec![0.0] };
     for weight in [0.0, 8.0, 1e6] {
         let mut sweeper = Sweeper::new(&pressed(0.0, weight), &observable, settings).unwrap();
         let starts = sweeper.starts(FREQUENCY_HZ, 12).unwrap();

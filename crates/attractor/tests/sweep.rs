@@ -14,7 +14,8 @@ fn sweeper(system: &System, shape: &[f64], support_ratio: f64) -> Sweeper {
         sampled: 32,
         motion: ExactSettings::default(),
     };
-    Sweeper::new(system, &Observable { shape: shape.to_vec(), support_ratio }, settings).unwrap()
+    Sweeper::new(system, &Observable { shape: shape.to_vec(), support_ratios: vec![support_ratio] }, settings)
+        .unwrap()
 }
 
 fn duffing() -> System {
@@ -40,7 +41,7 @@ fn orbits(
     orbit: (f64, u32),
     range: (f64, f64),
 ) -> Vec<f64> {
-    let response = Response { shape: shape.to_vec(), support_ratio };
+    let response = Response { shape: shape.to_vec(), support_ratios: vec![support_ratio] };
     let settings = OrbitSettings::default();
     let found = find_orbits(system, &response, orbit, range, &settings, &mut || false).unwrap();
     found.orbits.iter().filter(|orbit| orbit.stable()).map(|orbit| orbit.maxima.displacement).collect()
@@ -82,7 +83,7 @@ fn sweeps_up_and_down_follow_the_two_branches_of_a_duffing_oscillator() {
 fn periodic_motions_of_the_beam_are_orbits() {
     let system = paper_beam();
     let point = system.model().points[0].clone();
-    let mut sweeper = sweeper(&system, &point.shape, point.support_ratio);
+    let mut sweeper = sweeper(&system, &point.shape, point.support_ratios[0]);
     for frequency_hz in [30.0, 60.0] {
         let mut periodic = 0;
         for start in sweeper.starts(frequency_hz, 3).unwrap() {
@@ -94,7 +95,7 @@ fn periodic_motions_of_the_beam_are_orbits() {
             let stable = orbits(
                 &system,
                 &point.shape,
-                point.support_ratio,
+                point.support_ratios[0],
                 orbit,
                 (frequency_hz - 1.0, frequency_hz + 1.0),
             );

@@ -258,14 +258,14 @@ fn everything() -> Page {
         name: name.to_owned(),
         at,
         shape: shape.to_vec(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
     };
     let stop = |place: u32, other: Option<u32>, levels: Vec<(f64, bool)>| PageStop {
         name: format!("stop {place}"),
         element: place,
         place,
         other,
-        rides: false,
+        rides: None,
         levels,
     };
     Page {
@@ -293,6 +293,8 @@ fn everything() -> Page {
                 .map(|(k, ends)| PageLink { ends, is_damper: k == 3 })
                 .collect(),
             eigenfrequencies_hz: vec![12.0, 25.0],
+            supports: vec!["ground".to_owned()],
+            ground: Some(0),
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 12e-3 }],
         chaotic_ranges_hz: vec![(14.0, 16.0), (28.0, 28.0)],

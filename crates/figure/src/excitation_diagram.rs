@@ -19,6 +19,10 @@ pub struct ExcitationDiagram {
     pub quantity: String,
     /// Frequency (Hz) and amplitude, in order.
     pub rows: Vec<(f64, f64)>,
+    /// Amplitudes of further supports at the same frequencies.
+    pub further: Vec<Vec<f64>>,
+    /// Names of these supports, the first one first; empty for one.
+    pub names: Vec<String>,
     /// Measured amplitudes: frequency (Hz) and amplitude.
     pub measured: Vec<(f64, f64)>,
 }
@@ -30,6 +34,7 @@ impl ExcitationDiagram {
     /// [`FigureError::Empty`] where no row is finite.
     pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
         let values = self.rows.iter().chain(&self.measured).map(|(_, value)| *value);
+        let values = values.chain(self.further.iter().flatten().copied());
         let largest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
         let dot = Dot { shape: Shape::Square, colour: INK, full: false, radius: 1.3 * style.mark_radius };
         let mut legend = Vec::new();
@@ -38,10 +43,16 @@ impl ExcitationDiagram {
             legend.push(Entry { sample: line, name: "computed with".to_owned() });
             legend.push(Entry { sample: dots, name: "measured".to_owned() });
         }
-        let layers = vec![
-            Layer::Line { points: self.rows.clone(), pattern: line_pattern(0) },
-            Layer::Dots { points: self.measured.clone(), dot },
-        ];
+        let named = self.names.iter().enumerate();
+        legend.extend(
+            named.map(|(k, name)| Entry { sample: Sample::Pattern(line_pattern(k)), name: name.clone() }),
+        );
+        let mut layers = vec![Layer::Line { points: self.rows.clone(), pattern: line_pattern(0) }];
+        for (k, values) in self.further.iter().enumerate() {
+            let points = self.rows.iter().zip(values).map(|((frequency, _), value)| (*frequency, *value));
+            layers.push(Layer::Line { points: points.collect(), pattern: line_pattern(k + 1) });
+        }
+        layers.push(Layer::Dots { points: self.measured.clone(), dot });
         let y = Measure::new(self.quantity.clone());
         let y = if largest > 0.0 { y.between((0.0, 1.06 * largest)) } else { y };
         let panels = vec![Panel { quantity: "amplitude", y, layers, heading: String::new() }];

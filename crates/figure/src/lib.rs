@@ -120,8 +120,8 @@ pub use response_diagram::{
 };
 pub use scale::ScaleChoice;
 pub use structure_diagram::{
-    SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped, SketchPoint, SketchStop,
-    StopKind, StructureDiagram,
+    SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped, SketchMotion, SketchPoint,
+    SketchStop, StopKind, StructureDiagram,
 };
 pub use style::Style;
 pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};

@@ -39,6 +39,8 @@ pub struct OrbitDiagram {
     pub element_names: Vec<String>,
     /// Eigenfrequencies of the structure without its local elements (Hz), marked in the spectrum.
     pub eigenfrequencies_hz: Vec<f64>,
+    /// Names of the supports that move, where there are several.
+    pub support_names: Vec<String>,
 }
 
 /// An acceleration behind a low-pass filter that has settled.
@@ -61,8 +63,8 @@ pub struct OrbitSample {
     pub acceleration_m_s2: f64,
     /// Forces of the local elements (N), with the same number of them in each sample.
     pub forces_n: Vec<f64>,
-    /// Displacement of the support (m), if it moves.
-    pub support_m: Option<f64>,
+    /// Displacements of the supports that move (m), with the same number of them in each sample.
+    pub supports_m: Vec<f64>,
 }
 
 impl OrbitDiagram {
@@ -113,13 +115,20 @@ impl OrbitDiagram {
             (0..elements).filter(|_| several).map(|k| entry(k, self.element_name(k))).collect();
         panels.extend(self.impulse_panel());
         legend.extend(self.impulse_entries());
-        if self.samples.iter().any(|sample| sample.support_m.is_some()) {
-            let points = self.over_time(|sample| sample.support_m.map_or(f64::NAN, |at| 1e3 * at));
+        let supports = self.samples.first().map_or(0, |sample| sample.supports_m.len());
+        if supports > 0 {
+            let motion = |k: usize| {
+                let value = |sample: &OrbitSample| sample.supports_m.get(k).map_or(f64::NAN, |at| 1e3 * at);
+                Layer::Line { points: self.over_time(value), pattern: line_pattern(1 + k) }
+            };
+            let layers: Vec<Layer> = (0..supports).map(motion).collect();
             // Over the displacement it shows how the contact is reached.
-            let layers = &mut panels[0].layers;
-            layers.push(Layer::Line { points: points.clone(), pattern: line_pattern(1) });
-            panels.push(plain("support motion", "Support (mm)", points, 1));
-            legend.splice(0..0, [entry(0, "response point".to_owned()), entry(1, "support".to_owned())]);
+            panels[0].layers.extend(layers.iter().cloned());
+            let (y, heading) = (Measure::new("Support (mm)"), String::new());
+            panels.push(Panel { quantity: "support motion", y, layers, heading });
+            let name = |k: usize| self.support_names.get(k).cloned().unwrap_or_else(|| "support".to_owned());
+            let named = (0..supports).map(|k| entry(1 + k, name(k)));
+            legend.splice(0..0, [entry(0, "response point".to_owned())].into_iter().chain(named));
         }
         let legend = vec![legend];
         let x = Measure::new("Time over excitation period (–)").between((0.0, self.periods()));

@@ -119,6 +119,10 @@ pub struct PageStructure {
     pub links: Vec<PageLink>,
     /// Eigenfrequencies without local elements (Hz).
     pub eigenfrequencies_hz: Vec<f64>,
+    /// Names of the supports that move.
+    pub supports: Vec<String>,
+    /// The support that moves the ground, if one does.
+    pub ground: Option<u32>,
 }
 
 /// A place of a structure.
@@ -130,8 +134,8 @@ pub struct PagePlace {
     pub at: f64,
     /// Displacement in each mode (kg^-1/2).
     pub shape: Vec<f64>,
-    /// Displacement per unit displacement of the support.
-    pub support_ratio: f64,
+    /// Displacement per unit displacement of each support that moves.
+    pub support_ratios: Vec<f64>,
 }
 
 /// A spring or a damper between masses.
@@ -154,8 +158,8 @@ pub struct PageStop {
     pub place: u32,
     /// The place that it sits on, if it is one.
     pub other: Option<u32>,
-    /// Whether it rides on the moving support.
-    pub rides: bool,
+    /// The moving support that it rides on, by its number from 0.
+    pub rides: Option<u32>,
     /// Where it is touched: displacements (m) of the place relative to what carries the stop, and whether the
     /// stop lies above.
     pub levels: Vec<(f64, bool)>,

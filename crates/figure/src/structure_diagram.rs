@@ -31,13 +31,22 @@ pub struct StructureDiagram {
     pub layout: SketchLayout,
     /// The stops.
     pub stops: Vec<SketchStop>,
-    /// Names of the points, ends or masses that follow the support motion; `ground` for the ground of lumped
+    /// Names of the points, ends or masses that follow a moving support; `ground` for the ground of lumped
     /// masses.
-    pub moving: Vec<String>,
+    pub moving: Vec<SketchMotion>,
     /// Names of the points at which a force acts.
     pub forces: Vec<String>,
     /// What stands below the sketch, a line or more each.
     pub words: Vec<String>,
+}
+
+/// A place that follows a moving support.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SketchMotion {
+    /// Name of the place.
+    pub place: String,
+    /// Number of the support, from 0.
+    pub support: usize,
 }
 
 /// Kind of a structure.
@@ -129,8 +138,8 @@ pub struct SketchStop {
 /// What carries a stop.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SketchCarrier {
-    /// The moving support.
-    Support,
+    /// A moving support, of this number from 0.
+    Support(usize),
     /// Something that stands still.
     Space,
     /// Another point or mass.
@@ -204,8 +213,23 @@ impl StructureDiagram {
         format!("sketch of {what} and {stops}; {}", self.words.join("; "))
     }
 
+    /// The support that a place follows.
+    fn support_of(&self, name: &str) -> Option<usize> {
+        self.moving.iter().find(|moving| moving.place == name).map(|moving| moving.support)
+    }
+
     fn moves(&self, name: &str) -> bool {
-        self.moving.iter().any(|moving| moving == name)
+        self.support_of(name).is_some()
+    }
+
+    /// Whether supports move in different ways.
+    fn supports_differ(&self) -> bool {
+        self.moving.iter().any(|moving| moving.support > 0)
+    }
+
+    /// The variable of the motion of a support: `u`, or `u1`, `u2` and so on where they differ.
+    fn motion_of(&self, support: usize) -> String {
+        if self.supports_differ() { format!("u{}", support + 1) } else { "u".to_owned() }
     }
 }
 

@@ -4,7 +4,8 @@
 
 use hammerbeam_figure::{
     DrawnMode, ExcitationDiagram, Figure, FigureError, ModeDiagram, SketchBeam, SketchCarrier, SketchEnd,
-    SketchLayout, SketchLink, SketchLumped, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
+    SketchLayout, SketchLink, SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind,
+    StructureDiagram, Style,
 };
 
 const ENDS: [SketchEnd; 4] = [SketchEnd::Clamped, SketchEnd::Pinned, SketchEnd::Sliding, SketchEnd::Free];
@@ -25,6 +26,10 @@ fn stop(point: &str, carrier: SketchCarrier, kind: StopKind, above: bool) -> Ske
     SketchStop { point: point.to_owned(), carrier, kind, above, has_gap: true }
 }
 
+fn following(place: &str, support: usize) -> SketchMotion {
+    SketchMotion { place: place.to_owned(), support }
+}
+
 /// A beam with a point for each stop.
 fn beam(left: SketchEnd, right: SketchEnd, moving: &[&str], stops: Vec<SketchStop>) -> StructureDiagram {
     let points = vec![point("middle", 0.13), point("tip", 0.24)];
@@ -32,7 +37,7 @@ fn beam(left: SketchEnd, right: SketchEnd, moving: &[&str], stops: Vec<SketchSto
         title: "A beam".to_owned(),
         layout: SketchLayout::Beam(SketchBeam { length_m: 0.26, left, right, points }),
         stops,
-        moving: moving.iter().map(|name| (*name).to_owned()).collect(),
+        moving: moving.iter().map(|name| following(name, 0)).collect(),
         forces: Vec::new(),
         words: vec!["tip: 0.04 kg.".to_owned()],
     }
@@ -58,7 +63,7 @@ fn masses(count: usize) -> StructureDiagram {
         title: String::new(),
         layout: SketchLayout::Lumped(SketchLumped { masses: (0..count).map(name).collect(), links }),
         stops,
-        moving: vec!["ground".to_owned()],
+        moving: vec![following("ground", 0)],
         forces: vec!["m0".to_owned()],
         words: Vec::new(),
     }
@@ -119,7 +124,7 @@ fn every_end_and_every_kind_of_stop_has_a_symbol_on_the_page() {
         }
     }
     for kind in KINDS {
-        for (carrier, moving) in [(SketchCarrier::Space, &[][..]), (SketchCarrier::Support, &["left"])] {
+        for (carrier, moving) in [(SketchCarrier::Space, &[][..]), (SketchCarrier::Support(0), &["left"])] {
             for above in [false, true] {
                 let stops = vec![stop("tip", carrier.clone(), kind, above)];
                 let figure = beam(SketchEnd::Clamped, SketchEnd::Free, moving, stops).draw(&style).unwrap();
@@ -136,12 +141,12 @@ fn a_stop_above_and_one_below_are_different_pictures_and_so_are_their_carriers()
         let stops = vec![SketchStop { has_gap, ..stop("tip", carrier, StopKind::Rigid, above) }];
         beam(SketchEnd::Clamped, SketchEnd::Free, &["left"], stops).draw(&style).unwrap().svg()
     };
-    let below = svg(SketchCarrier::Support, false, true);
-    assert_ne!(below, svg(SketchCarrier::Support, true, true));
+    let below = svg(SketchCarrier::Support(0), false, true);
+    assert_ne!(below, svg(SketchCarrier::Support(0), true, true));
     assert_ne!(below, svg(SketchCarrier::Space, false, true));
-    assert_ne!(below, svg(SketchCarrier::Support, false, false));
+    assert_ne!(below, svg(SketchCarrier::Support(0), false, false));
     assert_ne!(below, svg(SketchCarrier::Point("middle".to_owned()), false, true));
-    assert_eq!(below, svg(SketchCarrier::Support, false, true), "drawn twice it is the same");
+    assert_eq!(below, svg(SketchCarrier::Support(0), false, true), "drawn twice it is the same");
 }
 
 #[test]

@@ -18,6 +18,6 @@ pub trait Family: std::fmt::Debug + Send + Sync {
 pub struct Member {
     /// The system.
     pub system: System,
-    /// The response point in its coordinates: shape, length n, and support ratio.
-    pub response: (Vec<f64>, f64),
+    /// The response point in its coordinates: shape, length n, and support ratios.
+    pub response: (Vec<f64>, Vec<f64>),
 }

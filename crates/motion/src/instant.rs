@@ -1,8 +1,8 @@
 //! A system at one instant: the rate of its state, and the relative motion of an element.
 //!
-//! At the phase `x` (in cycles), with `u = Re sum_m U_m exp(i 2 pi m x)` and the circular frequency `W`: `r =
-//! phi . q + s u`, `r' = phi . q' + s u'`, `r'' = phi . q'' + s u''`, where `q''` is that of the equations of
-//! motion.
+//! At the phase `x` (in cycles), with `u_s = Re sum_m U_sm exp(i 2 pi m x)` and the circular frequency `W`:
+//! `r = phi . q + s . u`, `r' = phi . q' + s . u'`, `r'' = phi . q'' + s . u''`, where `q''` is that of the
+//! equations of motion.
 
 use std::f64::consts::TAU;
 
@@ -11,44 +11,56 @@ use faer::c64;
 use crate::System;
 
 impl System {
-    /// Support displacement and its first two derivatives by time at a phase.
+    /// Displacement of each support and its first two derivatives by time at a phase.
     ///
     /// * `phase`: [cycles].
     ///
     /// # Returns
-    /// `[u, u', u'']` [m, m/s, m/s^2].
+    /// `[u, u', u'']` [m, m/s, m/s^2], for each support that moves.
     #[must_use]
-    pub fn support_motion(&self, frequency_hz: f64, phase: f64) -> [f64; 3] {
-        let mut motion = [0.0; 3];
+    pub fn support_motions(&self, frequency_hz: f64, phase: f64) -> Vec<[f64; 3]> {
+        let mut motions = vec![[0.0; 3]; self.model().supports.len()];
         for (index, &order) in self.orders().iter().enumerate() {
-            let value = self.support_amplitude(index, TAU * frequency_hz).0 * rotation(order, phase);
-            let rate = TAU * f64::from(order) * frequency_hz;
-            motion[0] += value.re;
-            motion[1] -= rate * value.im;
-            motion[2] -= rate * rate * value.re;
+            let moved = self.support_amplitudes(index, TAU * frequency_hz);
+            for (motion, (amplitude, _)) in motions.iter_mut().zip(moved) {
+                let value = amplitude * rotation(order, phase);
+                let rate = TAU * f64::from(order) * frequency_hz;
+                motion[0] += value.re;
+                motion[1] -= rate * value.im;
+                motion[2] -= rate * rate * value.re;
+            }
         }
-        motion
+        motions
     }
 
-    /// Derivatives of the support displacement and of its first two derivatives by time, by the frequency at
-    /// a fixed phase.
-    ///
-    /// # Returns
-    /// `[u, u', u'']` by `f` [m/Hz, m/s/Hz, m/s^2/Hz].
+    /// What the supports add to a displacement `shape . q + support_ratios . u`, and to its first two
+    /// derivatives by time, at a phase [cycles].
     #[must_use]
-    pub fn support_motion_by_frequency(&self, frequency_hz: f64, phase: f64) -> [f64; 3] {
-        let mut change = [0.0; 3];
+    pub fn carried(&self, support_ratios: &[f64], frequency_hz: f64, phase: f64) -> [f64; 3] {
+        share_of(support_ratios, || self.support_motions(frequency_hz, phase))
+    }
+
+    /// Derivatives of [`System::carried`] by the frequency at a fixed phase [m/Hz, m/s/Hz, m/s^2/Hz].
+    #[must_use]
+    pub fn carried_by_frequency(&self, support_ratios: &[f64], frequency_hz: f64, phase: f64) -> [f64; 3] {
+        share_of(support_ratios, || self.support_motions_by_frequency(frequency_hz, phase))
+    }
+
+    fn support_motions_by_frequency(&self, frequency_hz: f64, phase: f64) -> Vec<[f64; 3]> {
+        let mut changes = vec![[0.0; 3]; self.model().supports.len()];
         for (index, &order) in self.orders().iter().enumerate() {
             let turned = rotation(order, phase);
-            let (amplitude, by_circular) = self.support_amplitude(index, TAU * frequency_hz);
-            let (value, slope) = (amplitude * turned, by_circular * TAU * turned);
-            let per_hertz = TAU * f64::from(order);
-            let rate = per_hertz * frequency_hz;
-            change[0] += slope.re;
-            change[1] -= per_hertz * value.im + rate * slope.im;
-            change[2] -= 2.0 * per_hertz * rate * value.re + rate * rate * slope.re;
+            let moved = self.support_amplitudes(index, TAU * frequency_hz);
+            for (change, (amplitude, by_circular)) in changes.iter_mut().zip(moved) {
+                let (value, slope) = (amplitude * turned, by_circular * TAU * turned);
+                let per_hertz = TAU * f64::from(order);
+                let rate = per_hertz * frequency_hz;
+                change[0] += slope.re;
+                change[1] -= per_hertz * value.im + rate * slope.im;
+                change[2] -= 2.0 * per_hertz * rate * value.re + rate * rate * slope.re;
+            }
         }
-        change
+        changes
     }
 
     /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is
@@ -68,10 +80,9 @@ impl System {
             let (load, turned) = (self.modal_load(index, TAU * frequency_hz), rotation(order, phase));
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * turned).re);
         }
-        let u = self.support_motion(frequency_hz, phase);
         for element in self.elements() {
-            let [r, speed] =
-                [(q, u[0]), (v, u[1])].map(|(z, u)| dot(&element.shape, z) + element.support_ratio * u);
+            let u = self.carried(&element.support_ratios, frequency_hz, phase);
+            let [r, speed] = [(q, u[0]), (v, u[1])].map(|(z, u)| dot(&element.shape, z) + u);
             let force = element.law.force(r, speed).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
@@ -87,10 +98,10 @@ impl System {
     #[must_use]
     pub fn relative_motion(&self, element: usize, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
         let n = self.dof();
-        let (u, rate) = (self.support_motion(frequency_hz, phase), self.rate(frequency_hz, phase, state));
-        let element = &self.elements()[element];
+        let (element, rate) = (&self.elements()[element], self.rate(frequency_hz, phase, state));
+        let u = self.carried(&element.support_ratios, frequency_hz, phase);
         let parts = [&state[..n], &state[n..], &rate[n..]];
-        std::array::from_fn(|k| dot(&element.shape, parts[k]) + element.support_ratio * u[k])
+        std::array::from_fn(|k| dot(&element.shape, parts[k]) + u[k])
     }
 
     /// How deeply a state lies behind the level of an element's contact, `sign (r - level)` [m]: of the
@@ -132,6 +143,18 @@ impl System {
     pub fn is_in_remembered_contact(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> bool {
         self.remembered_contacts(frequency_hz, phase, state).next().is_some()
     }
+}
+
+/// `sum_s ratio_s u_s` of motions that are asked for only where a support takes part.
+fn share_of(support_ratios: &[f64], motions: impl Fn() -> Vec<[f64; 3]>) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    if support_ratios.iter().all(|ratio| *ratio == 0.0) {
+        return sum;
+    }
+    for (ratio, motion) in support_ratios.iter().zip(motions()) {
+        sum.iter_mut().zip(motion).for_each(|(sum, value)| *sum += ratio * value);
+    }
+    sum
 }
 
 fn rotation(order: u32, phase: f64) -> c64 {

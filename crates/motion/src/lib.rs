@@ -78,7 +78,7 @@
 //! let floor = LocalElement {
 //!     name: "floor".into(),
 //!     shape: shape.iter().map(|phi| -phi).collect(),
-//!     support_ratio: 0.0,
+//!     support_ratios: vec![0.0],
 //!     law: Law::Linear(LinearStop::with_gap(1e6, 1.0)?),
 //! };
 //! let system = System::new(model, &Load { support: vec![], forces: vec![weight] }, vec![floor])?;
@@ -114,7 +114,7 @@ mod system;
 pub use amplitude::{AmplitudeCurve, AmplitudeError};
 pub use family::{Family, Member};
 pub use law::{Contact, Force, Law, LawError};
-pub use load::{Harmonic, HarmonicForce, Load};
+pub use load::{Harmonic, HarmonicForce, Load, SupportHarmonic};
 pub use parameter::{DampingPart, Parameter, ParameterError};
 pub use point_motion::PointMotion;
 pub use stretch::{Flow, Stretch};

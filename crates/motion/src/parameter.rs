@@ -70,9 +70,9 @@ impl Parameter {
 pub struct DampingPart {
     /// `D` [1/s per unit], n x n, symmetric.
     pub matrix: Mat<f64>,
-    /// `d` [kg^1/2/s per unit], length n: how it transmits the velocity of the support; see
-    /// [`SupportInput`](hammerbeam_structure::SupportInput).
-    pub support: Vec<f64>,
+    /// `d_s` [kg^1/2/s per unit] of each support that moves, length n: how it transmits the velocity of that
+    /// support; see [`SupportInput`](hammerbeam_structure::SupportInput).
+    pub supports: Vec<Vec<f64>>,
 }
 
 /// Why a parameter cannot have a value.
@@ -104,6 +104,9 @@ pub enum ParameterError {
     /// A part of the damping over another number of modes.
     #[error("a part of the damping has {found} modes, the system has {expected}")]
     DampingPartSize { found: usize, expected: usize },
+    /// A part of the damping over another number of supports.
+    #[error("a part of the damping has {found} moving supports, the system has {expected}")]
+    DampingPartSupports { found: usize, expected: usize },
     /// The law refuses the value.
     #[error("{name}: {source}")]
     Law { name: String, source: LawError },

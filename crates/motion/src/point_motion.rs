@@ -1,9 +1,10 @@
 //! Displacement, velocity and acceleration of a point, read off states of one excitation frequency.
 //!
-//! With the shape `p` of the point (its displacement is `y = p . q + s u`), eigenfrequencies `w_i`, damping
-//! `D`, loads `b_m`, and the forces `F_e` of the local elements with shapes `h_e`:
+//! With the shape `p` of the point (its displacement is `y = p . q + s . u` with the displacements u of the
+//! supports), eigenfrequencies `w_i`, damping `D`, loads `b_m`, and the forces `F_e` of the local elements
+//! with shapes `h_e`:
 //!
-//! `y'' = - sum p_i w_i^2 q_i - p . D q' + Re sum_m (p . b_m + s U_m'') exp(i 2 pi m x) + sum_e (p . h_e)
+//! `y'' = - sum p_i w_i^2 q_i - p . D q' + Re sum_m (p . b_m + s . U_m'') exp(i 2 pi m x) + sum_e (p . h_e)
 //! F_e`
 //!
 //! The forces are those that a motion tells: a state alone knows neither what a rigid stop presses with nor
@@ -37,17 +38,18 @@ struct Drive {
 impl System {
     /// Reads the motion of a point off states at a frequency.
     ///
-    /// * `shape`, `support_ratio`: the displacement of the point is `shape . q + support_ratio u`; `shape` of
-    ///   length n.
+    /// * `shape`, `support_ratios`: the displacement of the point is `shape . q + support_ratios . u`;
+    ///   `shape` of length n.
     #[must_use]
-    pub fn point_motion(&self, frequency_hz: f64, shape: &[f64], support_ratio: f64) -> PointMotion {
+    pub fn point_motion(&self, frequency_hz: f64, shape: &[f64], support_ratios: &[f64]) -> PointMotion {
         let (n, model) = (self.dof(), self.model());
         let stiffness =
             shape.iter().zip(&model.natural_frequencies).map(|(p, w)| -p * w * w).collect::<Vec<f64>>();
         let damping = (0..n).map(|j| -(0..n).map(|i| shape[i] * model.damping[(i, j)]).sum::<f64>());
         let drive = |(index, &order): (usize, &u32)| {
             let order = f64::from(order);
-            let support = self.support_amplitude(index, TAU * frequency_hz).0 * support_ratio;
+            let moved = self.support_amplitudes(index, TAU * frequency_hz);
+            let support: c64 = moved.iter().zip(support_ratios).map(|((u, _), ratio)| *u * *ratio).sum();
             let rate = c64::new(0.0, TAU * order * frequency_hz);
             let load = self.modal_load(index, TAU * frequency_hz).amplitude;
             let loaded: c64 = load.iter().zip(shape).map(|(load, p)| load * *p).sum();

@@ -1,9 +1,9 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
 //!
 //! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e .
-//! q + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency
-//! (`amplitude.rs`): then so do `u` and `b_m`, besides the powers of `W` in `b_m`, and derivatives by the
-//! frequency hold the slope of that curve.
+//! q + sum_s s_es u_s`, with the circular excitation frequency `W = 2 pi f` and the displacements `u_s` of
+//! the supports. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u_s` and `b_m`, besides the
+//! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
 
 mod symmetry;
 mod varied;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
-use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, parameter::Kin};
+use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, SupportHarmonic, parameter::Kin};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,6 +26,10 @@ pub enum SystemError {
     /// Support motion is prescribed, but the model has no moving support.
     #[error("support motion is prescribed, but no support of the structure can move")]
     NoMovingSupport,
+    /// A motion, or an element, is of a support that the model does not have.
+    #[error("{what} is of support {number}, the model has {count} that move")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    NoSuchSupport { what: String, number: usize, count: usize },
     /// A number of the model, the load or an element is infinite or not a number.
     #[error("{what} holds {found}, must be finite")]
     #[expect(missing_docs, reason = "the message names its fields")]
@@ -42,8 +46,9 @@ pub struct LocalElement {
     pub name: String,
     /// `phi_e`: relative displacement per modal coordinate, and modal load per unit force, length n.
     pub shape: Vec<f64>,
-    /// `s_e`: relative displacement per unit support displacement: 0 for a stop that rides on the support.
-    pub support_ratio: f64,
+    /// `s_es`: relative displacement per unit displacement of each support: 0 for a stop on a structure that
+    /// follows its one support rigidly and carries the stop; those that are left out are 0.
+    pub support_ratios: Vec<f64>,
     /// The force law.
     pub law: Law,
 }
@@ -54,10 +59,11 @@ pub struct System {
     model: ReducedModel,
     elements: Vec<LocalElement>,
     orders: Vec<u32>,
-    support: Vec<c64>,
+    /// Amplitudes of the supports for each order.
+    supports: Vec<Vec<c64>>,
     forces: Vec<Vec<c64>>,
-    /// The load as given: support and forces at the scale one.
-    unscaled: (Vec<c64>, Vec<Vec<c64>>),
+    /// The load as given: supports and forces at the scale one.
+    unscaled: (Vec<Vec<c64>>, Vec<Vec<c64>>),
     /// Harmonics whose amplitude depends on the frequency.
     driven: Option<Driven>,
     excitation_scale: f64,
@@ -72,11 +78,11 @@ pub struct System {
     families: Vec<Kin>,
 }
 
-/// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the
+/// Harmonics that a curve of the frequency is a factor of: support motions and forces, by the orders of the
 /// system.
 #[derive(Debug, Clone)]
 struct Driven {
-    support: Vec<c64>,
+    supports: Vec<Vec<c64>>,
     forces: Vec<Vec<c64>>,
     curve: AmplitudeCurve,
 }
@@ -95,31 +101,32 @@ impl System {
     ///
     /// # Errors
     /// See [`SystemError`].
-    pub fn new(model: ReducedModel, load: &Load, elements: Vec<LocalElement>) -> Result<Self, SystemError> {
+    pub fn new(
+        model: ReducedModel,
+        load: &Load,
+        mut elements: Vec<LocalElement>,
+    ) -> Result<Self, SystemError> {
         check(&model, load, &elements)?;
-        let mut orders: Vec<u32> = load
-            .support
-            .iter()
-            .chain(load.forces.iter().map(|force| &force.harmonic))
-            .map(|h| h.order)
-            .collect();
+        elements.iter_mut().for_each(|element| element.support_ratios.resize(model.supports.len(), 0.0));
+        let mut orders: Vec<u32> = load.harmonics().map(|harmonic| harmonic.order).collect();
         orders.sort_unstable();
         orders.dedup();
-        let (support, forces) = by_orders(&orders, load, model.dof());
-        let unscaled = (support.clone(), forces.clone());
+        let (supports, forces) = by_orders(&orders, load, &model);
+        let unscaled = (supports.clone(), forces.clone());
         let ratio = Mat::from_fn(model.dof(), model.dof(), |i, j| {
             if i == j { 2.0 * model.natural_frequencies[i] } else { 0.0 }
         });
-        let given = model.support.as_ref().map_or(vec![0.0; model.dof()], |support| support.damping.clone());
-        let given_damping = DampingPart { matrix: model.damping.clone(), support: given };
-        let damping_parts = vec![DampingPart { matrix: ratio, support: vec![0.0; model.dof()] }];
+        let given = model.supports.iter().map(|support| support.damping.clone()).collect();
+        let given_damping = DampingPart { matrix: model.damping.clone(), supports: given };
+        let untouched = vec![vec![0.0; model.dof()]; model.supports.len()];
+        let damping_parts = vec![DampingPart { matrix: ratio, supports: untouched }];
         Ok(Self {
             given_laws: elements.iter().map(|element| element.law).collect(),
             families: Vec::new(),
             model,
             elements,
             orders,
-            support,
+            supports,
             forces,
             unscaled,
             driven: None,
@@ -144,30 +151,25 @@ impl System {
         curve: AmplitudeCurve,
     ) -> Result<Self, SystemError> {
         check(&self.model, load, &[])?;
-        let harmonics = || load.support.iter().chain(load.forces.iter().map(|force| &force.harmonic));
-        if harmonics().any(|harmonic| harmonic.order == 0) {
+        if load.harmonics().any(|harmonic| harmonic.order == 0) {
             return Err(SystemError::ConstantOverFrequency);
         }
         let mut orders = self.orders.clone();
-        orders.extend(harmonics().map(|harmonic| harmonic.order));
+        orders.extend(load.harmonics().map(|harmonic| harmonic.order));
         orders.sort_unstable();
         orders.dedup();
-        let (zero, n) = (c64::new(0.0, 0.0), self.dof());
+        let zero = c64::new(0.0, 0.0);
         let before = |order: &u32| self.orders.iter().position(|other| other == order);
-        let moved = |support: &[c64]| -> Vec<c64> {
-            orders.iter().map(|order| before(order).map_or(zero, |index| support[index])).collect()
+        let again = |given: &[Vec<c64>], length: usize| -> Vec<Vec<c64>> {
+            let of_order = |order| before(order).map_or_else(|| vec![zero; length], |i| given[i].clone());
+            orders.iter().map(of_order).collect()
         };
-        let pushed = |forces: &[Vec<c64>]| -> Vec<Vec<c64>> {
-            orders
-                .iter()
-                .map(|order| before(order).map_or_else(|| vec![zero; n], |index| forces[index].clone()))
-                .collect()
-        };
-        let (support, forces) = (moved(&self.support), pushed(&self.forces));
-        let unscaled = (moved(&self.unscaled.0), pushed(&self.unscaled.1));
-        let driven = by_orders(&orders, load, n);
-        self.driven = Some(Driven { support: driven.0, forces: driven.1, curve });
-        (self.orders, self.support, self.forces, self.unscaled) = (orders, support, forces, unscaled);
+        let (moving, n) = (self.model.supports.len(), self.dof());
+        let (supports, forces) = (again(&self.supports, moving), again(&self.forces, n));
+        let unscaled = (again(&self.unscaled.0, moving), again(&self.unscaled.1, n));
+        let driven = by_orders(&orders, load, &self.model);
+        self.driven = Some(Driven { supports: driven.0, forces: driven.1, curve });
+        (self.orders, self.supports, self.forces, self.unscaled) = (orders, supports, forces, unscaled);
         Ok(self)
     }
 
@@ -208,16 +210,16 @@ impl System {
         &self.orders
     }
 
-    /// Complex amplitude of the support displacement [m] of the order with that index in [`System::orders`]
-    /// at the circular frequency `W` [rad/s], and its derivative by `W`.
+    /// Complex amplitude of each support's displacement [m] of the order with that index in
+    /// [`System::orders`] at the circular frequency `W` [rad/s], and its derivative by `W`.
     #[must_use]
-    pub fn support_amplitude(&self, order_index: usize, circular_frequency: f64) -> (c64, c64) {
-        let given = self.support[order_index];
+    pub fn support_amplitudes(&self, order_index: usize, circular_frequency: f64) -> Vec<(c64, c64)> {
+        let given = &self.supports[order_index];
         match self.driven_at(circular_frequency) {
-            None => (given, c64::new(0.0, 0.0)),
+            None => given.iter().map(|given| (*given, c64::new(0.0, 0.0))).collect(),
             Some((driven, factor, slope)) => {
-                let support = driven.support[order_index];
-                (given + support * factor, support * slope)
+                let amplitude = |(given, driven): (&c64, &c64)| (given + driven * factor, driven * slope);
+                given.iter().zip(&driven.supports[order_index]).map(amplitude).collect()
             }
         }
     }
@@ -232,7 +234,7 @@ impl System {
 
     /// Modal load of the order with that index in [`System::orders`], at the circular frequency `W` [rad/s].
     ///
-    /// `b_m = (m W)^2 U_m g - i m W U_m d + F_m`.
+    /// `b_m = sum_s ((m W)^2 g_s - i m W d_s) U_sm + F_m`.
     #[must_use]
     pub fn modal_load(&self, order_index: usize, circular_frequency: f64) -> ModalLoad {
         let mut amplitude = self.forces[order_index].clone();
@@ -243,9 +245,9 @@ impl System {
                 by_frequency[mode] += force * slope;
             }
         }
-        if let Some(support) = &self.model.support {
+        let moved = self.support_amplitudes(order_index, circular_frequency);
+        for (support, (u, u_w)) in self.model.supports.iter().zip(moved) {
             let order = f64::from(self.orders[order_index]);
-            let (u, u_w) = self.support_amplitude(order_index, circular_frequency);
             let i = c64::new(0.0, 1.0);
             for mode in 0..self.dof() {
                 let (inertia, damping) = (support.inertia[mode], support.damping[mode]);
@@ -260,18 +262,23 @@ impl System {
     }
 }
 
-/// Support motion and forces of a load for each order.
-fn by_orders(orders: &[u32], load: &Load, n: usize) -> (Vec<c64>, Vec<Vec<c64>>) {
+/// Support motions and forces of a load for each order.
+fn by_orders(orders: &[u32], load: &Load, model: &ReducedModel) -> (Vec<Vec<c64>>, Vec<Vec<c64>>) {
+    let n = model.dof();
     let of_order = |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
-    let support = orders
+    let motion_of = |order: u32, support: usize| {
+        let own = load.support.iter().filter(|motion| motion.support == support);
+        own.map(|motion| of_order(order, &motion.harmonic)).sum()
+    };
+    let supports = orders
         .iter()
-        .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
+        .map(|&order| (0..model.supports.len()).map(|support| motion_of(order, support)).collect())
         .collect();
     let force_of = |order: u32, mode: usize| {
         load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
     };
     let forces = orders.iter().map(|&order| (0..n).map(|i| force_of(order, i)).collect()).collect();
-    (support, forces)
+    (supports, forces)
 }
 
 fn complex(harmonic: &Harmonic) -> c64 {
@@ -282,8 +289,13 @@ fn complex(harmonic: &Harmonic) -> c64 {
 }
 
 fn check(model: &ReducedModel, load: &Load, elements: &[LocalElement]) -> Result<(), SystemError> {
-    if !load.support.is_empty() && model.support.is_none() {
+    let count = model.supports.len();
+    if !load.support.is_empty() && count == 0 {
         return Err(SystemError::NoMovingSupport);
+    }
+    if let Some(motion) = load.support.iter().find(|motion| motion.support >= count) {
+        let what = "a support motion".to_owned();
+        return Err(SystemError::NoSuchSupport { what, number: motion.support + 1, count });
     }
     let shape = |what: String, values: &[f64]| {
         if values.len() != model.dof() {
@@ -296,12 +308,17 @@ fn check(model: &ReducedModel, load: &Load, elements: &[LocalElement]) -> Result
         shape("a load".into(), &force.shape)?;
         finite("a load".into(), &[force.harmonic.amplitude, force.harmonic.phase])?;
     }
-    for harmonic in &load.support {
+    for SupportHarmonic { harmonic, .. } in &load.support {
         finite("the support motion".into(), &[harmonic.amplitude, harmonic.phase])?;
     }
     for element in elements {
         shape(format!("element {}", element.name), &element.shape)?;
-        finite(format!("element {}", element.name), &[element.support_ratio])?;
+        finite(format!("element {}", element.name), &element.support_ratios)?;
+        let beyond = element.support_ratios.iter().skip(count);
+        if let Some((index, _)) = beyond.enumerate().find(|(_, ratio)| **ratio != 0.0) {
+            let what = format!("a part of the motion of element {}", element.name);
+            return Err(SystemError::NoSuchSupport { what, number: count + index + 1, count });
+        }
     }
     Ok(())
 }

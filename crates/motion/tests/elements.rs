@@ -21,7 +21,7 @@ const MIDDLE: [f64; 4] = [0.7, 1.1, -0.4, -1.2];
 /// Four modes, lightly damped unless said otherwise, on a support that can move.
 fn structure(damping: Mat<f64>) -> ReducedModel {
     let support = SupportInput { inertia: vec![0.4, 0.2, -0.1, 0.05], damping: vec![0.3, -0.2, 0.4, 0.1] };
-    ReducedModel { support: Some(support), ..model(&FREQUENCIES, damping) }
+    ReducedModel { supports: vec![support], ..model(&FREQUENCIES, damping) }
 }
 
 fn light() -> Mat<f64> {
@@ -37,8 +37,8 @@ fn coupled() -> Mat<f64> {
 fn rich_load() -> Load {
     Load {
         support: vec![
-            Harmonic { order: 1, amplitude: 1.2e-3, phase: 0.4 },
-            Harmonic { order: 3, amplitude: 1e-4, phase: -1.0 },
+            Harmonic { order: 1, amplitude: 1.2e-3, phase: 0.4 }.into(),
+            Harmonic { order: 3, amplitude: 1e-4, phase: -1.0 }.into(),
         ],
         forces: vec![
             force(&[0.5, 0.3, 0.2, 0.1], 0, -1.5, 0.0),

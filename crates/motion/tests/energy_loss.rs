@@ -230,10 +230,10 @@ fn observations_agree() {
         let state = settled(&system, 36.0, 80, 0.0);
         let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
         let settings = ExactSettings { tolerance: 1e-13 };
-        let mut exact = ExactIntegrator::watching(system.clone(), settings, Some((shape, 1.0))).unwrap();
+        let mut exact = ExactIntegrator::watching(system.clone(), settings, Some((shape, &[1.0]))).unwrap();
         let found = exact.observe(&[(stretch, &state)]).unwrap();
         let expected =
-            observe(&system, &stretch, &state, (shape, 1.0), &GeneralSettings::with_tolerance(1e-12))
+            observe(&system, &stretch, &state, (shape, &[1.0]), &GeneralSettings::with_tolerance(1e-12))
                 .unwrap();
         for (what, found, expected) in [
             ("displacement", found.displacement, expected.displacement),

@@ -16,7 +16,7 @@ const STRETCH: Stretch = Stretch { frequency_hz: 4.0, start: 0.1, end: 1.85 };
 const STATE: [f64; 4] = [-2e-3, 1e-3, 0.15, 0.02];
 
 fn element(shape: &[f64], support_ratio: f64, law: Law) -> LocalElement {
-    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratio, law }
+    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratios: vec![support_ratio], law }
 }
 
 /// Two modes of 3.5 and 19 Hz on a shaken support, under gravity, with one local element.
@@ -24,8 +24,8 @@ fn two_modes(support_ratio: f64, law: Law) -> System {
     let damping = faer::Mat::from_fn(2, 2, |i, j| [[0.8, 0.3], [0.3, 2.5]][i][j]);
     let model = supported(model(&[TAU * 3.5, TAU * 19.0], damping), &[0.9, -0.4], &[0.7, 0.2]);
     let support = vec![
-        Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 },
-        Harmonic { order: 2, amplitude: 2e-4, phase: -1.0 },
+        Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }.into(),
+        Harmonic { order: 2, amplitude: 2e-4, phase: -1.0 }.into(),
     ];
     let forces = vec![harmonic_force(&[0.2, 0.1], 0, -1.0, 0.0), harmonic_force(&[0.3, -0.5], 3, 0.5, 2.0)];
     System::new(model, &Load { support, forces }, vec![element(&[1.4, -1.1], support_ratio, law)]).unwrap()

@@ -41,8 +41,8 @@ impl ODE<f64, [f64; 4]> for ByHand {
 
 fn system(law: Law) -> System {
     let model = supported(model(&WAVES, diagonal(&DAMPING)), &INERTIA, &[0.0, 0.0]);
-    let support = vec![Harmonic { order: 1, amplitude: AMPLITUDE, phase: 0.0 }];
-    let element = LocalElement { name: "stop".into(), shape: SHAPE.to_vec(), support_ratio: 0.0, law };
+    let support = vec![Harmonic { order: 1, amplitude: AMPLITUDE, phase: 0.0 }.into()];
+    let element = LocalElement { name: "stop".into(), shape: SHAPE.to_vec(), support_ratios: vec![0.0], law };
     let load = Load { support, forces: vec![harmonic_force(&FORCE, 2, 1.0, 0.5)] };
     System::new(model, &load, vec![element]).expect("lengths agree")
 }

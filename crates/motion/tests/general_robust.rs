@@ -67,7 +67,7 @@ fn a_touch_may_lie_a_rounding_before_the_end() {
 fn a_mass_at_rest_is_hit_by_a_wall() {
     for law in [hertz(1e6, 1e-3), linear(1e4, 1e-3)] {
         let rigid = supported(model(&[0.0], diagonal(&[0.0])), &[0.0], &[0.0]);
-        let support = vec![Harmonic { order: 1, amplitude: 3e-3, phase: 1.5 }];
+        let support = vec![Harmonic { order: 1, amplitude: 3e-3, phase: 1.5 }.into()];
         let load = Load { support, ..Load::default() };
         let system = System::new(rigid, &load, vec![element(&[1.0], -1.0, law)]).unwrap();
         let stretch = Stretch { frequency_hz: 2.0, start: 0.0, end: 1.0 };
@@ -162,7 +162,7 @@ fn any_system(case: usize, next: &mut impl FnMut() -> f64) -> System {
         })
         .collect();
     let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 2e-3, phase: next() }],
+        support: vec![Harmonic { order: 1, amplitude: 2e-3, phase: next() }.into()],
         forces: vec![harmonic_force(&push, 1, 2.0, 0.0), harmonic_force(&weight, 0, 0.3, 0.0)],
     };
     System::new(supported(model(&frequencies, damping), &inertia, &vec![0.0; n]), &load, elements).unwrap()

@@ -103,11 +103,11 @@ fn pressed(restitution: f64, support_ratio: f64, coupled: bool, further: LocalEl
         diagonal(&[0.8, 1.5, 3.0])
     };
     let mut model = model(&[20.0, 55.0, 130.0], damping);
-    model.support = Some(hammerbeam_structure::SupportInput {
+    model.supports = vec![hammerbeam_structure::SupportInput {
         inertia: vec![0.5, 0.3, -0.1],
         damping: vec![0.02, 0.01, 0.03],
-    });
-    let support = vec![Harmonic { order: 1, amplitude: 2e-3, phase: 0.4 }];
+    }];
+    let support = vec![Harmonic { order: 1, amplitude: 2e-3, phase: 0.4 }.into()];
     let other = [0.3, -1.0, 0.8];
     let forces = vec![
         force(&shape, 0, 2.0, 0.0),
@@ -198,7 +198,7 @@ fn two_stops(restitution: f64, second: [f64; 3], coupled: bool, further: LocalEl
     let system = pressed(restitution, 1.0, coupled, further);
     let second_stop =
         LocalElement { name: "second".into(), ..element(&second, 0.0, rigid(restitution, 5e-4)) };
-    let support = vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.4 }];
+    let support = vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.4 }.into()];
     let first = system.elements()[0].shape.clone();
     let forces = vec![
         force(&first, 0, 2.0, 0.0),
@@ -289,11 +289,11 @@ fn observed_motions_agree() {
         let state = settled(&system, 1.7, 8, 0.4);
         let stretch = Stretch { frequency_hz: 1.7, start: 0.4, end: 1.4 };
         let mut exact =
-            ExactIntegrator::watching(system.clone(), ExactSettings::default(), Some((&response, 1.0)))
+            ExactIntegrator::watching(system.clone(), ExactSettings::default(), Some((&response, &[1.0])))
                 .unwrap();
         let found = exact.observe(&[(stretch, &state)]).unwrap();
         let settings = GeneralSettings::with_tolerance(1e-12);
-        let expected = observe(&system, &stretch, &state, (&response, 1.0), &settings).unwrap();
+        let expected = observe(&system, &stretch, &state, (&response, &[1.0]), &settings).unwrap();
         assert_eq!(found.contacts(), expected.contacts(), "{name}");
         for (what, found, expected) in [
             ("displacement", found.displacement, expected.displacement),

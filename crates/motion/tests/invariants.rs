@@ -45,15 +45,15 @@ fn three_modes(frequency: f64, coupled: bool, elements: Vec<hammerbeam_motion::L
     });
     let support = SupportInput { inertia: vec![0.8, -0.3, 0.1], damping: vec![0.4, 0.1, -0.2] };
     let model =
-        ReducedModel { support: Some(support), ..model(&[frequency, TAU * 23.0, TAU * 111.0], damping) };
+        ReducedModel { supports: vec![support], ..model(&[frequency, TAU * 23.0, TAU * 111.0], damping) };
     let force = |shape: &[f64], order, amplitude, phase| HarmonicForce {
         shape: shape.to_vec(),
         harmonic: Harmonic { order, amplitude, phase },
     };
     let load = Load {
         support: vec![
-            Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 },
-            Harmonic { order: 2, amplitude: 1e-4, phase: -1.0 },
+            Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }.into(),
+            Harmonic { order: 2, amplitude: 1e-4, phase: -1.0 }.into(),
         ],
         forces: vec![force(&[0.6, 0.2, 0.1], 0, -1.0, 0.0), force(&[0.3, -0.5, 0.4], 3, 0.5, 2.0)],
     };

@@ -30,10 +30,10 @@ fn forces_that_hang_on_the_velocity_are_as_large_wherever_the_steps_lie() {
         begun = closely.advance(&cycle(0.0), &begun).unwrap();
     }
     let general = GeneralSettings::with_tolerance(1e-13);
-    let expected = observe(&system, &cycle(0.0), &begun, (&[1.0], 0.0), &general).unwrap();
+    let expected = observe(&system, &cycle(0.0), &begun, (&[1.0], &[0.0]), &general).unwrap();
     // As accurate as the steps of a run are.
     let settings = ExactSettings { tolerance: 5e-12 };
-    let mut exact = ExactIntegrator::watching(system, settings, Some((&[1.0], 0.0))).unwrap();
+    let mut exact = ExactIntegrator::watching(system, settings, Some((&[1.0], &[0.0]))).unwrap();
     for start in [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
         let state = closely.advance(&Stretch { frequency_hz, start: 0.0, end: start }, &begun).unwrap();
         let found = exact.observe(&[(cycle(start), &state)]).unwrap();

@@ -30,13 +30,13 @@ fn three_modes(laws: &[Law], coupled: bool) -> System {
     });
     let support = SupportInput { inertia: vec![0.8, -0.3, 0.1], damping: vec![0.4, 0.1, -0.2] };
     let model =
-        ReducedModel { support: Some(support), ..model(&[TAU * 3.5, TAU * 23.0, TAU * 111.0], damping) };
+        ReducedModel { supports: vec![support], ..model(&[TAU * 3.5, TAU * 23.0, TAU * 111.0], damping) };
     let force = |shape: &[f64], order, amplitude, phase| HarmonicForce {
         shape: shape.to_vec(),
         harmonic: Harmonic { order, amplitude, phase },
     };
     let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }],
+        support: vec![Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }.into()],
         forces: vec![force(&[0.6, 0.2, 0.1], 0, -1.0, 0.0), force(&[0.3, -0.5, 0.4], 3, 0.5, 2.0)],
     };
     let elements = laws.iter().map(|law| element(&[-1.4, 1.1, -0.9], 0.3, *law)).collect();
@@ -44,7 +44,7 @@ fn three_modes(laws: &[Law], coupled: bool) -> System {
     let other = [0.3, 0.8, -0.6];
     let part = DampingPart {
         matrix: Mat::from_fn(3, 3, |i, j| other[i] * other[j]),
-        support: other.iter().map(|entry| 0.7 * entry).collect(),
+        supports: vec![other.iter().map(|entry| 0.7 * entry).collect()],
     };
     System::new(model, &load, elements).unwrap().with_damping_part(part).unwrap()
 }
@@ -193,7 +193,7 @@ struct Over(System, Parameter);
 impl Family for Over {
     fn member(&self, value: f64) -> Result<Member, String> {
         let system = self.0.clone().with_parameter(self.1, value).map_err(|error| error.to_string())?;
-        Ok(Member { system, response: (vec![0.0; 3], 0.0) })
+        Ok(Member { system, response: (vec![0.0; 3], vec![0.0]) })
     }
 }
 
@@ -305,6 +305,6 @@ fn parameters_that_are_not_there_are_refused() {
     ] {
         assert!(lossy.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
     }
-    let small = DampingPart { matrix: Mat::zeros(2, 2), support: vec![0.0; 3] };
+    let small = DampingPart { matrix: Mat::zeros(2, 2), supports: vec![vec![0.0; 3]] };
     assert!(matches!(lossy.with_damping_part(small), Err(ParameterError::DampingPartSize { .. })));
 }

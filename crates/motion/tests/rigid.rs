@@ -101,8 +101,9 @@ fn with_damper(system: System) -> System {
     let n = system.dof();
     let row: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 5.0 } else { -5.0 } / (1 + i) as f64).collect();
     let matrix = faer::Mat::from_fn(n, n, |i, j| row[i] * row[j]);
-    let support = row.iter().map(|entry| 0.8 * entry).collect();
-    system.with_damping_part(DampingPart { matrix, support }).unwrap()
+    let support: Vec<f64> = row.iter().map(|entry| 0.8 * entry).collect();
+    let supports = vec![support; system.model().supports.len()];
+    system.with_damping_part(DampingPart { matrix, supports }).unwrap()
 }
 
 #[test]
@@ -124,15 +125,15 @@ fn sensitivities_through_impacts_are_those_of_differences() {
 fn pressed(restitution: f64, damping: faer::Mat<f64>, support_ratio: f64) -> System {
     let shape = vec![1.0, 0.6, -0.4];
     let mut model = model(&[20.0, 55.0, 130.0], damping);
-    model.support = Some(hammerbeam_structure::SupportInput {
+    model.supports = vec![hammerbeam_structure::SupportInput {
         inertia: vec![0.5, 0.3, -0.1],
         damping: vec![0.02, 0.01, 0.03],
-    });
+    }];
     let force = |order, amplitude, phase| HarmonicForce {
         shape: shape.clone(),
         harmonic: Harmonic { order, amplitude, phase },
     };
-    let support = vec![Harmonic { order: 1, amplitude: 2e-3, phase: 0.4 }];
+    let support = vec![Harmonic { order: 1, amplitude: 2e-3, phase: 0.4 }.into()];
     let load = Load { support, forces: vec![force(0, 2.0, 0.0), force(1, 3.0, 0.3)] };
     with_damper(
         System::new(model, &load, vec![element(&shape, support_ratio, rigid(restitution, 1e-3))]).unwrap(),
@@ -199,11 +200,11 @@ fn observed_motions_agree_with_the_general_integrator() {
         let state = settled(&system, 1.7, 12, 0.4);
         let stretch = Stretch { frequency_hz: 1.7, start: 0.4, end: 1.4 };
         let mut exact =
-            ExactIntegrator::watching(system.clone(), ExactSettings::default(), Some((&response, 1.0)))
+            ExactIntegrator::watching(system.clone(), ExactSettings::default(), Some((&response, &[1.0])))
                 .unwrap();
         let found = exact.observe(&[(stretch, &state)]).unwrap();
         let settings = GeneralSettings::with_tolerance(1e-12);
-        let expected = observe(&system, &stretch, &state, (&response, 1.0), &settings).unwrap();
+        let expected = observe(&system, &stretch, &state, (&response, &[1.0]), &settings).unwrap();
         assert_eq!(found.contacts(), expected.contacts());
         assert_eq!(found.touches, 1);
         for (name, found, expected) in [
@@ -227,16 +228,16 @@ fn observed_motions_agree_with_the_general_integrator() {
 /// at once, one let go by an impact on the other.
 fn two_stops(restitution: f64, damping: faer::Mat<f64>, second: [f64; 3]) -> System {
     let mut model = model(&[20.0, 55.0, 130.0], damping);
-    model.support = Some(hammerbeam_structure::SupportInput {
+    model.supports = vec![hammerbeam_structure::SupportInput {
         inertia: vec![0.5, 0.3, -0.1],
         damping: vec![0.02, 0.01, 0.03],
-    });
+    }];
     let force = |shape: [f64; 3], order, amplitude, phase| HarmonicForce {
         shape: shape.to_vec(),
         harmonic: Harmonic { order, amplitude, phase },
     };
     let first = [1.0, 0.6, -0.4];
-    let support = vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.4 }];
+    let support = vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.4 }.into()];
     let forces = vec![
         force(first, 0, 2.0, 0.0),
         force(first, 1, 3.0, 0.3),

@@ -140,13 +140,13 @@ mod tests {
         let model = ReducedModel {
             natural_frequencies: vec![1.0],
             damping: Mat::zeros(1, 1),
-            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-            support: None,
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+            supports: vec![],
             uniform_acceleration: vec![1.0],
         };
-        let element = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+        let element = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
         let system = System::new(model, &Load::default(), vec![element]).unwrap();
-        (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+        (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
     }
 
     /// Unit mass on 1 N/m one way and 2 N/m the other: `T = pi + pi/sqrt 2`.

@@ -71,7 +71,7 @@
 //! let force = HarmonicForce { shape: mass.shape.clone(), harmonic: Harmonic { order: 1, amplitude: 0.5, phase: 0.0 } };
 //! let system = System::new(model, &Load { support: vec![], forces: vec![force] }, vec![])?;
 //!
-//! let response = Response { shape: mass.shape, support_ratio: mass.support_ratio };
+//! let response = Response { shape: mass.shape, support_ratios: mass.support_ratios };
 //! let frequency_hz = 1.0 / std::f64::consts::TAU;
 //! let orbit = find_start(&system, &response, frequency_hz, 1, &OrbitSettings::default())?;
 //! assert!((orbit.maxima.displacement - 5.0).abs() < 1e-8);

@@ -55,11 +55,11 @@ impl Default for OrbitSettings {
     }
 }
 
-/// What is observed: the displacement `shape . q + support_ratio u`.
+/// What is observed: the displacement `shape . q + support_ratios . u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
     /// Displacement of the response point in each mode [kg^-1/2], length n.
     pub shape: Vec<f64>,
-    /// Its part of the support displacement [-].
-    pub support_ratio: f64,
+    /// Its part of the displacement of each support [-].
+    pub support_ratios: Vec<f64>,
 }

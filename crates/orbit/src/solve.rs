@@ -67,7 +67,7 @@ pub(crate) fn integrator(
     settings: &OrbitSettings,
 ) -> Result<ExactIntegrator, OrbitError> {
     let motion = ExactSettings { tolerance: settings.motion_tolerance };
-    let watched = Some((response.shape.as_slice(), response.support_ratio));
+    let watched = Some((response.shape.as_slice(), response.support_ratios.as_slice()));
     Ok(ExactIntegrator::watching(system.clone(), motion, watched)?)
 }
 

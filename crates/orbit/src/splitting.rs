@@ -242,15 +242,15 @@ mod tests {
             natural_frequencies: vec![1.0],
             damping: faer::mat![[0.2]],
             points: vec![],
-            support: Some(SupportInput { inertia: vec![0.0], damping: vec![0.0] }),
+            supports: vec![SupportInput { inertia: vec![0.0], damping: vec![0.0] }],
             uniform_acceleration: vec![0.0],
         };
         let harmonic = |order, amplitude| Harmonic { order, amplitude, phase: 0.0 };
-        let load = Load { support: vec![harmonic(1, -1.0), harmonic(2, -0.5)], forces: vec![] };
+        let load = Load { support: vec![harmonic(1, -1.0).into(), harmonic(2, -0.5).into()], forces: vec![] };
         let elastic = HertzStop::with_gap(1e-12, gap).unwrap();
         let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
         let law = Law::Restitution(law);
-        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 1.0, law };
+        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![1.0], law };
         let system = System::new(model, &load, vec![stop]).unwrap();
         let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
         let found = find(&mut integrator, (0.0, vec![0.0, 0.0]), (1.0, 1.0)).unwrap();

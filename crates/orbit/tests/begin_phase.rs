@@ -42,8 +42,8 @@ fn pressed(phase: f64, constant: f64) -> (System, Response) {
     let elastic = HertzStop::with_gap(20.0, 0.5).unwrap();
     let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
     let law = Law::Restitution(law);
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 #[track_caller]

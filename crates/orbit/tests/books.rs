@@ -32,20 +32,20 @@ fn chain() -> Subject {
     let element = |name: &str, shape: Vec<f64>, support_ratio: f64, law: Law| LocalElement {
         name: name.into(),
         shape,
-        support_ratio,
+        support_ratios: vec![support_ratio],
         law,
     };
     let between = b.shape.iter().zip(&d.shape).map(|(b, d)| b - d).collect();
     let hertz = Law::Hertz(HertzStop::with_gap(3e6, 0.5e-3).unwrap());
     let linear = Law::Linear(LinearStop::with_gap(8e3, 1e-3).unwrap());
     let elements = vec![
-        element("s1", e.shape.clone(), e.support_ratio, linear),
-        element("s2", between, b.support_ratio - d.support_ratio, hertz),
+        element("s1", e.shape.clone(), e.support_ratios[0], linear),
+        element("s2", between, b.support_ratios[0] - d.support_ratios[0], hertz),
     ];
     let harmonic = |order: u32, amplitude: f64, phase: f64| Harmonic { order, amplitude, phase };
-    let support = vec![harmonic(1, 0.5e-3, 0.0), harmonic(2, 0.1e-3, 1.0)];
+    let support = vec![harmonic(1, 0.5e-3, 0.0).into(), harmonic(2, 0.1e-3, 1.0).into()];
     let system = System::new(model.clone(), &Load { support, forces: vec![] }, elements).unwrap();
-    (system, Response { shape: e.shape, support_ratio: e.support_ratio })
+    (system, Response { shape: e.shape, support_ratios: e.support_ratios })
 }
 
 /// How many multipliers lie outside, without those this close to the circle, and with them.

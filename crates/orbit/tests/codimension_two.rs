@@ -41,8 +41,8 @@ fn both() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0, SLOWER],
         damping: Mat::from_fn(2, 2, |i, j| if i == j { [0.1, 0.1 * SLOWER][i] } else { 0.0 }),
-        points: vec![PointOutput { name: "first".into(), shape: vec![1.0, 0.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "first".into(), shape: vec![1.0, 0.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0, 0.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
@@ -50,11 +50,14 @@ fn both() -> Case {
     let element = |shape: [f64; 2], law| LocalElement {
         name: "local".into(),
         shape: shape.to_vec(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     };
     let elements = vec![element([1.0, 0.0], cubic()), element([0.0, 1.0], stop())];
-    (System::new(model, &load, elements).unwrap(), Response { shape: vec![1.0, 0.0], support_ratio: 0.0 })
+    (
+        System::new(model, &load, elements).unwrap(),
+        Response { shape: vec![1.0, 0.0], support_ratios: vec![0.0] },
+    )
 }
 
 /// Rows of the branch through the harmonic orbit with an event, sharply located.
@@ -164,16 +167,16 @@ fn undamped_within() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0, 1.0],
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.5 } else { 0.4 }),
-        points: vec![PointOutput { name: "v".into(), shape: vec![half, -half], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "v".into(), shape: vec![half, -half], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0, 0.0],
     };
     let shape = vec![half, -half];
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: shape.clone(), harmonic }] };
     let law = Law::Linear(law::LinearStop::with_gap(STIFF - 1.0, 0.0).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: shape.clone(), support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape, support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: shape.clone(), support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![stop]).unwrap(), Response { shape, support_ratios: vec![0.0] })
 }
 
 /// What vanishes at a flip of the undamped bilinear oscillator for a circular frequency and a duration s of

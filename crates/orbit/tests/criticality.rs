@@ -32,8 +32,8 @@ fn biased() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| 0.1),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let force = |order, amplitude| HarmonicForce {
@@ -42,8 +42,11 @@ fn biased() -> Case {
     };
     let load = Load { support: vec![], forces: vec![force(0, 2.0), force(1, 8.0)] };
     let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![spring]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+    (
+        System::new(model, &load, vec![spring]).unwrap(),
+        Response { shape: vec![1.0], support_ratios: vec![0.0] },
+    )
 }
 
 /// The two flips of the orbits of one period.

@@ -19,8 +19,8 @@ fn oscillator(damping: f64, force: f64, laws: &[(f64, Law)]) -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| damping),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
@@ -28,11 +28,11 @@ fn oscillator(damping: f64, force: f64, laws: &[(f64, Law)]) -> Case {
     let local = |(k, &(shape, law)): (usize, &(f64, Law))| LocalElement {
         name: format!("local {k}"),
         shape: vec![shape],
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     };
     let elements = laws.iter().enumerate().map(local).collect();
-    (System::new(model, &load, elements).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    (System::new(model, &load, elements).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 /// Rows of a branch in the frequency with an event, sharply located.
@@ -277,8 +277,8 @@ fn two_modes(second: f64, force: f64) -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0, second],
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.05 } else { 0.0 }),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0, 1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0, 1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0, 0.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
@@ -286,11 +286,14 @@ fn two_modes(second: f64, force: f64) -> Case {
     let spring = |shape: [f64; 2], k| LocalElement {
         name: "spring".into(),
         shape: shape.to_vec(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: Law::Power(law::PowerSpring::cubic(k).unwrap()),
     };
     let springs = vec![spring([1.0, 1.0], 1.0), spring([1.0, -1.0], 0.5)];
-    (System::new(model, &load, springs).unwrap(), Response { shape: vec![1.0, 1.0], support_ratio: 0.0 })
+    (
+        System::new(model, &load, springs).unwrap(),
+        Response { shape: vec![1.0, 1.0], support_ratios: vec![0.0] },
+    )
 }
 
 const TWO_MODES_HZ: (f64, f64) = (0.1, 0.6);

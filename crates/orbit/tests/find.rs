@@ -24,17 +24,17 @@ fn bouncing_ball() -> (System, Response) {
     let point = model.point("ball").unwrap().clone();
     let weight = Harmonic { order: 0, amplitude: -9.81, phase: 0.0 };
     let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }],
+        support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }.into()],
         forces: vec![HarmonicForce { shape: model.uniform_acceleration.clone(), harmonic: weight }],
     };
     let table = LocalElement {
         name: "table".into(),
         shape: point.shape.iter().map(|phi| -phi).collect(),
-        support_ratio: 1.0 - point.support_ratio,
+        support_ratios: vec![1.0 - point.support_ratios[0]],
         law: Law::Hertz(HertzStop::with_gap(1e8, 0.0).unwrap()),
     };
     let system = System::new(model, &load, vec![table]).unwrap();
-    (system, Response { shape: point.shape, support_ratio: point.support_ratio })
+    (system, Response { shape: point.shape, support_ratios: point.support_ratios })
 }
 
 /// Uniform from -1 to 1.

@@ -33,14 +33,14 @@ fn oscillator(share: f64, is_pressed_at_rest: bool) -> (System, [f64; 2]) {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| DAMPING),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Linear(stop.unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     let middle = stiffness - 0.5 * DAMPING * DAMPING;
     let root = (middle * middle - stiffness * stiffness + 1.0 / (least * least)).sqrt();
     let frequencies = [-root, root].map(|root| (middle + root).sqrt() / TAU);
@@ -48,7 +48,7 @@ fn oscillator(share: f64, is_pressed_at_rest: bool) -> (System, [f64; 2]) {
 }
 
 fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step_hz: f64) -> Vec<f64> {
-    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
     let start = find_start(system, &response, from_hz, 1, &settings).unwrap();
     let (rows, _) = walk(system, &response, &start, Side::Up, (from_hz, to_hz), &settings);

@@ -82,7 +82,8 @@ fn the_contact_is_the_one_that_grazes() {
     let subject = oscillator(1.0, DAMPER, FORCE, near);
     let harmonic = Harmonic { order: 1, amplitude: FORCE, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let element = |law| LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let element =
+        |law| LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     let two = System::new(subject.0.model().clone(), &load, vec![element(far), element(near)]).unwrap();
     let lower = Law::TwoSided(TwoSidedStop::new(5.0, 100.0, GAP).unwrap());
     for subject in [(two, subject.1.clone()), oscillator(1.0, DAMPER, FORCE, lower)] {

@@ -38,10 +38,10 @@ fn oscillator(phase: f64) -> (System, Response) {
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Rigid(RigidStop::with_gap(RESTITUTION, GAP).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     (
         System::new(unit_mass(0.0), &load, vec![stop]).unwrap(),
-        Response { shape: vec![1.0], support_ratio: 0.0 },
+        Response { shape: vec![1.0], support_ratios: vec![0.0] },
     )
 }
 

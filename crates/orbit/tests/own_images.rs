@@ -22,8 +22,8 @@ fn biased() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| 0.1),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let force = |order, amplitude| HarmonicForce {
@@ -32,8 +32,11 @@ fn biased() -> Case {
     };
     let load = Load { support: vec![], forces: vec![force(0, 2.0), force(1, 8.0)] };
     let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![spring]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+    (
+        System::new(model, &load, vec![spring]).unwrap(),
+        Response { shape: vec![1.0], support_ratios: vec![0.0] },
+    )
 }
 
 /// The flips of the orbits of one period.
@@ -89,15 +92,16 @@ fn two_masses() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![squares[1].sqrt(), squares[0].sqrt()],
         damping,
-        points: vec![PointOutput { name: "second".into(), shape: second.clone(), support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "second".into(), shape: second.clone(), support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: second.clone(),
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.403, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: second.clone(), harmonic }] };
     let law = Law::Power(PowerSpring::cubic(1.807).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: second.clone(), support_ratio: 0.0, law };
-    (System::new(model, &load, vec![spring]).unwrap(), Response { shape: second, support_ratio: 0.0 })
+    let spring =
+        LocalElement { name: "spring".into(), shape: second.clone(), support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![spring]).unwrap(), Response { shape: second, support_ratios: vec![0.0] })
 }
 
 const PAIR_HZ: (f64, f64) = (0.103, 0.106);

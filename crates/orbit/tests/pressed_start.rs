@@ -35,11 +35,11 @@ fn pressed(stops: &[(&str, Law)]) -> (System, Response) {
     let stop = |&(name, law): &(&str, Law)| LocalElement {
         name: name.into(),
         shape: vec![1.0],
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     };
     let system = System::new(unit_mass(DAMPING), &load, stops.iter().map(stop).collect()).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 fn remembering() -> Law {
@@ -125,9 +125,10 @@ fn a_weight_that_presses_more_than_the_force_lifts_is_refused_with_a_reason() {
         harmonic: Harmonic { order, amplitude, phase: 0.0 },
     };
     let load = Load { support: vec![], forces: vec![heavy(0, 10.0 * FORCE), heavy(1, 0.01 * FORCE)] };
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law: remembering() };
+    let stop =
+        LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law: remembering() };
     let system = System::new(unit_mass(DAMPING), &load, vec![stop]).unwrap();
-    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     let settings = OrbitSettings::for_range((0.5, 1.5));
     let refused = find_start(&system, &response, FREQUENCY, 1, &settings).unwrap_err();
     assert!(matches!(refused, OrbitError::NeverOpens { .. }), "{refused}");

@@ -95,7 +95,7 @@ fn with(laws: &[(f64, Law)]) -> System {
     let element = |(sign, law): &(f64, Law)| LocalElement {
         name: "element".into(),
         shape: vec![*sign],
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: *law,
     };
     let loads = Load { support: vec![], forces: vec![load(10.0)] };

@@ -50,13 +50,13 @@ fn beside_a_large_motion(size: f64) -> Subject {
         natural_frequencies: vec![1.0, 2.0],
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.1 } else { 0.0 }),
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![0.0, 0.0],
     };
     let load =
         Load { support: vec![], forces: vec![force(&[1.0, 0.0], 1, 1.0), force(&[0.0, 1.0], 1, size)] };
     let element = LocalElement { shape: vec![1.0, 0.0], ..alone.elements()[0].clone() };
-    let response = Response { shape: vec![1.0, 0.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0, 0.0], support_ratios: vec![0.0] };
     (System::new(model, &load, vec![element]).unwrap(), response)
 }
 

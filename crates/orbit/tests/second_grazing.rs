@@ -24,7 +24,7 @@ fn oscillator(law: Law) -> (System, Response) {
         natural_frequencies: vec![1.0],
         damping: faer::mat![[DAMPING]],
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let force = |order, amplitude, phase| HarmonicForce {
@@ -32,8 +32,8 @@ fn oscillator(law: Law) -> (System, Response) {
         harmonic: Harmonic { order, amplitude, phase },
     };
     let load = Load { support: vec![], forces: vec![force(1, 1.0, 0.0), force(2, SECOND.0, SECOND.1)] };
-    let stop = LocalElement { name: "stop".into(), shape: vec![-1.0], support_ratio: 0.0, law };
-    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
+    let stop = LocalElement { name: "stop".into(), shape: vec![-1.0], support_ratios: vec![0.0], law };
+    let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     (System::new(model, &load, vec![stop]).unwrap(), response)
 }
 

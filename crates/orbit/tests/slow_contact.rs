@@ -25,7 +25,7 @@ fn bouncing() -> (System, Response) {
         natural_frequencies: vec![STIFFNESS.sqrt()],
         damping: faer::mat![[10.59 + 0.4 * STIFFNESS.sqrt()]],
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 4.903, phase: 0.0 };
@@ -33,8 +33,8 @@ fn bouncing() -> (System, Response) {
     let elastic = HertzStop::with_gap(9.9513e8, 0.0).unwrap();
     let law = RestitutionStop::new(elastic, RestitutionModel::HuntCrossley, RESTITUTION).unwrap();
     let law = Law::Restitution(law);
-    let stop = LocalElement { name: "stop".into(), shape: vec![-1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: vec![-1.0], support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 #[test]
@@ -67,9 +67,9 @@ fn above_a_stop() -> (System, Response) {
     let elastic = HertzStop::with_gap(188.343, 0.401).unwrap();
     let law = Law::Restitution(RestitutionStop::new(elastic, RestitutionModel::Flores, 0.37).unwrap());
     let shape = outer.shape.iter().map(|phi| -phi).collect();
-    let stop = LocalElement { name: "stop".into(), shape, support_ratio: 0.0, law };
+    let stop = LocalElement { name: "stop".into(), shape, support_ratios: vec![0.0], law };
     let system = System::new(model, &load, vec![stop]).unwrap();
-    (system, Response { shape: outer.shape, support_ratio: 0.0 })
+    (system, Response { shape: outer.shape, support_ratios: vec![0.0] })
 }
 
 /// Multipliers go like the distance from the end to the power of -4, and beyond some 1e8 the general

@@ -25,7 +25,7 @@ fn bouncing() -> (System, Response) {
         natural_frequencies: vec![(2.51 / MASS).sqrt()],
         damping: faer::mat![[0.05 / MASS]],
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![MASS.sqrt()],
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.29, phase: 0.0 };
@@ -33,8 +33,11 @@ fn bouncing() -> (System, Response) {
     let elastic = HertzStop::with_gap(29.87, GAP).unwrap();
     let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.66).unwrap();
     let law = Law::Restitution(law);
-    let stop = LocalElement { name: "stop".into(), shape: vec![-shape], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![shape], support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: vec![-shape], support_ratios: vec![0.0], law };
+    (
+        System::new(model, &load, vec![stop]).unwrap(),
+        Response { shape: vec![shape], support_ratios: vec![0.0] },
+    )
 }
 
 #[test]

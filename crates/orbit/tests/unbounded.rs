@@ -25,11 +25,11 @@ fn oscillator(damping: f64, gap: Option<f64>) -> (System, Response) {
     let stop = |gap| LocalElement {
         name: "stop".into(),
         shape: vec![1.0],
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: Law::Linear(LinearStop::with_gap(5.0, gap).unwrap()),
     };
     let system = System::new(model, &load, gap.map(stop).into_iter().collect()).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 /// A whole side of the branch through the linear response, taken up from its checkpoint after so many steps

@@ -17,15 +17,15 @@ fn oscillator(gap: f64) -> (System, Response) {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| 0.2),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Linear(LinearStop::with_gap(5.0, gap).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 fn amplitude(frequency_hz: f64, damping: f64) -> f64 {

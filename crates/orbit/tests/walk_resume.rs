@@ -14,9 +14,9 @@ fn oscillator() -> (System, Response) {
         HarmonicForce { shape: vec![1.0], harmonic: Harmonic { order: 1, amplitude: 0.2, phase: 0.0 } };
     let load = Load { support: Vec::new(), forces: vec![force] };
     let law = Law::Hertz(HertzStop::with_gap(20.0, 0.5).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     let system = System::new(model, &load, vec![stop]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 const RANGE: (f64, f64) = (0.1, 0.4);

@@ -49,6 +49,9 @@ pub enum StructureError {
     /// Ends, supports and prescribed motion hold every coordinate.
     #[error("every coordinate is fixed or prescribed, nothing is left to vibrate")]
     NothingFree,
+    /// A place is a point of two supports that move differently.
+    #[error("two supports that move differently move one place, {}", names.join(", "))]
+    MovedTwice { names: Vec<String> },
     /// A lumped structure is taken as it is.
     #[error("a lumped structure is not reduced, choose the reduction \"none\"")]
     LumpedIsNotReduced,

@@ -1,21 +1,32 @@
 //! Linear structures: beams and lumped masses, assembled, supported and reduced to modes.
 //!
-//! Coordinates of a structure are held (zero), prescribed (they follow the support, `y_p = u(t)`) or free:
+//! Coordinates of a structure are held (zero), prescribed or free. Prescribed ones follow one of several
+//! supports, `y_p = u_s(t)`, each of which has a motion of its own:
 //!
-//! `M_ff y'' + C_ff y' + K_ff y + (M_fp u'' + C_fp u' + K_fp u) = f + a (M 1)_f`.
+//! `M_ff y'' + C_ff y' + K_ff y + sum_s (M_fs u_s'' + C_fs u_s' + K_fs u_s) = f + a (M 1)_f`.
 //!
-//! The absolute motion is the static answer to the support plus a relative motion in `n` modes,
+//! The absolute motion is the static answer to the supports plus a relative motion in `n` modes,
 //!
-//! `y = Gamma u + Phi q`, `Gamma = -K_ff^-1 K_fp`, `Phi^T M Phi = 1`, `Phi^T K Phi = diag(w^2)`,
+//! `y = sum_s Gamma_s u_s + Phi q`, `Gamma_s = -K_ff^-1 K_fs`, `Phi^T M Phi = 1`, `Phi^T K Phi = diag(w^2)`,
 //!
-//! so that the stiffness of the support drops out and, with the modal damping matrix
+//! so that the stiffness of the supports drops out and, with the modal damping matrix
 //! `C = Phi^T C_d Phi + diag(2 z w) + alpha 1 + beta diag(w^2)`,
 //!
-//! `q'' + C q' + diag(w^2) q = -g u'' - d u' + Phi^T f + a Phi^T M 1`,
-//! `g = Phi^T (M_ff Gamma + M_fp)`, `d = Phi^T (C_ff Gamma + C_fp)`.
+//! `q'' + C q' + diag(w^2) q = -sum_s (g_s u_s'' + d_s u_s') + Phi^T f + a Phi^T M 1`,
+//! `g_s = Phi^T (M_ff Gamma_s + M_fs)`, `d_s = Phi^T (C_ff Gamma_s + C_fs)`.
+//!
+//! `Gamma_s` is the shape that the structure takes when support s alone is moved by one and the others stand
+//! still: a cantilever follows rigidly, `Gamma = 1`; between two pinned ends the shapes are `1 - x/l` and
+//! `x/l`, between two clamped ones cubics. Where all supports move alike, `u_s = u`, only the sum of the
+//! shapes counts, and it is 1 where nothing else holds the structure. Supports that move apart strain the
+//! structure, which no rigid translation does.
+//!
+//! Each `u_s` is a sum of harmonics with amplitudes and phases of their own, `Re U_sm exp(i m W t)`; the
+//! equations are linear in them, so harmonic m of the right side is `sum_s ((m W)^2 g_s - i m W d_s) U_sm`,
+//! and the sum of the motions that each support alone causes is the motion that all of them cause.
 //!
 //! Only the discrete dampers `C_d` act on the absolute motion; modal and Rayleigh damping act on the
-//! motion relative to the support. `Phi` are all modes of the supported structure, or those of a
+//! motion relative to the static answer. `Phi` are all modes of the supported structure, or those of a
 //! [`Reduction`].
 //!
 //! Stiffness is kept as `K = G^T G` and modes come from singular values, because an assembled `K` loses

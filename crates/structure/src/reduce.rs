@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 use crate::{
     Damping, FlexibilityError, ModeTables, PointOutput, ReducedModel, Reduction, Structure, StructureError,
@@ -27,23 +27,23 @@ pub struct Reduced {
 }
 
 /// A place of a structure and how it moves, for drawing the structure as a whole: `y = shape . q +
-/// support_ratio u`.
+/// support_ratios . u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutlinePoint {
     /// Distance from the left end [m]; of a lumped structure the number of the mass, from 0.
     pub at: f64,
     /// Displacement in each mode [kg^-1/2], length n.
     pub shape: Vec<f64>,
-    /// Displacement per unit static support motion [-].
-    pub support_ratio: f64,
+    /// Displacement per unit static motion of each support [-].
+    pub support_ratios: Vec<f64>,
 }
 
 impl Structure {
-    /// Reduces the structure and brings it to mass-normalised modal coordinates relative to its support.
+    /// Reduces the structure and brings it to mass-normalised modal coordinates relative to its supports.
     ///
-    /// The absolute motion is `y = Gamma u + Phi q`, with the static answer `Gamma = -K_ff^-1 K_fp` to the
-    /// support motion. Modes have the sign that makes them positive at the first interface point
-    /// where they move; without one, where they move most. Costs one dense singular value
+    /// The absolute motion is `y = sum_s Gamma_s u_s + Phi q`, with the static answers `Gamma_s = -K_ff^-1
+    /// K_fs` to the support motions. Modes have the sign that makes them positive at the first interface
+    /// point where they move; without one, where they move most. Costs one dense singular value
     /// decomposition of the unreduced structure, and another for each reduction: of the order of a
     /// second each for 1000 coordinates (500 elements), growing with the cube.
     ///
@@ -64,24 +64,24 @@ impl Structure {
         let basis = reduction.basis(self, &full, &coordinates)?;
         let (frequencies, shapes) = self.relative_modes(&full, basis.as_ref())?;
         let shapes = orient(self.over_all(shapes), &coordinates, &self.assembly.translation);
-        let support_shape = self.support_shape(&full);
-        let outline = self.outline(&shapes, support_shape.as_ref());
-        let model = self.modal_form(frequencies, &shapes, support_shape, damping)?;
+        let support_shapes = self.support_shapes(&full);
+        let outline = self.outline(&shapes, &support_shapes);
+        let model = self.modal_form(frequencies, &shapes, &support_shapes, damping)?;
         let mut tables = self.tables(&full, &model, reduction, basis);
         tables.flexibility_errors = self.flexibility_errors(&full, &model, interface);
         Ok(Reduced { model, tables, outline })
     }
 
-    fn outline(&self, shapes: &Mat<f64>, support_shape: Option<&Mat<f64>>) -> Vec<OutlinePoint> {
+    fn outline(&self, shapes: &Mat<f64>, support_shapes: &Mat<f64>) -> Vec<OutlinePoint> {
         let point = |place: &Place| OutlinePoint {
             at: place.at,
             shape: shapes.row(place.coordinate).iter().copied().collect(),
-            support_ratio: support_shape.map_or(0.0, |shape| shape[(place.coordinate, 0)]),
+            support_ratios: support_shapes.row(place.coordinate).iter().copied().collect(),
         };
         self.places().iter().map(point).collect()
     }
 
-    /// Frequencies and shapes (over the free coordinates) of the motion relative to the support.
+    /// Frequencies and shapes (over the free coordinates) of the motion relative to the supports.
     fn relative_modes(
         &self,
         full: &Modes,
@@ -111,7 +111,7 @@ impl Structure {
         &self,
         frequencies: Vec<f64>,
         shapes: &Mat<f64>,
-        support_shape: Option<Mat<f64>>,
+        support_shapes: &Mat<f64>,
         damping: &Damping,
     ) -> Result<ReducedModel, StructureError> {
         let damper_strains = self.assembly.damping.of(shapes.as_ref());
@@ -119,19 +119,25 @@ impl Structure {
         let output = |name: &str, row: usize| PointOutput {
             name: name.into(),
             shape: shapes.row(row).iter().copied().collect(),
-            support_ratio: support_shape.as_ref().map_or(0.0, |shape| shape[(row, 0)]),
+            support_ratios: support_shapes.row(row).iter().copied().collect(),
         };
         let points = self.points().iter().map(|point| output(&point.name, point.coordinate)).collect();
-        let support = support_shape.as_ref().map(|shape| SupportInput {
-            inertia: projected(shapes, &times(&self.assembly.mass, shape.col_as_slice(0))),
-            damping: dampers_on_support(
-                damper_strains.as_ref(),
-                self.assembly.damping.of(shape.as_ref()).as_ref(),
-            ),
-        });
+        // `Phi^T C [Gamma; 1] = (D Phi)^T (D [Gamma; 1])`.
+        let on_supports =
+            damper_strains.transpose() * self.assembly.damping.of(support_shapes.as_ref()).as_ref();
+        let input = |support: usize| SupportInput {
+            inertia: projected(shapes, &times(&self.assembly.mass, support_shapes.col_as_slice(support))),
+            damping: on_supports.col(support).iter().copied().collect(),
+        };
+        let supports = (0..support_shapes.ncols()).map(input).collect();
         let uniform_acceleration = projected(shapes, &self.uniform_load());
-        let model =
-            ReducedModel { natural_frequencies: frequencies, damping, points, support, uniform_acceleration };
+        let model = ReducedModel {
+            natural_frequencies: frequencies,
+            damping,
+            points,
+            supports,
+            uniform_acceleration,
+        };
         check_finite(&model).map(|()| model)
     }
 
@@ -190,12 +196,6 @@ impl Structure {
 /// `Phi^T v`.
 fn projected(shapes: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
     shapes.col_iter().map(|shape| shape.iter().zip(vector).map(|(a, b)| a * b).sum()).collect()
-}
-
-/// `Phi^T C [Gamma; 1] = (D Phi)^T (D [Gamma; 1])`.
-fn dampers_on_support(modes: MatRef<'_, f64>, support: MatRef<'_, f64>) -> Vec<f64> {
-    let product = modes.transpose() * support;
-    product.col(0).iter().copied().collect()
 }
 
 /// Refuses a model whose numbers left the range of floating point: the input was absurd in size.

@@ -4,20 +4,20 @@ use faer::Mat;
 
 use crate::{StructureError, modes::static_amplitudes};
 
-/// A linear structure in mass-normalised modal coordinates `q`, relative to its support.
+/// A linear structure in mass-normalised modal coordinates `q`, relative to its supports.
 ///
-/// With the prescribed support displacement `u(t)`, forces `F_p` at the points and a uniform
+/// With the prescribed displacements `u_s(t)` of its supports, forces `F_p` at the points and a uniform
 /// acceleration field `a` (gravity),
 ///
-/// `q'' + C q' + diag(w^2) q = -g u'' - d u' + sum_p phi_p F_p + a m`,
-/// `y_p = phi_p . q + s_p u`,
+/// `q'' + C q' + diag(w^2) q = -sum_s (g_s u_s'' + d_s u_s') + sum_p phi_p F_p + a m`,
+/// `y_p = phi_p . q + sum_s s_ps u_s`,
 ///
 /// where `y_p` is the absolute displacement of point `p`. The rows mean:
 ///
 /// * `natural_frequencies`: `w` [rad/s], ascending, length n; rigid-body modes are exactly 0.0.
 /// * `damping`: `C = Phi^T C Phi` [1/s], n x n, symmetric; diagonal if damping does not couple the modes.
-/// * `points`: `phi_p` and `s_p`, see [`PointOutput`].
-/// * `support`: `g` and `d`, see [`SupportInput`]; `None` if no support motion is prescribed.
+/// * `points`: `phi_p` and `s_ps`, see [`PointOutput`].
+/// * `supports`: `g_s` and `d_s` of each support that moves, see [`SupportInput`].
 /// * `uniform_acceleration`: `m = Phi^T M 1` [kg^1/2] over the transverse coordinates.
 #[derive(Debug, Clone)]
 pub struct ReducedModel {
@@ -27,8 +27,8 @@ pub struct ReducedModel {
     pub damping: Mat<f64>,
     /// Displacement outputs and force inputs, one per named point.
     pub points: Vec<PointOutput>,
-    /// How the support motion drives the modes.
-    pub support: Option<SupportInput>,
+    /// How the motion of each support drives the modes.
+    pub supports: Vec<SupportInput>,
     /// Modal load per unit uniform acceleration, `Phi^T M 1` [kg^1/2].
     pub uniform_acceleration: Vec<f64>,
 }
@@ -40,17 +40,17 @@ pub struct PointOutput {
     pub name: String,
     /// Displacement of the point in each mode, `phi_p` [kg^-1/2], length n.
     pub shape: Vec<f64>,
-    /// Displacement of the point per unit static support motion, `s_p` [-].
-    pub support_ratio: f64,
+    /// Displacement of the point per unit static motion of each support, `s_ps` [-].
+    pub support_ratios: Vec<f64>,
 }
 
-/// How a prescribed support displacement `u(t)` drives the modes.
+/// How the prescribed displacement `u_s(t)` of a support drives the modes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SupportInput {
-    /// `g = Phi^T (M_ff Gamma + M_fp)` [kg^1/2], with the static constraint vector `Gamma`.
+    /// `g_s = Phi^T (M_ff Gamma_s + M_fs)` [kg^1/2], with the static constraint vector `Gamma_s`.
     pub inertia: Vec<f64>,
-    /// `d = Phi^T (C_ff Gamma + C_fp)` [kg^1/2/s], from discrete dampers only: modal and Rayleigh
-    /// damping act on the motion relative to the support.
+    /// `d_s = Phi^T (C_ff Gamma_s + C_fs)` [kg^1/2/s], from discrete dampers only: modal and Rayleigh
+    /// damping act on the motion relative to the supports.
     pub damping: Vec<f64>,
 }
 

@@ -34,13 +34,14 @@ pub(crate) struct NamedCoordinate {
 /// A linear structure with its supports, made by [`crate::Beam::structure`] or [`crate::Lumped::structure`].
 ///
 /// `M y'' + C y' + K y = f` over the free coordinates; held ones are zero, prescribed ones follow the
-/// support displacement `u(t)`.
+/// displacement `u_s(t)` of their support.
 #[derive(Debug, Clone)]
 pub struct Structure {
     pub(crate) kind: Kind,
     pub(crate) assembly: Assembly,
     held: Vec<bool>,
-    prescribed: Vec<usize>,
+    /// Coordinates that follow each support.
+    supports: Vec<Vec<usize>>,
     points: Vec<NamedCoordinate>,
     places: Vec<Place>,
 }
@@ -62,19 +63,38 @@ impl Structure {
         points: Vec<NamedCoordinate>,
         places: Vec<Place>,
     ) -> Self {
-        Self { kind, assembly, held, prescribed: Vec::new(), points, places }
+        Self { kind, assembly, held, supports: Vec::new(), points, places }
     }
 
     /// Prescribes one support motion `u(t)` of the transverse displacement at each of the named points.
     ///
     /// At a clamped or pinned end the support moves; at any other point the structure is held by what
     /// moves it (rotations stay as they were). At `ground` of a lumped structure the ground moves as a
-    /// whole. Springs and dampers of a beam's points stay fixed in space. Replaces an earlier choice.
+    /// whole. Springs and dampers of a beam's points stay fixed in space. Replaces an earlier choice;
+    /// without a name nothing moves.
     ///
     /// # Errors
     /// A name that no point has.
-    pub fn with_support_motion(mut self, at: &[&str]) -> Result<Self, StructureError> {
-        self.prescribed = self.coordinates("support motion", at)?;
+    pub fn with_support_motion(self, at: &[&str]) -> Result<Self, StructureError> {
+        self.with_support_motions(if at.is_empty() { &[] } else { std::slice::from_ref(&at) })
+    }
+
+    /// Prescribes several support motions `u_s(t)`, each at the points of a group; see
+    /// [`Structure::with_support_motion`].
+    ///
+    /// # Errors
+    /// A name that no point has, or a place that two supports would move.
+    pub fn with_support_motions(mut self, groups: &[&[&str]]) -> Result<Self, StructureError> {
+        let mut supports: Vec<Vec<usize>> = Vec::with_capacity(groups.len());
+        for at in groups {
+            let coordinates = self.coordinates("support motion", at)?;
+            if let Some(&twice) = coordinates.iter().find(|&&c| supports.iter().any(|s| s.contains(&c))) {
+                let names = self.points.iter().filter(|point| point.coordinate == twice);
+                return Err(StructureError::MovedTwice { names: names.map(|p| p.name.clone()).collect() });
+            }
+            supports.push(coordinates);
+        }
+        self.supports = supports;
         Ok(self)
     }
 
@@ -120,17 +140,21 @@ impl Structure {
 
     /// Coordinates that are neither held nor prescribed, ascending.
     pub(crate) fn free_coordinates(&self) -> Vec<usize> {
-        (0..self.held.len()).filter(|index| !self.held[*index] && !self.prescribed.contains(index)).collect()
+        (0..self.held.len()).filter(|index| !self.held[*index] && !self.is_prescribed(*index)).collect()
     }
 
     /// Free and prescribed coordinates, ascending: the component whose support is let go.
     pub(crate) fn released_coordinates(&self) -> Vec<usize> {
-        (0..self.held.len()).filter(|index| !self.held[*index] || self.prescribed.contains(index)).collect()
+        (0..self.held.len()).filter(|index| !self.held[*index] || self.is_prescribed(*index)).collect()
     }
 
-    /// Coordinates that follow the support motion.
-    pub(crate) fn prescribed(&self) -> &[usize] {
-        &self.prescribed
+    /// Coordinates that follow a support.
+    pub(crate) fn prescribed(&self) -> Vec<usize> {
+        self.supports.concat()
+    }
+
+    fn is_prescribed(&self, coordinate: usize) -> bool {
+        self.supports.iter().any(|support| support.contains(&coordinate))
     }
 
     /// All places, from left to right.
@@ -169,25 +193,35 @@ impl Structure {
         times(&self.assembly.mass, &self.assembly.translation)
     }
 
-    /// Static answer of all coordinates to a unit support motion: `[Gamma; 1]`, and 0 where held.
+    /// Static answer of all coordinates to a unit motion of each support, a column each: `[Gamma_s; 1]`, and
+    /// 0 where held or where another support moves.
     ///
-    /// `Gamma = -K_ff^-1 K_fp`. It is found as the uniform translation of everything not held, plus the
-    /// static answer to the strains that this leaves, so that a structure without other supports has
-    /// `Gamma` exactly 1; where `K_ff` is singular the rigid-body part is thereby that of the translation.
-    /// `None` if no support moves.
-    pub(crate) fn support_shape(&self, modes: &Modes) -> Option<Mat<f64>> {
-        if self.prescribed.is_empty() {
-            return None;
+    /// `Gamma_s = -K_ff^-1 K_fs`. It is found as a trial shape, plus the static answer to the strains that
+    /// this leaves. Trial shapes are the support's own displacement and an equal share of the uniform
+    /// translation of everything free. Of a single support that is the translation itself, so that a
+    /// structure without other supports has `Gamma` exactly 1. All of them sum to the translation, also where
+    /// `K_ff` is singular: the rigid-body part, which statics leaves open there, is that of the supports'
+    /// mean.
+    pub(crate) fn support_shapes(&self, modes: &Modes) -> Mat<f64> {
+        let (count, free) = (self.supports.len(), self.free_coordinates());
+        let mut shapes = Mat::zeros(self.held.len(), count);
+        for (support, own) in self.supports.iter().enumerate() {
+            for &index in own {
+                shapes[(index, support)] = self.assembly.translation[index];
+            }
+            for &index in &free {
+                shapes[(index, support)] = self.assembly.translation[index] / count as f64;
+            }
         }
-        let mut shape = Mat::zeros(self.held.len(), 1);
-        for index in self.released_coordinates() {
-            shape[(index, 0)] = self.assembly.translation[index];
+        if count > 0 {
+            let correction = modes.relief_of_strains(self.assembly.stiffness.of(shapes.as_ref()).as_ref());
+            for (row, &index) in free.iter().enumerate() {
+                for support in 0..count {
+                    shapes[(index, support)] += correction[(row, support)];
+                }
+            }
         }
-        let correction = modes.relief_of_strains(self.assembly.stiffness.of(shape.as_ref()).as_ref());
-        for (row, index) in self.free_coordinates().into_iter().enumerate() {
-            shape[(index, 0)] += correction[(row, 0)];
-        }
-        Some(shape)
+        shapes
     }
 }
 

@@ -128,7 +128,7 @@ fn without_support_motion_the_free_interface_is_the_supported_beam() {
     let tables = reduced.tables;
     assert_eq!(tables.free_interface_hz, tables.clamped_hz[..4]);
     assert_eq!(tables.reduced_hz.len(), 5);
-    assert!(reduced.model.support.is_none());
+    assert!(reduced.model.supports.is_empty());
 }
 
 /// All modes of a free structure carry all its mass: `sum m_i^2 = 1^T M 1`.
@@ -193,11 +193,15 @@ fn the_outline_passes_through_the_points() {
         assert!(outline.windows(2).all(|places| places[0].at < places[1].at));
         for (name, place) in [("left", outline.first().unwrap()), ("right", outline.last().unwrap())] {
             let point = model.point(name).unwrap();
-            assert_eq!((&point.shape, point.support_ratio), (&place.shape, place.support_ratio), "{name}");
+            assert_eq!(
+                (&point.shape, &point.support_ratios),
+                (&place.shape, &place.support_ratios),
+                "{name}"
+            );
         }
         for point in &model.points {
             let is_there = |place: &OutlinePoint| {
-                place.shape == point.shape && place.support_ratio == point.support_ratio
+                place.shape == point.shape && place.support_ratios == point.support_ratios
             };
             assert!(outline.iter().any(is_there), "{}", point.name);
         }

@@ -12,7 +12,7 @@ fn unreduced(structure: &Structure) -> ReducedModel {
 
 /// Complex amplitude of a point per unit support amplitude, from the modal form at `w` rad/s.
 fn transfer(model: &ReducedModel, point: &str, w: f64) -> c64 {
-    let support = model.support.as_ref().unwrap();
+    let support = &model.supports[0];
     let n = model.dof();
     let dynamic = Mat::from_fn(n, n, |i, j| {
         let diagonal = if i == j { model.natural_frequencies[i].powi(2) - w * w } else { 0.0 };
@@ -21,7 +21,7 @@ fn transfer(model: &ReducedModel, point: &str, w: f64) -> c64 {
     let load = Mat::from_fn(n, 1, |i, _| c64::new(w * w * support.inertia[i], -w * support.damping[i]));
     let q = dynamic.partial_piv_lu().solve(load);
     let point = model.point(point).unwrap();
-    (0..n).fold(c64::new(point.support_ratio, 0.0), |sum, i| sum + q[(i, 0)] * point.shape[i])
+    (0..n).fold(c64::new(point.support_ratios[0], 0.0), |sum, i| sum + q[(i, 0)] * point.shape[i])
 }
 
 /// `gamma = k1 / (k1 + k2)` for a mass between a moving mass and the ground.
@@ -29,10 +29,10 @@ fn transfer(model: &ReducedModel, point: &str, w: f64) -> c64 {
 fn mass_between_two_springs_follows_by_their_ratio() {
     let system = lumped(&[("a", 2.0), ("shaker", 1.0)], &[("shaker", "a", 3.0), ("a", "ground", 5.0)], &[]);
     let model = unreduced(&system.structure().unwrap().with_support_motion(&["shaker"]).unwrap());
-    assert_relative_eq!(model.point("a").unwrap().support_ratio, 3.0 / 8.0, max_relative = 1e-15);
-    assert_eq!(model.point("shaker").unwrap().support_ratio, 1.0);
-    assert_eq!(model.point("ground").unwrap().support_ratio, 0.0);
-    assert_relative_eq!(model.support.unwrap().inertia[0], 2.0_f64.sqrt() * 3.0 / 8.0, max_relative = 1e-15);
+    assert_relative_eq!(model.point("a").unwrap().support_ratios[0], 3.0 / 8.0, max_relative = 1e-15);
+    assert_eq!(model.point("shaker").unwrap().support_ratios[0], 1.0);
+    assert_eq!(model.point("ground").unwrap().support_ratios[0], 0.0);
+    assert_relative_eq!(model.supports[0].inertia[0], 2.0_f64.sqrt() * 3.0 / 8.0, max_relative = 1e-15);
     assert_relative_eq!(model.natural_frequencies[0], 2.0, max_relative = 1e-15);
 }
 
@@ -44,8 +44,8 @@ fn mass_on_a_moving_ground_has_the_transmissibility_of_the_textbook() {
     let model = unreduced(&system.structure().unwrap().with_support_motion(&["ground"]).unwrap());
     let expected = c64::new(k, w * c) / c64::new(k - w * w * m, w * c);
     assert_abs_diff_eq!((transfer(&model, "a", w) - expected).norm(), 0.0, epsilon = 1e-14);
-    assert_eq!(model.point("ground").unwrap().support_ratio, 1.0);
-    assert!(model.support.unwrap().damping[0].abs() < 1e-15, "the damper moves with the support");
+    assert_eq!(model.point("ground").unwrap().support_ratios[0], 1.0);
+    assert!(model.supports[0].damping[0].abs() < 1e-15, "the damper moves with the support");
 }
 
 /// Two masses, dampers to a fixed ground and to a moving mass: `(K + i w C - w^2 M) y = -(k_p + i w c_p) u`.
@@ -73,9 +73,9 @@ fn dampers_to_a_fixed_ground_feel_the_absolute_motion() {
 fn beam_without_other_supports_rides_exactly_with_its_support() {
     let beam = paper_beam().structure().unwrap();
     let model = unreduced(&beam.with_support_motion(&["left", "left"]).unwrap());
-    assert_eq!(model.point("contact").unwrap().support_ratio, 1.0);
-    assert_eq!(model.point("right").unwrap().support_ratio, 1.0);
-    for (g, m) in model.support.unwrap().inertia.iter().zip(&model.uniform_acceleration) {
+    assert_eq!(model.point("contact").unwrap().support_ratios[0], 1.0);
+    assert_eq!(model.point("right").unwrap().support_ratios[0], 1.0);
+    for (g, m) in model.supports[0].inertia.iter().zip(&model.uniform_acceleration) {
         assert_abs_diff_eq!(*g, *m, epsilon = 1e-12);
     }
 }
@@ -87,17 +87,17 @@ fn cantilever_moved_at_a_point_bends_up_to_it_and_is_straight_beyond() {
     let points = vec![bare("half", 0.25), bare("driven", 0.5)];
     let beam = unit_beam(12, End::Clamped, End::Free, points).structure().unwrap();
     let model = unreduced(&beam.with_support_motion(&["driven"]).unwrap());
-    assert_relative_eq!(model.point("half").unwrap().support_ratio, 5.0 / 16.0, max_relative = 1e-11);
-    assert_relative_eq!(model.point("right").unwrap().support_ratio, 2.5, max_relative = 1e-11);
-    assert_eq!(model.point("driven").unwrap().support_ratio, 1.0);
+    assert_relative_eq!(model.point("half").unwrap().support_ratios[0], 5.0 / 16.0, max_relative = 1e-11);
+    assert_relative_eq!(model.point("right").unwrap().support_ratios[0], 2.5, max_relative = 1e-11);
+    assert_eq!(model.point("driven").unwrap().support_ratios[0], 1.0);
 }
 
 #[test]
 fn both_ends_shaken_alike_carry_the_beam_as_a_rigid_body() {
     let beam = unit_beam(12, End::Pinned, End::Clamped, vec![bare("mid", 0.5)]).structure().unwrap();
     let model = unreduced(&beam.with_support_motion(&["left", "right"]).unwrap());
-    assert_eq!(model.point("mid").unwrap().support_ratio, 1.0);
-    assert_eq!(model.point("right").unwrap().support_ratio, 1.0);
+    assert_eq!(model.point("mid").unwrap().support_ratios[0], 1.0);
+    assert_eq!(model.point("right").unwrap().support_ratios[0], 1.0);
     assert!(model.point("right").unwrap().shape.iter().all(|phi| *phi == 0.0));
 }
 
@@ -107,8 +107,8 @@ fn one_moved_end_of_a_clamped_beam_bends_it_into_the_hermite_cubic() {
     let beam = unit_beam(12, End::Clamped, End::Clamped, vec![bare("quarter", 0.25)]).structure().unwrap();
     let model = unreduced(&beam.with_support_motion(&["left"]).unwrap());
     let expected = 1.0 - 3.0 / 16.0 + 2.0 / 64.0;
-    assert_relative_eq!(model.point("quarter").unwrap().support_ratio, expected, max_relative = 1e-11);
-    assert_eq!(model.point("right").unwrap().support_ratio, 0.0);
+    assert_relative_eq!(model.point("quarter").unwrap().support_ratios[0], expected, max_relative = 1e-11);
+    assert_eq!(model.point("right").unwrap().support_ratios[0], 0.0);
 }
 
 /// Tip on a spring to a fixed ground, clamp moved: `1 / (1 + k l^3 / (3 EI))`, in every basis.
@@ -123,7 +123,7 @@ fn spring_to_the_ground_holds_back_the_tip_of_a_shaken_cantilever() {
     {
         let model = shaken.reduce(&reduction, &Damping::none(), &["tip"]).unwrap().model;
         assert!(model.dof() < 7);
-        assert_relative_eq!(model.point("tip").unwrap().support_ratio, 1.0 / 3.0, max_relative = 1e-11);
+        assert_relative_eq!(model.point("tip").unwrap().support_ratios[0], 1.0 / 3.0, max_relative = 1e-11);
         for w in [0.0, 2.0, 5.0] {
             let difference = transfer(&model, "tip", w) - transfer(&full, "tip", w);
             assert_abs_diff_eq!(difference.norm(), 0.0, epsilon = 1e-4); // above the cut-off

@@ -8,3 +8,4 @@ mod derivatives;
 mod invariants;
 mod refused_input;
 mod support_motion;
+mod supports_that_differ;

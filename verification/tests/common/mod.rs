@@ -54,11 +54,11 @@ pub fn paper_beam_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
     let element = |&(sign, law): &(f64, Law)| LocalElement {
         name: "stop".into(),
         shape: point.shape.iter().map(|phi| sign * phi).collect(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     };
     let system = System::new(model, &load, laws.iter().map(element).collect()).unwrap();
-    Rig { system, response: Response { shape: point.shape, support_ratio: point.support_ratio } }
+    Rig { system, response: Response { shape: point.shape, support_ratios: point.support_ratios } }
 }
 
 /// The beam of the paper with its Hertz stop.
@@ -68,7 +68,7 @@ pub fn paper_beam() -> Rig {
 
 /// `u = A cos(2 pi f t)`.
 pub fn shaken(amplitude: f64) -> Load {
-    Load { support: vec![Harmonic { order: 1, amplitude, phase: 0.0 }], forces: vec![] }
+    Load { support: vec![Harmonic { order: 1, amplitude, phase: 0.0 }.into()], forces: vec![] }
 }
 
 pub fn hertz(stiffness: f64, gap: f64) -> Law {
@@ -111,13 +111,13 @@ pub fn force_at(model: &ReducedModel, point: &str, order: u32, amplitude: f64) -
 /// A local element between a point and its surroundings; `support_ratio` 0 if these ride on the support.
 pub fn element_at(model: &ReducedModel, point: &str, law: Law) -> LocalElement {
     let point = model.point(point).unwrap();
-    LocalElement { name: "element".into(), shape: point.shape.clone(), support_ratio: 0.0, law }
+    LocalElement { name: "element".into(), shape: point.shape.clone(), support_ratios: vec![0.0], law }
 }
 
 /// The displacement of a point.
 pub fn response_of(model: &ReducedModel, point: &str) -> Response {
     let point = model.point(point).unwrap();
-    Response { shape: point.shape.clone(), support_ratio: point.support_ratio }
+    Response { shape: point.shape.clone(), support_ratios: point.support_ratios.clone() }
 }
 
 /// A branch, both sides joined: the lower end first, as walked upwards.

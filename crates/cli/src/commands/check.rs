@@ -6,8 +6,8 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
-        Amplitude, Approach, Beam, Damping, ExcitationKind, FixedTo, Load, Lumped, ModalRatio, Place,
-        Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
+        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
+        MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
     },
 };
 use serde_json::{Value, json};
@@ -123,8 +123,12 @@ fn text(study: &Study, model: &Model, unit: FrequencyUnit) -> String {
     lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
     lines.extend(in_contact_text(&model.undamped_in_contact()));
     lines.push(format!("excitation   {}", excitation_text(study, unit)));
-    lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
-    lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));
+    lines.extend(
+        study.loads.iter().map(|load| format!("load         {}", load_text(load, &study.excitation))),
+    );
+    lines.extend(
+        study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop, &study.excitation))),
+    );
     if study.excitation.harmonic().is_none() {
         lines.push(format!("response     point {}", study.response.point));
         return lines.join("\n");
@@ -241,36 +245,59 @@ fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
             format!("support motion at {}, amplitude {}", at.join(", "), amplitude_text(amplitude_m, "m"))
         }
+        ExcitationKind::SupportMotions { supports } => {
+            let motion = |support: &MovingSupport| {
+                let (at, amplitude) = (support.at.join(", "), digits(support.amplitude_m));
+                format!("{at} by {amplitude} m at {} rad", digits(support.phase_rad))
+            };
+            let motions: Vec<String> = supports.iter().map(motion).collect();
+            format!("support motion, {}", motions.join("; "))
+        }
         ExcitationKind::Force { at, amplitude_n } => {
             format!("force at {at}, amplitude {}", amplitude_text(amplitude_n, "N"))
         }
     };
+    let phase = match &excitation.kind {
+        ExcitationKind::SupportMotions { .. } => String::new(),
+        _ => format!(", phase {} rad", excitation.phase_rad),
+    };
     format!(
-        "{what}, {} to {} {}, order {}, phase {} rad",
+        "{what}, {} to {} {}, order {}{phase}",
         digits(unit.factor() * low),
         digits(unit.factor() * high),
         unit.symbol(),
         excitation.order,
-        excitation.phase_rad
     )
 }
 
-fn load_text(load: &Load) -> String {
+/// A support in words: by its places where supports move differently.
+fn support_text(excitation: &Excitation, support: usize) -> String {
+    match excitation.supports().get(support) {
+        Some(places) if excitation.supports_differ() => format!("the moving support {}", places.join(", ")),
+        _ => "the moving support".to_owned(),
+    }
+}
+
+fn load_text(load: &Load, excitation: &Excitation) -> String {
     match load {
         Load::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
         Load::Force { at, amplitude_n, order, phase_rad } => {
             format!("force at {at}, {amplitude_n} N, order {order}, phase {phase_rad} rad")
         }
-        Load::SupportMotion { amplitude_m, order, phase_rad } => {
-            format!("support motion, {amplitude_m} m, order {order}, phase {phase_rad} rad")
+        Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
+            let of = match excitation.supports_differ() {
+                true => format!(" of {}", support_text(excitation, *support)),
+                false => String::new(),
+            };
+            format!("support motion{of}, {amplitude_m} m, order {order}, phase {phase_rad} rad")
         }
     }
 }
 
-fn stop_text(stop: &Stop) -> String {
+fn stop_text(stop: &Stop, excitation: &Excitation) -> String {
     let place = match &stop.place {
-        Place::At { point, fixed_to: FixedTo::Support } => {
-            format!("at {point}, riding on the moving support")
+        Place::At { point, fixed_to: FixedTo::Support(support) } => {
+            format!("at {point}, riding on {}", support_text(excitation, *support))
         }
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
         Place::Between { first, second } => format!("between {first} and {second}"),

@@ -180,13 +180,10 @@ impl<'a> Motion<'a> {
     /// Displacement and velocity of the response point at phase 0.
     fn point(&self, frequency_hz: f64, state: &[f64]) -> [f64; 2] {
         let response = &self.model.response;
-        let [support, speed, ..] = self.model.system.support_motion(frequency_hz, 0.0);
+        let [carried, speed, ..] = self.model.system.carried(&response.support_ratios, frequency_hz, 0.0);
         let (displacements, velocities) = state.split_at(state.len() / 2);
         let read = |values: &[f64]| response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
-        [
-            read(displacements) + response.support_ratio * support,
-            read(velocities) + response.support_ratio * speed,
-        ]
+        [read(displacements) + carried, read(velocities) + speed]
     }
 }
 

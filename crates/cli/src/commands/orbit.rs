@@ -44,7 +44,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         let low_pass_hz = options.low_pass.or(file.study.figures.low_pass_hz);
         let mut drawn = Drawn::into(folder)?.on(1, interrupt);
         drawn.frequency_unit = output.frequency_unit;
-        figures::orbit::draw((&model, &file.study.title), &orbits, low_pass_hz, &mut drawn)?;
+        figures::orbit::draw((&file, &model), &orbits, low_pass_hz, &mut drawn)?;
         document["figures"] = json!(drawn.finish()?.names);
     }
     output.give(&document, || text(first, others, (&file.study.response.point, output.frequency_unit)))?;

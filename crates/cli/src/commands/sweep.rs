@@ -31,8 +31,10 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let upward = series((options.from.unwrap_or(low), options.to.unwrap_or(high)), options.step, "--from")?;
     let (results, out) = (options.results.as_deref(), options.out.as_deref());
     branches(results, out, &file)?;
-    let observable =
-        Observable { shape: model.response.shape.clone(), support_ratio: model.response.support_ratio };
+    let observable = Observable {
+        shape: model.response.shape.clone(),
+        support_ratios: model.response.support_ratios.clone(),
+    };
     let motion = ExactSettings::default();
     let settings =
         SweepSettings { effort: (&options.effort).into(), sampled: options.samples as usize, motion };

@@ -107,7 +107,7 @@ pub fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figu
     ReductionDiagram { title: title.to_owned(), modes }.draw(style)
 }
 
-/// The amplitude of the excitation: of the acceleration of a support, or of a force.
+/// The amplitude of the excitation: of the acceleration of supports, `A (2 pi m f)^2`, or of a force.
 pub fn excitation(
     title: &str,
     excitation: &HarmonicExcitation,
@@ -115,27 +115,36 @@ pub fn excitation(
 ) -> Result<Figure, FigureError> {
     let [low, high] = excitation.frequency_hz;
     let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
-    let rows =
-        (0..=ROWS).map(frequency).map(|frequency_hz| (frequency_hz, amplitude(excitation, frequency_hz)));
+    let frequencies: Vec<f64> = (0..=ROWS).map(frequency).collect();
+    let rate = |frequency_hz: f64| (TAU * f64::from(excitation.order) * frequency_hz).powi(2);
+    let mut names = Vec::new();
+    let mut curves: Vec<Vec<f64>> = match &excitation.kind {
+        ExcitationKind::SupportMotion { amplitude_m, .. } => {
+            vec![frequencies.iter().map(|f| amplitude_m.at(*f) * rate(*f)).collect()]
+        }
+        ExcitationKind::SupportMotions { supports } => {
+            names.extend(supports.iter().map(|support| support.at.join(", ")));
+            let of = |amplitude: f64| frequencies.iter().map(|f| amplitude * rate(*f)).collect();
+            supports.iter().map(|support| of(support.amplitude_m)).collect()
+        }
+        ExcitationKind::Force { amplitude_n, .. } => {
+            vec![frequencies.iter().map(|f| amplitude_n.at(*f)).collect()]
+        }
+    };
     let quantity = match excitation.kind {
         ExcitationKind::SupportMotion { .. } => "Acceleration of the support (m/s²)",
+        ExcitationKind::SupportMotions { .. } => "Acceleration of the supports (m/s²)",
         ExcitationKind::Force { .. } => "Amplitude of the force (N)",
     };
+    let further = curves.split_off(1);
+    let first = curves.pop().unwrap_or_default();
     let diagram = ExcitationDiagram {
         title: title.to_owned(),
         quantity: quantity.to_owned(),
-        rows: rows.collect(),
+        rows: frequencies.into_iter().zip(first).collect(),
+        further,
+        names,
         measured: Vec::new(),
     };
     diagram.draw(style)
-}
-
-/// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).
-fn amplitude(excitation: &HarmonicExcitation, frequency_hz: f64) -> f64 {
-    match &excitation.kind {
-        ExcitationKind::SupportMotion { amplitude_m, .. } => {
-            amplitude_m.at(frequency_hz) * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)
-        }
-        ExcitationKind::Force { amplitude_n, .. } => amplitude_n.at(frequency_hz),
-    }
 }

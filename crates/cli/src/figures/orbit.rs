@@ -10,7 +10,10 @@ use hammerbeam_figure::{
 };
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
-use hammerbeam_study::{Model, StoredBranches, StudyFile, file::DrawnOrbit};
+use hammerbeam_study::{
+    Model, StoredBranches, StudyFile,
+    file::{DrawnOrbit, Excitation},
+};
 
 use super::{Album, Drawn, unless_damaged};
 use crate::failure::Failure;
@@ -23,13 +26,13 @@ const ORDER: usize = 4;
 ///
 /// * `low_pass_hz`: cut-off of the filter behind which accelerations are drawn as well.
 pub fn draw(
-    (model, title): (&Model, &str),
+    (file, model): (&StudyFile, &Model),
     orbits: &[PeriodicSolution],
     low_pass_hz: Option<f64>,
     drawn: &mut Drawn<'_>,
 ) -> Result<(), Failure> {
     for (number, orbit) in (1..).zip(orbits) {
-        let diagram = diagram((model, title), orbit, (low_pass_hz, drawn.frequency_unit))?;
+        let diagram = diagram((file, model), orbit, (low_pass_hz, drawn.frequency_unit))?;
         add(drawn, &format!("orbit-{number}"), &diagram);
     }
     Ok(())
@@ -85,7 +88,7 @@ pub fn draw_stored(
         match found.first() {
             Some(orbit) => {
                 let shown = (low_pass_hz, drawn.frequency_unit);
-                add(drawn, &name, &diagram((model, &file.study.title), orbit, shown)?);
+                add(drawn, &name, &diagram((file, model), orbit, shown)?);
             }
             None => drawn.refuse(
                 &name,
@@ -106,14 +109,14 @@ fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) {
 }
 
 fn diagram(
-    (model, title): (&Model, &str),
+    (file, model): (&StudyFile, &Model),
     orbit: &PeriodicSolution,
     (low_pass_hz, unit): (Option<f64>, FrequencyUnit),
 ) -> Result<OrbitDiagram, Failure> {
     let frequency_hz = orbit.frequency_hz;
     let stability = orbit.stability().word();
     let (frequency, multiple) = (unit.words(frequency_hz), orbit.period_multiple);
-    let title = format!("{title}, {frequency}, period {multiple}, {stability}");
+    let title = format!("{}, {frequency}, period {multiple}, {stability}", file.study.title);
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
     let (samples, impulses) = course(model, orbit)?;
@@ -136,7 +139,15 @@ fn diagram(
         filtered,
         element_names: model.system.elements().iter().map(|element| element.name.clone()).collect(),
         eigenfrequencies_hz,
+        support_names: support_names(&file.study.excitation),
     })
+}
+
+/// Names of the supports that move, where there are several.
+fn support_names(excitation: &Excitation) -> Vec<String> {
+    let supports = excitation.supports();
+    let several = supports.len() > 1;
+    supports.into_iter().filter(|_| several).map(|places| format!("support {}", places.join(", "))).collect()
 }
 
 /// The accelerations, each jump of the velocity among them as the acceleration that makes it within the step

@@ -4,7 +4,7 @@ mod words;
 
 use hammerbeam_figure::{
     Figure, FigureError, FrequencyUnit, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink,
-    SketchLumped, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
+    SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
 };
 use hammerbeam_study::{
     Study,
@@ -31,11 +31,19 @@ pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError>
         title: study.title.clone(),
         layout,
         stops: study.stops.iter().map(sketched_stop).collect(),
-        moving: study.excitation.moving_supports().to_vec(),
+        moving: moving(study),
         forces,
         words: words::of(study, unit),
     };
     diagram.draw(&style)
+}
+
+/// The places that move, each with its support.
+fn moving(study: &Study) -> Vec<SketchMotion> {
+    let of_support = |(support, places): (usize, &[String])| -> Vec<SketchMotion> {
+        places.iter().map(|place| SketchMotion { place: place.clone(), support }).collect()
+    };
+    study.excitation.supports().into_iter().enumerate().flat_map(of_support).collect()
 }
 
 fn sketched_beam(beam: &Beam) -> SketchBeam {
@@ -80,7 +88,7 @@ fn sketched_masses(lumped: &Lumped) -> SketchLumped {
 
 fn sketched_stop(stop: &Stop) -> SketchStop {
     let (point, carrier) = match &stop.place {
-        Place::At { point, fixed_to: FixedTo::Support } => (point, SketchCarrier::Support),
+        Place::At { point, fixed_to: FixedTo::Support(support) } => (point, SketchCarrier::Support(*support)),
         Place::At { point, fixed_to: FixedTo::Space } => (point, SketchCarrier::Space),
         Place::Between { first, second } => (first, SketchCarrier::Point(second.clone())),
     };

@@ -27,7 +27,8 @@ export interface Place {
     name: string;
     at: number;
     shape: number[];
-    support: number;
+    /** Displacement per unit displacement of each support that moves. */
+    support: number[];
 }
 
 export interface Stop {
@@ -35,7 +36,8 @@ export interface Stop {
     element: number;
     place: number;
     other: number | null;
-    rides: boolean;
+    /** Number of the moving support that it rides on. */
+    rides: number | null;
     levels: { level: number; above: boolean }[];
 }
 
@@ -45,6 +47,10 @@ export interface Structure {
     stops: Stop[];
     links: { ends: [number | null, number | null]; damper: boolean }[];
     eigenfrequencies: number[];
+    /** Names of the supports that move. */
+    supports: string[];
+    /** Number of the support that moves the ground. */
+    ground: number | null;
 }
 
 export type MotionKind = "periodic" | "quasi-periodic" | "chaotic" | "doubtful";

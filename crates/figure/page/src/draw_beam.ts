@@ -1,7 +1,7 @@
 // A beam in motion against its stops, on a canvas.
 
 import type { Structure } from "./data";
-import type { Pose } from "./motion";
+import { carrierOf, type Pose } from "./motion";
 import { hatched, type Sketch } from "./sketch";
 
 /** Draws a beam; `perMetre` is for displacements. Returns how many times larger than lengths they are drawn. */
@@ -31,7 +31,7 @@ export function drawBeam(sketch: Sketch, structure: Structure, pose: Pose, perMe
     }
     for (const stop of structure.stops) {
         const isPressed = pose.pressed[stop.element] === true;
-        const carrier = stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides ? pose.support : 0;
+        const carrier = carrierOf(stop, pose);
         for (const { level, above } of stop.levels) {
             drawStop(sketch, x(stop.place), y(carrier + level), above, isPressed);
         }

@@ -2,7 +2,7 @@
 
 import type { Stop, Structure } from "./data";
 import { EDGE, joinedOf, layoutOf, namesOf, WALL, type Joined, type Layout } from "./mass_layout";
-import type { Pose } from "./motion";
+import { carrierOf, type Pose } from "./motion";
 import { dashpot, hatched, spring, type Sketch } from "./sketch";
 
 /** Where the masses are, as a share of the height: what lies below them needs more room than what is above. */
@@ -28,7 +28,7 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
     const layout = layoutOf(count, width);
     const { rest, spacing, size } = layout;
     const middle = MIDDLE * height;
-    const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * pose.support));
+    const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * (structure.ground === null ? 0 : (pose.supports[structure.ground] ?? 0))));
     const x = (place: number): number => (rest[place] ?? 0) + perMetre * (pose.places[place] ?? 0);
     const scene = { ...sketch, layout, middle, x, ground };
     const joined = joinedOf(structure.links, count);
@@ -108,7 +108,7 @@ function join(sketch: Sketch, isDamper: boolean, from: number, to: number, y: nu
 function drawStop({ context, theme, layout, middle }: Scene, stop: Stop, pose: Pose, perMetre: number): void {
     const { rest, spacing, size } = layout;
     const isPressed = pose.pressed[stop.element] === true;
-    const carrier = stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides ? pose.support : 0;
+    const carrier = carrierOf(stop, pose);
     const half = size / 2 + OVER;
     const thickness = Math.min(5, 0.2 * spacing);
     for (const { level, above } of stop.levels) {

@@ -1,12 +1,13 @@
 // The structure at an instant of an orbit.
 
-import type { Structure } from "./data";
+import type { Stop, Structure } from "./data";
 import type { Orbit } from "./orbit";
 
 export interface Pose {
     /** Displacement of each place (m). */
     places: number[];
-    support: number;
+    /** Displacement of each support that moves (m). */
+    supports: number[];
     /** Whether a force of each local element acts in this step, or an impulse did just before. */
     pressed: boolean[];
 }
@@ -24,14 +25,27 @@ export function smooth(values: Float64Array, place: number): number {
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
+/** The samples of each support over one excitation period. */
+export function supportsOf(orbit: Orbit, count: number): Float64Array[] {
+    const each = orbit.support.length / Math.max(1, count);
+    return Array.from({ length: count }, (_, k) => orbit.support.subarray(k * each, (k + 1) * each));
+}
+
+/** What carries a stop (m). */
+export function carrierOf(stop: Stop, pose: Pose): number {
+    return stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides !== null ? (pose.supports[stop.rides] ?? 0) : 0;
+}
+
 /** The pose at an instant, in excitation periods since phase 0. */
 export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pose {
     const share = instant / orbit.period;
     const modes = orbit.modes.map((values) => smooth(values, share * values.length));
-    // Its samples are those of one excitation period.
-    const support = orbit.support.length > 0 ? smooth(orbit.support, instant * orbit.support.length) : 0;
+    const supports = supportsOf(orbit, structure.supports.length).map((values) => smooth(values, instant * values.length));
     const places = structure.places.map((place) =>
-        modes.reduce((sum, value, mode) => sum + value * (place.shape[mode] ?? 0), place.support * support),
+        modes.reduce(
+            (sum, value, mode) => sum + value * (place.shape[mode] ?? 0),
+            supports.reduce((sum, value, k) => sum + value * (place.support[k] ?? 0), 0),
+        ),
     );
     const force = (values: Float64Array): number => {
         const step = 2 * Math.min(values.length / 2 - 1, Math.floor((share * values.length) / 2));
@@ -39,16 +53,16 @@ export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pos
     };
     const isStruck = (element: number): boolean =>
         orbit.impulses.some((impulse) => impulse.element === element && (instant - impulse.cycles + orbit.period) % orbit.period < SEEN);
-    return { places, support, pressed: orbit.forces.map((values, k) => force(values) > 0 || isStruck(k)) };
+    return { places, supports, pressed: orbit.forces.map((values, k) => force(values) > 0 || isStruck(k)) };
 }
 
-/** Largest displacement of any place, or of the support (m). */
+/** Largest displacement of any place, or of a support (m). */
 export function largestDisplacement(structure: Structure, orbit: Orbit): number {
     const steps = orbit.modes[0]?.length ?? 0;
     let largest = 0;
     for (let step = 0; step < steps; step++) {
-        const { places, support } = poseAt(structure, orbit, (step * orbit.period) / steps);
-        largest = Math.max(largest, Math.abs(support), ...places.map(Math.abs));
+        const { places, supports } = poseAt(structure, orbit, (step * orbit.period) / steps);
+        largest = Math.max(largest, ...supports.map(Math.abs), ...places.map(Math.abs));
     }
     return largest;
 }

@@ -4,6 +4,7 @@ import type { Meta, Solutions } from "./data";
 import { element, panel } from "./dom";
 import { digits } from "./format";
 import { ends, LinePlot, type Line, type Plot } from "./line_plot";
+import { supportsOf } from "./motion";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
 
@@ -59,7 +60,7 @@ export class OrbitPlots {
 
     show(orbit: Orbit): void {
         this.orbit = orbit;
-        const [first, second] = [this.theme.period(1), this.theme.period(2)];
+        const first = this.theme.period(1);
         const over = (yLabel: string, series: Series[], factor: number, lines: (k: number) => Pick<Line, "colour" | "dash">): Plot => {
             const y = series.map(([, values]) => closed(values.map((value) => factor * value)));
             const x = series.map(([time]) => time);
@@ -70,10 +71,13 @@ export class OrbitPlots {
             [closed(values.map((_, k) => ((k + shift) * orbit.period) / values.length), orbit.period + (shift * orbit.period) / values.length), values];
         const isMoved = orbit.support.some((value) => value !== 0);
         this.support.hidden = !isMoved;
+        const moved = this.meta.structure?.supports ?? [];
+        this.support.textContent = moved.length > 1 ? `Dashed, in their order: supports ${moved.join("; ")}.` : "Dashed: the support.";
         const [times, values] = orbit.course;
         const course: Series = [times, values.subarray(0, -1)];
-        const moving = isMoved ? [course, timed(repeated(orbit.support, orbit.period))] : [course];
-        this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: second, dash: [5, 3] })));
+        const supports = isMoved ? supportsOf(orbit, Math.max(1, moved.length)) : [];
+        const moving = [course, ...supports.map((support) => timed(repeated(support, orbit.period)))];
+        this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: this.theme.period(k + 1), dash: [5, 3] })));
         this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
         this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
         // As in print: where all stops are rigid and none sticks there are no forces to draw.

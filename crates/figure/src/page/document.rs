@@ -78,7 +78,7 @@ fn meta(page: &Page) -> Value {
 
 fn structure(structure: &PageStructure) -> Value {
     let places = structure.places.iter().map(|place| {
-        json!({ "name": place.name, "at": place.at, "shape": place.shape, "support": place.support_ratio })
+        json!({ "name": place.name, "at": place.at, "shape": place.shape, "support": place.support_ratios })
     });
     let links = structure.links.iter().map(|link| json!({ "ends": link.ends, "damper": link.is_damper }));
     json!({
@@ -87,6 +87,8 @@ fn structure(structure: &PageStructure) -> Value {
         "stops": structure.stops.iter().map(stop).collect::<Vec<_>>(),
         "links": links.collect::<Vec<_>>(),
         "eigenfrequencies": structure.eigenfrequencies_hz,
+        "supports": structure.supports,
+        "ground": structure.ground,
     })
 }
 

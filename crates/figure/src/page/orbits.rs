@@ -31,7 +31,8 @@ pub struct PageOrbit {
     pub acceleration_m_s2: Vec<[f64; 2]>,
     /// The same of the force of each local element (N).
     pub forces_n: Vec<Vec<[f64; 2]>>,
-    /// Displacement of the support (m) at equal steps of its own over one excitation period.
+    /// Displacements of the supports that move (m), one after the other, at equal steps of their own over one
+    /// excitation period.
     pub support_m: Vec<f64>,
     /// Coordinates (kg^1/2 m) of the modes that are drawn, at equal steps of their own over the period of the
     /// orbit.

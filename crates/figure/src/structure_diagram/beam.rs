@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     FigureError, Style,
-    sketch::{Behind, HATCH, arrow, at, body, damper, disc, line, spring, turn, variable, wall},
+    sketch::{Behind, HATCH, arrow, at, block, body, damper, disc, line, spring, turn, variable, wall},
     style::{INK, PAPER},
     svg::{Anchor, SvgWriter, points},
 };
@@ -125,10 +125,10 @@ impl Place<'_> {
         (x == self.right && self.diagram.moves("right")) || places.any(|place| (place - x).abs() < 9.0)
     }
 
-    /// Points between the ends that follow the support.
+    /// Points between the ends that follow a support.
     fn inner_moving(&self) -> impl Iterator<Item = f64> + '_ {
-        let inner = self.diagram.moving.iter().filter(|name| *name != "left" && *name != "right");
-        inner.filter_map(|name| self.of(name))
+        let inner = self.diagram.moving.iter().filter(|moving| !["left", "right"].contains(&&*moving.place));
+        inner.filter_map(|moving| self.of(&moving.place))
     }
 
     /// Points whose distance is drawn.
@@ -220,6 +220,12 @@ impl Place<'_> {
             if is_still {
                 let behind = if above { Behind::Above } else { Behind::Below };
                 wall(svg, at(x - 7.0, foot), at(x + 7.0, foot), behind);
+            } else if let (SketchCarrier::Support(support), true) =
+                (&drawn.carrier, self.diagram.supports_differ())
+            {
+                block(svg, at(x - 7.0, foot), at(x + 7.0, foot + sign * BASE));
+                let motion = self.diagram.motion_of(*support);
+                variable(svg, at(x + 10.0, foot + 3.0), &motion, Anchor::Start, self.style);
             }
         }
     }

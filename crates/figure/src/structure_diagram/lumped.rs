@@ -48,9 +48,9 @@ struct Lane {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Foot {
     Mass,
-    /// The ground, and whether it moves.
+    /// The ground, or a support, which moves.
     Ground {
-        moves: bool,
+        support: Option<usize>,
     },
 }
 
@@ -126,7 +126,7 @@ fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>
     let count = lumped.masses.len();
     let mut spaces: Vec<Vec<Lane>> = vec![Vec::new(); count + 1];
     let mut bridges = Vec::new();
-    let ground = Foot::Ground { moves: diagram.moves("ground") };
+    let ground = Foot::Ground { support: diagram.support_of("ground") };
     for link in &lumped.links {
         let element = if link.is_damper { Element::Damper } else { Element::Spring };
         match link.between {
@@ -156,11 +156,12 @@ fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>
                     }
                     None => fix(&mut spaces, mass, from_left, element, ground),
                 },
-                SketchCarrier::Support => {
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: true });
+                SketchCarrier::Support(number) => {
+                    let support = Some(*number);
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { support });
                 }
                 SketchCarrier::Space => {
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: false });
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { support: None });
                 }
             }
         }
@@ -213,9 +214,10 @@ impl Place<'_> {
                 arrow(svg, at(middle - reach, y), at(middle + reach, y), true);
                 variable(svg, at(middle + 12.0, y + 2.4), "F", Anchor::Start, self.style);
             }
-            if self.diagram.moves(name) {
+            if let Some(support) = self.diagram.support_of(name) {
                 arrow(svg, at(middle - reach, y), at(middle + reach, y), true);
-                variable(svg, at(middle + 12.0, y + 2.4), "u", Anchor::Start, self.style);
+                let motion = self.diagram.motion_of(support);
+                variable(svg, at(middle + 12.0, y + 2.4), &motion, Anchor::Start, self.style);
             }
         }
     }
@@ -241,7 +243,8 @@ impl Place<'_> {
             let y = self.top + (k as f64 + 0.5) * pitch;
             let mut ends = [left, right];
             for side in 0..2 {
-                let Foot::Ground { moves } = lane.ends[side] else { continue };
+                let Foot::Ground { support } = lane.ends[side] else { continue };
+                let moves = support.is_some();
                 if is_outer[side] {
                     self.draw_wall(svg, ends[side], y, (side == 0, pitch), moves);
                 } else {
@@ -256,13 +259,20 @@ impl Place<'_> {
             draw_element(svg, lane.element, ends, y);
         }
         for (side, x) in [(0, left), (1, right)] {
-            let moving = lanes.iter().any(|lane| lane.ends[side] == Foot::Ground { moves: true });
-            if is_outer[side] && moving {
+            let moving = lanes.iter().filter_map(|lane| match lane.ends[side] {
+                Foot::Ground { support } => support,
+                Foot::Mass => None,
+            });
+            let mut supports: Vec<usize> = moving.collect();
+            supports.sort_unstable();
+            supports.dedup();
+            if is_outer[side] && !supports.is_empty() {
                 let sign = if side == 0 { -1.0 } else { 1.0 };
                 let middle = x + sign * (THICK + 7.0);
                 let y = self.bottom + 7.0;
                 arrow(svg, at(middle - 8.0, y), at(middle + 8.0, y), true);
-                variable(svg, at(middle, y + 8.5), "u", Anchor::Middle, self.style);
+                let motions: Vec<String> = supports.iter().map(|k| self.diagram.motion_of(*k)).collect();
+                variable(svg, at(middle, y + 8.5), &motions.join(", "), Anchor::Middle, self.style);
             }
         }
     }

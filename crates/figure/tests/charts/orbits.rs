@@ -47,7 +47,7 @@ fn a_filtered_acceleration_has_a_panel_of_its_own_with_the_cut_off() {
 fn the_support_is_drawn_over_the_displacement_and_named() {
     let svg = orbit().draw_history(&Style::double_column()).unwrap().svg();
     assert!(svg.contains(">response point<") && svg.contains(">support<"));
-    let still = |sample: &OrbitSample| OrbitSample { support_m: None, ..sample.clone() };
+    let still = |sample: &OrbitSample| OrbitSample { supports_m: Vec::new(), ..sample.clone() };
     let still = OrbitDiagram { samples: orbit().samples.iter().map(still).collect(), ..orbit() };
     assert!(!still.draw_history(&Style::double_column()).unwrap().svg().contains(">support<"));
 }

@@ -83,7 +83,7 @@ pub fn orbit() -> OrbitDiagram {
             velocity_m_s: -t.sin(),
             acceleration_m_s2: 100.0 * t.cos() + 10.0 * (3.0 * t).cos(),
             forces_n: vec![t.cos().max(0.0), 0.0],
-            support_m: Some(1e-4 * t.cos()),
+            supports_m: vec![1e-4 * t.cos()],
         }
     };
     OrbitDiagram {
@@ -95,6 +95,7 @@ pub fn orbit() -> OrbitDiagram {
         filtered: None,
         element_names: Vec::new(),
         eigenfrequencies_hz: vec![18.0],
+        support_names: Vec::new(),
     }
 }
 

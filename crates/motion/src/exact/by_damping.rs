@@ -189,17 +189,19 @@ impl ByDamping {
 }
 
 /// What a unit of a part of the damping adds to the modal load of each order of the particular solution: `-i
-/// m W U_m d_z`; empty where the support transmits nothing.
+/// m W sum_s U_sm d_s`; empty where the supports transmit nothing.
 fn transmitted(system: &System, part: usize, drive: &Drive) -> Vec<Vec<c64>> {
-    let DampingPart { support, .. } = &system.damping_parts()[part];
-    if support.iter().all(|value| *value == 0.0) {
+    let DampingPart { supports, .. } = &system.damping_parts()[part];
+    if supports.iter().flatten().all(|value| *value == 0.0) {
         return Vec::new();
     }
     let frequency = drive.circular_frequency();
     let of_order = |(index, &order): (usize, &u32)| {
-        let velocity =
-            system.support_amplitude(index, frequency).0 * c64::new(0.0, f64::from(order) * frequency);
-        support.iter().map(|value| -velocity * *value).collect()
+        let rate = c64::new(0.0, f64::from(order) * frequency);
+        let moved = system.support_amplitudes(index, frequency);
+        let load =
+            |i: usize| moved.iter().zip(supports).map(|((u, _), values)| -(*u * rate) * values[i]).sum();
+        (0..system.dof()).map(load).collect()
     };
     system.orders().iter().enumerate().map(of_order).collect()
 }

@@ -121,8 +121,8 @@ impl ExactIntegrator {
     }
 
     /// Starts anew with a system whose structure has changed.
-    fn rebuild(&mut self, system: System, response: Option<(Vec<f64>, f64)>) -> Result<(), MotionError> {
-        let response = response.as_ref().map(|(shape, ratio)| (shape.as_slice(), *ratio));
+    fn rebuild(&mut self, system: System, response: Option<(Vec<f64>, Vec<f64>)>) -> Result<(), MotionError> {
+        let response = response.as_ref().map(|(shape, ratios)| (shape.as_slice(), ratios.as_slice()));
         let rebuilt = Self::watching(system, self.settings, response)?;
         let before = std::mem::replace(self, rebuilt);
         self.counts = before.counts;

@@ -94,18 +94,18 @@ impl Drive {
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
         let load = system.modal_load(index, self.circular_frequency);
         let (state, state_by_frequency) = self.steady(blocks, blocks.count(), (&load, order));
-        let support = system.support_amplitude(index, self.circular_frequency);
-        self.push(outputs, (order, support), state, state_by_frequency);
+        let supports = system.support_amplitudes(index, self.circular_frequency);
+        self.push(outputs, (order, &supports), state, state_by_frequency);
     }
 
     /// Adds an order of a held structure (`held.rs`): `load` drives the blocks that move, the others are
-    /// `prescribed`, and what acts on the pressing forces, the last outputs, directly is `forces`. Support,
+    /// `prescribed`, and what acts on the pressing forces, the last outputs, directly is `forces`. Supports,
     /// prescribed blocks and forces come with their derivatives by the circular frequency.
     pub fn add_held(
         &mut self,
         blocks: &Blocks,
         outputs: &[Output],
-        (order, support): (f64, (c64, c64)),
+        (order, supports): (f64, &[(c64, c64)]),
         (load, prescribed): (&ModalLoad, &[(c64, c64)]),
         forces: &[(c64, c64)],
     ) {
@@ -119,7 +119,7 @@ impl Drive {
             state_by_frequency[moving + j] = slope;
             state_by_frequency[n + moving + j] = *value * c64::new(0.0, order * TAU) + slope * rate;
         }
-        self.push(outputs, (order, support), state, state_by_frequency);
+        self.push(outputs, (order, supports), state, state_by_frequency);
         let last = self.orders.last_mut().into_iter().flat_map(|order| order.outputs.iter_mut().rev());
         for (output, (force, by_circular_frequency)) in last.zip(forces.iter().rev()) {
             output.0 += force;
@@ -178,14 +178,16 @@ impl Drive {
     fn push(
         &mut self,
         outputs: &[Output],
-        (order, (support, by_circular)): (f64, (c64, c64)),
+        (order, supports): (f64, &[(c64, c64)]),
         state: Vec<c64>,
         state_by_frequency: Vec<c64>,
     ) {
         let amplitude = |output: &Output| {
             let read = |values: &[c64]| output.row.iter().zip(values).map(|(r, v)| *v * *r).sum::<c64>();
-            let slope = by_circular * (TAU * output.support_ratio);
-            (read(&state) + support * output.support_ratio, read(&state_by_frequency) + slope)
+            let moved = || supports.iter().zip(&output.support_ratios);
+            let carried = moved().map(|((support, _), ratio)| support * ratio).sum::<c64>();
+            let slope = moved().map(|((_, by_circular), ratio)| by_circular * (TAU * ratio)).sum::<c64>();
+            (read(&state) + carried, read(&state_by_frequency) + slope)
         };
         let outputs = outputs.iter().map(amplitude).collect();
         self.orders.push(Order { order, state, state_by_frequency, outputs });

@@ -256,13 +256,13 @@ mod tests {
         let model = ReducedModel {
             natural_frequencies: vec![1.0],
             damping: Mat::zeros(1, 1),
-            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-            support: None,
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+            supports: vec![],
             uniform_acceleration: vec![1.0],
         };
         let system = System::new(model, &Load::default(), Vec::new()).unwrap();
         let mut integrator =
-            ExactIntegrator::watching(system, ExactSettings::default(), Some((&[1.0], 0.0))).unwrap();
+            ExactIntegrator::watching(system, ExactSettings::default(), Some((&[1.0], &[0.0]))).unwrap();
         for k in 0..4000 {
             let phase = std::f64::consts::PI * f64::from(k % 199) / 199.0;
             let duration = 0.01 + 4.0 * f64::from(k % 251) / 251.0;

@@ -1,15 +1,15 @@
 //! A structure that is held on rigid stops: the linear structure that is left while contacts stick.
 //!
-//! While the elements of a set S are held on their stops, `r_j = phi_j . q + s_j u = level_j`, the structure
-//! obeys
+//! While the elements of a set S are held on their stops, `r_j = phi_j . q + s_j . u = level_j`, with the
+//! displacements u of the supports, the structure obeys
 //!
 //! `q'' + C q' + diag(w^2) q = b(t) - Phi lambda`, `Phi = [phi_j]`, `lambda_j >= 0` the pressing forces.
 //!
 //! With `D = Phi^T Phi` and an orthonormal basis N of the complement of Phi it is `q = q_S(t) + N y`, `q_S =
-//! Phi D^-1 (level - s u)`, and y moves freely:
+//! Phi D^-1 (level - s . u)`, and y moves freely:
 //!
 //! `y'' + N^T C N y' + N^T diag(w^2) N y = N^T (b - C q_S' - diag(w^2) q_S)`,
-//! `lambda = D^-1 (Phi^T (b - C q' - diag(w^2) q) + s u'')`.
+//! `lambda = D^-1 (Phi^T (b - C q' - diag(w^2) q) + s . u'')`.
 //!
 //! Forces of other elements add `Phi_e F_e` to both right sides, `N^T phi_e F_e` and `D^-1 Phi^T phi_e F_e`
 //! (`pressing.rs`).
@@ -19,8 +19,8 @@
 //! small eigenfrequencies to their digits), then the damping is decoupled as in `decouple.rs`.
 //!
 //! **One state for both.** The state keeps its length 2n: besides the n - s blocks of y it has s blocks
-//! `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is prescribed: `(level_j - s_j u,
-//! -s_j u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q;
+//! `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is prescribed: `(level_j - s_j . u,
+//! -s_j . u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q;
 //! q'] - particular` as everywhere, flight, certified search, force steps, sensitivities, traces and maxima
 //! are those of the free structure with these blocks, and the pressing forces are outputs of their own, after
 //! all others.
@@ -61,7 +61,7 @@ impl Held {
     pub fn new(
         system: &System,
         elements: &[usize],
-        outputs: &[(Vec<f64>, f64)],
+        outputs: &[(Vec<f64>, Vec<f64>)],
         stretch: &Stretch,
     ) -> Result<Option<Self>, MergedModes> {
         let (n, s) = (system.dof(), elements.len());
@@ -74,7 +74,7 @@ impl Held {
         let (moving, frequencies) = moving_modes(system.model(), &directions, s)?;
         let blocks = blocks_of(system, (&moving, &frequencies), &lift, elements)?;
         let mut read: Vec<Output> =
-            outputs.iter().map(|(shape, ratio)| Output::new(&blocks, shape, *ratio)).collect();
+            outputs.iter().map(|(shape, ratios)| Output::new(&blocks, shape, ratios)).collect();
         read.extend((0..s).map(|j| pressing_force(system, &blocks, &lift, j)));
         let inputs: Vec<Vec<f64>> =
             system.elements().iter().map(|e| held_input(&blocks, &e.shape, s)).collect();
@@ -121,19 +121,19 @@ impl Held {
             let m = f64::from(order);
             let rate = c64::new(0.0, m * drive.circular_frequency());
             let circular = drive.circular_frequency();
-            let support = index.map_or((zero, zero), |index| system.support_amplitude(index, circular));
+            let supports = index.map_or_else(Vec::new, |index| system.support_amplitudes(index, circular));
             let prescribed: Vec<(c64, c64)> = (0..s)
                 .map(|j| {
                     let level = if order == 0 { levels[j] } else { 0.0 };
-                    let ratio = system.elements()[self.elements[j]].support_ratio;
-                    (c64::new(level, 0.0) - support.0 * ratio, -support.1 * ratio)
+                    let carried = carried(&supports, &system.elements()[self.elements[j]].support_ratios);
+                    (c64::new(level, 0.0) - carried.0, -carried.1)
                 })
                 .collect();
             let mut load = index.map_or_else(
                 || crate::ModalLoad { amplitude: vec![zero; n], by_frequency: vec![zero; n] },
                 |index| system.modal_load(index, circular),
             );
-            let forces = self.direct_forces(system, &load, (support, m, circular));
+            let forces = self.direct_forces(system, &load, (&supports, m, circular));
             let lifted = |of: fn(&(c64, c64)) -> c64| -> Vec<c64> {
                 (0..n).map(|i| (0..s).map(|j| of(&prescribed[j]) * self.lift[(i, j)]).sum()).collect()
             };
@@ -146,26 +146,27 @@ impl Held {
                     + by_circular[i] * stiffness
                     + rate * damped(&by_circular);
             }
-            drive.add_held(blocks, outputs, (m, support), (&load, &prescribed), &forces);
+            drive.add_held(blocks, outputs, (m, &supports), (&load, &prescribed), &forces);
         }
         drive
     }
 
-    /// `D^-1 (Phi^T b + s u'')` of one order and its derivative by the circular frequency; what else the
+    /// `D^-1 (Phi^T b + s . u'')` of one order and its derivative by the circular frequency; what else the
     /// stops press with is read from the state.
     fn direct_forces(
         &self,
         system: &System,
         load: &crate::ModalLoad,
-        (support, m, frequency): ((c64, c64), f64, f64),
+        (supports, m, frequency): (&[(c64, c64)], f64, f64),
     ) -> Vec<(c64, c64)> {
         let (n, s) = (self.lift.nrows(), self.elements.len());
         let gram = self.inverse_gram();
         let of = |j: usize, values: &[c64]| (0..n).map(|i| values[i] * self.lift[(i, j)]).sum::<c64>();
         let force = |j: usize| {
-            let ratio = |k: usize| system.elements()[self.elements[k]].support_ratio;
-            let share = (0..s).map(|k| gram[j][k] * ratio(k)).sum::<f64>();
-            let (carried, by_circular) = (support.0 * share, support.1 * share);
+            let ratio = |k: usize, u: usize| system.elements()[self.elements[k]].support_ratios[u];
+            let share = |u: usize| (0..s).map(|k| gram[j][k] * ratio(k, u)).sum::<f64>();
+            let shares: Vec<f64> = (0..supports.len()).map(share).collect();
+            let (carried, by_circular) = carried(supports, &shares);
             let square = (m * frequency).powi(2);
             (
                 of(j, &load.amplitude) - carried * square,
@@ -181,6 +182,12 @@ impl Held {
         let entry = |j: usize, k: usize| (0..n).map(|i| self.lift[(i, j)] * self.lift[(i, k)]).sum();
         (0..s).map(|j| (0..s).map(|k| entry(j, k)).collect()).collect()
     }
+}
+
+/// What supports that move with these amplitudes add to a displacement, with the derivative.
+fn carried(supports: &[(c64, c64)], ratios: &[f64]) -> (c64, c64) {
+    let moved = || supports.iter().zip(ratios);
+    (moved().map(|(u, ratio)| u.0 * ratio).sum(), moved().map(|(u, ratio)| u.1 * ratio).sum())
 }
 
 /// An orthonormal basis of all of space whose first vectors span the given ones; `None` if these depend on
@@ -264,7 +271,7 @@ fn blocks_of(
         natural_frequencies: frequencies.to_vec(),
         damping: moving.transpose() * &system.model().damping * moving,
         points: Vec::new(),
-        support: None,
+        supports: Vec::new(),
         uniform_acceleration: vec![0.0; m],
     };
     let inner = if m > 0 {
@@ -316,7 +323,7 @@ fn pressing_force(system: &System, blocks: &Blocks, lift: &Mat<f64>, j: usize) -
     }
     let from = &blocks.transform.as_ref().expect("a held structure has coordinates of its own").from_blocks;
     let row = (0..2 * n).map(|column| (0..2 * n).map(|k| modal[k] * from[(k, column)]).sum()).collect();
-    Output::of_row(blocks, row, 0.0)
+    Output::of_row(blocks, row, &[])
 }
 
 /// Inputs of a force on an element: the stops take what would move the s held displacements.

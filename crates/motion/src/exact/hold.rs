@@ -75,8 +75,8 @@ impl ExactIntegrator {
     }
 
     fn make_held(&self, elements: &[usize]) -> Result<Held, MotionError> {
-        let of_elements = self.system.elements().iter().map(|e| (e.shape.clone(), e.support_ratio));
-        let outputs: Vec<(Vec<f64>, f64)> = of_elements.chain(self.response.clone()).collect();
+        let of_elements = self.system.elements().iter().map(|e| (e.shape.clone(), e.support_ratios.clone()));
+        let outputs: Vec<(Vec<f64>, Vec<f64>)> = of_elements.chain(self.response.clone()).collect();
         Held::new(&self.system, elements, &outputs, &self.stretch)?
             .ok_or_else(|| MotionError::DependentStops { elements: self.names(elements) })
     }

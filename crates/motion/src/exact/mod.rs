@@ -197,7 +197,7 @@ pub struct ExactIntegrator {
     course: Course,
     tracing: Option<trace::Tracing>,
     closed_throughout: u64,
-    response: Option<(Vec<f64>, f64)>,
+    response: Option<(Vec<f64>, Vec<f64>)>,
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
     by_family: Option<Box<by_family::ByFamily>>,
@@ -224,20 +224,20 @@ impl ExactIntegrator {
         Self::watching(system, settings, None)
     }
 
-    /// An integrator that can also observe a response point, whose displacement is `shape . q + support_ratio
-    /// u`.
+    /// An integrator that can also observe a response point, whose displacement is `shape . q +
+    /// support_ratios . u`.
     ///
     /// # Errors
     /// [`MotionError::MergedModes`] if the damping has no block form.
     pub fn watching(
         system: System,
         settings: ExactSettings,
-        response: Option<(&[f64], f64)>,
+        response: Option<(&[f64], &[f64])>,
     ) -> Result<Self, MotionError> {
         let blocks = Blocks::new(system.model())?;
-        let elements = system.elements().iter().map(|e| (e.shape.as_slice(), e.support_ratio));
+        let elements = system.elements().iter().map(|e| (e.shape.as_slice(), e.support_ratios.as_slice()));
         let outputs: Vec<Output> =
-            elements.chain(response).map(|(shape, ratio)| Output::new(&blocks, shape, ratio)).collect();
+            elements.chain(response).map(|(shape, ratios)| Output::new(&blocks, shape, ratios)).collect();
         let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| blocks.input(&e.shape)).collect();
         let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
@@ -273,7 +273,7 @@ impl ExactIntegrator {
             course: Course::default(),
             tracing: None,
             closed_throughout: 0,
-            response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
+            response: response.map(|(shape, ratios)| (shape.to_vec(), ratios.to_vec())),
             parameter: None,
             by_damping: None,
             by_family: None,

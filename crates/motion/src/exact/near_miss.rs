@@ -233,14 +233,14 @@ mod tests {
         let model = ReducedModel {
             natural_frequencies: vec![1.0],
             damping: Mat::zeros(1, 1),
-            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-            support: None,
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+            supports: vec![],
             uniform_acceleration: vec![1.0],
         };
         let stop = LocalElement {
             name: "stop".into(),
             shape: vec![1.0],
-            support_ratio: 0.0,
+            support_ratios: vec![0.0],
             law: Law::Linear(stop),
         };
         let system = System::new(model, &Load::default(), vec![stop]).unwrap();

@@ -2,7 +2,7 @@
 
 use super::block::Blocks;
 
-/// A displacement `r = row . x + support_ratio u` and the rows of its derivatives.
+/// A displacement `r = row . x + support_ratios . u` and the rows of its derivatives.
 #[derive(Debug, Clone)]
 pub(crate) struct Output {
     /// Row over the block state, length 2n.
@@ -14,8 +14,8 @@ pub(crate) struct Output {
     /// `row A^3` and `row A^4`.
     pub jerk_row: Vec<f64>,
     pub snap_row: Vec<f64>,
-    /// Part of the support displacement [-].
-    pub support_ratio: f64,
+    /// Its parts of the displacements of the supports [-].
+    pub support_ratios: Vec<f64>,
     /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the value, as far as its
     /// stiffness bounds it.
     pub value_bound: Vec<f64>,
@@ -32,13 +32,13 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Reads `shape . q + support_ratio u`.
-    pub fn new(blocks: &Blocks, shape: &[f64], support_ratio: f64) -> Self {
-        Self::of_row(blocks, blocks.output(shape), support_ratio)
+    /// Reads `shape . q + support_ratios . u`.
+    pub fn new(blocks: &Blocks, shape: &[f64], support_ratios: &[f64]) -> Self {
+        Self::of_row(blocks, blocks.output(shape), support_ratios)
     }
 
-    /// Reads `row . x + support_ratio u` from the block state.
-    pub fn of_row(blocks: &Blocks, row: Vec<f64>, support_ratio: f64) -> Self {
+    /// Reads `row . x + support_ratios . u` from the block state.
+    pub fn of_row(blocks: &Blocks, row: Vec<f64>, support_ratios: &[f64]) -> Self {
         let velocity_row = blocks.row_times_system(&row);
         let acceleration_row = blocks.row_times_system(&velocity_row);
         let jerk_row = blocks.row_times_system(&acceleration_row);
@@ -55,7 +55,7 @@ impl Output {
             acceleration_row,
             jerk_row,
             snap_row,
-            support_ratio,
+            support_ratios: support_ratios.to_vec(),
             value_bound,
             first_bound,
             second_bound,

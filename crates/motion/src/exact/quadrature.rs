@@ -168,7 +168,7 @@ mod tests {
             transform: None,
         };
         let shapes = [vec![1.0, -0.8, 0.6, 0.5], vec![0.3, 0.9, -0.2, 0.7]];
-        let outputs: Vec<Output> = shapes.iter().map(|shape| Output::new(&blocks, shape, 0.0)).collect();
+        let outputs: Vec<Output> = shapes.iter().map(|shape| Output::new(&blocks, shape, &[])).collect();
         let inputs: Vec<Vec<f64>> = shapes.iter().map(|shape| blocks.input(shape)).collect();
         let series = Series::new(&blocks, &outputs, &inputs);
         let near = |x: &[f64], y: &[f64]| {

@@ -17,10 +17,11 @@ fn integrator(law: Law) -> ExactIntegrator {
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.02 * frequencies[i] } else { 0.0 }),
         natural_frequencies: frequencies,
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![0.0; 2],
     };
-    let element = LocalElement { name: "element".into(), shape: vec![1.0, 0.6], support_ratio: 0.0, law };
+    let element =
+        LocalElement { name: "element".into(), shape: vec![1.0, 0.6], support_ratios: vec![0.0], law };
     let system = System::new(model, &Load::default(), vec![element]).unwrap();
     ExactIntegrator::new(system, ExactSettings::default()).unwrap()
 }

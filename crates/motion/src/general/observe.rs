@@ -91,8 +91,8 @@ impl ElementMaxima {
     }
 }
 
-/// Motion of a system over a stretch, observed at a response point of displacement `shape . q + support_ratio
-/// u`.
+/// Motion of a system over a stretch, observed at a response point of displacement `shape . q +
+/// support_ratios . u`.
 ///
 /// * `state`: `[q; q']` in modal coordinates at the start, length 2n.
 ///
@@ -102,14 +102,14 @@ pub fn observe(
     system: &System,
     stretch: &Stretch,
     state: &[f64],
-    (shape, support_ratio): (&[f64], f64),
+    (shape, support_ratios): (&[f64], &[f64]),
     settings: &GeneralSettings,
 ) -> Result<Observed, GeneralError> {
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
     check(&field, (stretch.start, stretch.end), state, settings)?;
     field.check_start(stretch.start, state)?;
-    let mut observer = Observer::new(&field, state, (shape, support_ratio));
+    let mut observer = Observer::new(&field, state, (shape, support_ratios));
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
     let flow = march.flow();
@@ -196,7 +196,7 @@ impl Watched {
 
 struct Observer<'a> {
     shape: &'a [f64],
-    support_ratio: f64,
+    support_ratios: &'a [f64],
     contacts: Vec<Watched>,
     inside: Vec<bool>,
     /// Which contacts were closed all the time.
@@ -213,11 +213,11 @@ struct Observer<'a> {
 }
 
 impl<'a> Observer<'a> {
-    fn new(field: &SystemField<'_>, state: &[f64], (shape, support_ratio): (&'a [f64], f64)) -> Self {
+    fn new(field: &SystemField<'_>, state: &[f64], (shape, support_ratios): (&'a [f64], &'a [f64])) -> Self {
         let contacts = Watched::of(field);
         Self {
             shape,
-            support_ratio,
+            support_ratios,
             inside: vec![false; field.switches()],
             closed: vec![true; contacts.len()],
             contacts,
@@ -236,22 +236,22 @@ impl<'a> Observer<'a> {
 
     /// Value and velocity of an output.
     fn read(&self, field: &SystemField<'_>, output: Output, phase: f64, state: &[f64]) -> [f64; 2] {
-        let (shape, ratio) = match output {
-            Output::Response => (self.shape, self.support_ratio),
+        let (shape, ratios) = match output {
+            Output::Response => (self.shape, self.support_ratios),
             Output::Element(e) => {
                 let element = &field.system.elements()[e];
-                (element.shape.as_slice(), element.support_ratio)
+                (element.shape.as_slice(), element.support_ratios.as_slice())
             }
         };
         let (q, v) = state.split_at(shape.len());
-        let [u, velocity, _] = if ratio == 0.0 { [0.0; 3] } else { field.support_motion(phase) };
-        [dot(shape, q) + ratio * u, dot(shape, v) + ratio * velocity]
+        let [u, velocity, _] = field.carried(ratios, phase);
+        [dot(shape, q) + u, dot(shape, v) + velocity]
     }
 
     fn acceleration(&mut self, field: &mut SystemField<'_>, at: Place<'_>) -> f64 {
         field.evaluate(Point { time: at.time, state: at.state, inside: at.inside }, &mut self.rates);
         let elastic = dot(self.shape, &self.rates[self.shape.len()..]) / field.period;
-        elastic + self.support_ratio * field.support_motion(at.time)[2]
+        elastic + field.carried(self.support_ratios, at.time)[2]
     }
 
     /// Takes every maximum at a place of the motion itself.

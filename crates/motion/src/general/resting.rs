@@ -90,8 +90,8 @@ impl SystemField<'_> {
             }
             contact.open(inside);
             if contact.element < e {
-                let support = element.support_ratio * self.support_motion(time)[1];
-                let speed = (dot(&element.shape, velocities) + support).abs();
+                let carried = self.carried(&element.support_ratios, time)[1];
+                let speed = (dot(&element.shape, velocities) + carried).abs();
                 self.rigid.touches.push((contact.element, speed));
             }
         }
@@ -138,9 +138,10 @@ impl SystemField<'_> {
         let sum = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
             held.iter().zip(&parts).map(|(&stop, part)| part * of(stop)).collect()
         };
-        let ratios = sum(&|stop| elements[stop].support_ratio);
         let levels = sum(&|stop| self.laws[stop].contacts()[0].level);
-        if !is_sum(elements[e].support_ratio, &ratios) {
+        let ratios = |support: usize| sum(&|stop| elements[stop].support_ratios[support]);
+        let mut own = elements[e].support_ratios.iter().enumerate();
+        if !own.all(|(support, ratio)| is_sum(*ratio, &ratios(support))) {
             return;
         }
         let contacts = elements[e].law.contacts();

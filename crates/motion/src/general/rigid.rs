@@ -100,15 +100,14 @@ impl SystemField<'_> {
         forces
     }
 
-    /// Holds the rates of the velocities: `phi_j . g = -s_j u''`, with rates by the phase.
+    /// Holds the rates of the velocities: `phi_j . g = -s_j . u''`, with rates by the phase.
     pub(super) fn hold_rates(&self, phase: f64, rate: &mut [f64]) {
         let held = &self.rigid.held;
         if held.is_empty() {
             return;
         }
-        let u = self.support_motion(phase);
-        let ratio = |e: usize| self.system.elements()[e].support_ratio;
-        let targets: Vec<f64> = held.iter().map(|&e| -self.period * ratio(e) * u[2]).collect();
+        let carried = |e: usize| self.carried(&self.system.elements()[e].support_ratios, phase)[2];
+        let targets: Vec<f64> = held.iter().map(|&e| -self.period * carried(e)).collect();
         self.constrain(held, &targets, rate);
     }
 
@@ -126,9 +125,9 @@ impl SystemField<'_> {
         if held.is_empty() {
             return;
         }
-        let u = self.support_by_frequency(phase);
-        let ratio = |e: usize| self.system.elements()[e].support_ratio;
-        let targets: Vec<f64> = held.iter().map(|&e| -self.period * ratio(e) * u[2]).collect();
+        let ratios = |e: usize| &self.system.elements()[e].support_ratios;
+        let carried = |e: usize| self.carried_by_frequency(ratios(e), phase)[2];
+        let targets: Vec<f64> = held.iter().map(|&e| -self.period * carried(e)).collect();
         self.constrain(held, &targets, change);
     }
 
@@ -139,11 +138,11 @@ impl SystemField<'_> {
         if held.is_empty() {
             return pressing;
         }
-        let (n, u) = (self.system.dof(), self.support_motion(phase));
+        let n = self.system.dof();
         let mut rate = self.linear_acceleration(phase, state);
         self.add_forces_in_region(Point { time: phase, state, inside }, &mut rate[n..]);
-        let ratio = |e: usize| self.system.elements()[e].support_ratio;
-        let targets: Vec<f64> = held.iter().map(|&e| -ratio(e) * u[2]).collect();
+        let carried = |e: usize| self.carried(&self.system.elements()[e].support_ratios, phase)[2];
+        let targets: Vec<f64> = held.iter().map(|&e| -carried(e)).collect();
         let mut moved = rate[n..].to_vec();
         let forces = self.constrain(held, &targets, &mut moved);
         held.iter().zip(forces).for_each(|(&e, force)| pressing[e] = force);
@@ -155,12 +154,12 @@ impl SystemField<'_> {
         let n = self.system.dof();
         let mut rates = vec![0.0; 2 * n];
         self.evaluate(at, &mut rates);
-        let (element, u) = (&self.system.elements()[e], self.support_motion(at.time));
-        let ratio = element.support_ratio;
+        let element = &self.system.elements()[e];
+        let u = self.carried(&element.support_ratios, at.time);
         [
-            dot(&element.shape, &at.state[..n]) + ratio * u[0],
-            dot(&element.shape, &at.state[n..]) + ratio * u[1],
-            dot(&element.shape, &rates[n..]) / self.period + ratio * u[2],
+            dot(&element.shape, &at.state[..n]) + u[0],
+            dot(&element.shape, &at.state[n..]) + u[1],
+            dot(&element.shape, &rates[n..]) / self.period + u[2],
         ]
     }
 
@@ -317,8 +316,10 @@ impl SystemField<'_> {
 
     /// What the column of the frequency has besides in a relative displacement and velocity.
     pub(super) fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
-        let ratio = self.system.elements()[e].support_ratio;
-        let [u, v, _] = if of_frequency { self.support_by_frequency(time) } else { [0.0; 3] };
-        [ratio * u, ratio * v]
+        if !of_frequency {
+            return [0.0; 2];
+        }
+        let [u, v, _] = self.carried_by_frequency(&self.system.elements()[e].support_ratios, time);
+        [u, v]
     }
 }

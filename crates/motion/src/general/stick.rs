@@ -108,15 +108,16 @@ impl SystemField<'_> {
 
     /// The forces of all elements that depend on the velocity.
     fn velocity_forces(&self, time: f64, state: &[f64], inside: &[bool]) -> Vec<VelocityForce> {
-        let (n, u) = (self.system.dof(), self.support_motion(time));
+        let n = self.system.dof();
         let mut flags = inside;
         let of_element = |(law, element): (&crate::Law, &crate::LocalElement)| {
             let (region, rest) = flags.split_at(switches_of(element));
             flags = rest;
             let presses = law.depends_on_velocity() && region.iter().all(|inside| *inside);
             presses.then(|| {
-                let r = dot(&element.shape, &state[..n]) + element.support_ratio * u[0];
-                let velocity = dot(&element.shape, &state[n..]) + element.support_ratio * u[1];
+                let u = self.carried(&element.support_ratios, time);
+                let r = dot(&element.shape, &state[..n]) + u[0];
+                let velocity = dot(&element.shape, &state[n..]) + u[1];
                 let force = law.pressing_force(r, velocity);
                 (force.value, force.damping)
             })
@@ -160,11 +161,10 @@ impl SystemField<'_> {
         }
         self.add_held(e);
         let held = self.rigid.held.clone();
-        let u = self.support_motion(time);
-        let ratio = |h: usize| self.system.elements()[h].support_ratio;
+        let carried = |h: usize| self.carried(&self.system.elements()[h].support_ratios, time);
         let levels: Vec<f64> =
-            held.iter().map(|&h| self.laws[h].contacts()[0].level - ratio(h) * u[0]).collect();
-        let speeds: Vec<f64> = held.iter().map(|&h| -ratio(h) * u[1]).collect();
+            held.iter().map(|&h| self.laws[h].contacts()[0].level - carried(h)[0]).collect();
+        let speeds: Vec<f64> = held.iter().map(|&h| -carried(h)[1]).collect();
         self.constrain(&held, &levels, &mut state[..n]);
         self.constrain(&held, &speeds, &mut state[n..]);
         let last = columns.len() / (2 * n);

@@ -8,7 +8,7 @@
 //! sum_m db_m/dW exp(i 2 pi m x)]` gives the whole derivative by the frequency: nothing is left to add for
 //! the duration.
 //!
-//! A law that depends on the velocity does so on `r' = phi_e . v + s_e u'`, where `u'` at a fixed phase is
+//! A law that depends on the velocity does so on `r' = phi_e . v + s_e . u'`, where `u'` at a fixed phase is
 //! proportional to f: `d(u')/df = u'/f`.
 //!
 //! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a
@@ -42,8 +42,8 @@ pub(super) struct SystemField<'a> {
     length: f64,
     /// `exp(i 2 pi m x)` for each order at the last point.
     rotations: Vec<c64>,
-    /// Amplitudes of the support displacement.
-    support: Vec<c64>,
+    /// Amplitudes of the displacements of the supports, for each order.
+    supports: Vec<Vec<c64>>,
     /// `df_e/dr` and `df_e/dr'` at the last point.
     pub(super) slopes: Vec<(f64, f64)>,
     /// The laws, with the speeds of impact that they remember.
@@ -73,7 +73,7 @@ impl<'a> SystemField<'a> {
             damping: Damping::of(system),
             stiffness: system.model().natural_frequencies.iter().map(|w| w * w).collect(),
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
-            support: (0..loads.len()).map(|k| system.support_amplitude(k, TAU * frequency_hz).0).collect(),
+            supports: (0..loads.len()).map(|k| support_amplitudes(system, k, frequency_hz)).collect(),
             loads,
             switches: system.elements().iter().map(switches_of).sum(),
             length: 1e-3 * shortest_length(system, frequency_hz),
@@ -139,20 +139,27 @@ impl<'a> SystemField<'a> {
         }
     }
 
-    /// `u = Re sum_m U_m exp(i 2 pi m x)`.
-    fn support_displacement(&self, phase: f64) -> f64 {
-        self.support_motion(phase)[0]
+    /// What the supports add to `r`, `r'` and `r''` of a displacement with these ratios: `s . u`, `u_s = Re
+    /// sum_m U_sm exp(i 2 pi m x)`.
+    pub(super) fn carried(&self, ratios: &[f64], phase: f64) -> [f64; 3] {
+        let mut carried = [0.0; 3];
+        for (support, ratio) in ratios.iter().enumerate().filter(|(_, ratio)| **ratio != 0.0) {
+            let motion = self.support_motion(support, phase);
+            carried.iter_mut().zip(motion).for_each(|(sum, value)| *sum += ratio * value);
+        }
+        carried
     }
 
-    /// Their derivatives by the frequency at a fixed phase.
-    pub(super) fn support_by_frequency(&self, phase: f64) -> [f64; 3] {
-        self.system.support_motion_by_frequency(self.period.recip(), phase)
+    /// The derivatives of that by the frequency at a fixed phase.
+    pub(super) fn carried_by_frequency(&self, ratios: &[f64], phase: f64) -> [f64; 3] {
+        self.system.carried_by_frequency(ratios, self.period.recip(), phase)
     }
 
-    /// `u`, `u'` and `u''`.
-    pub(super) fn support_motion(&self, phase: f64) -> [f64; 3] {
+    /// `u`, `u'` and `u''` of a support.
+    fn support_motion(&self, support: usize, phase: f64) -> [f64; 3] {
         let mut motion = [0.0; 3];
-        for (amplitude, &order) in self.support.iter().zip(self.system.orders()) {
+        for (amplitudes, &order) in self.supports.iter().zip(self.system.orders()) {
+            let Some(amplitude) = amplitudes.get(support) else { continue };
             let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
             let (real, imaginary) =
                 (amplitude.re * cos - amplitude.im * sin, amplitude.re * sin + amplitude.im * cos);
@@ -165,21 +172,11 @@ impl<'a> SystemField<'a> {
     }
 
     fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
-        let elastic = dot(&element.shape, q);
-        if element.support_ratio == 0.0 {
-            elastic
-        } else {
-            elastic + element.support_ratio * self.support_displacement(phase)
-        }
+        dot(&element.shape, q) + self.carried(&element.support_ratios, phase)[0]
     }
 
     fn relative_velocity(&self, element: &LocalElement, v: &[f64], phase: f64) -> f64 {
-        let elastic = dot(&element.shape, v);
-        if element.support_ratio == 0.0 {
-            elastic
-        } else {
-            elastic + element.support_ratio * self.support_motion(phase)[1]
-        }
+        dot(&element.shape, v) + self.carried(&element.support_ratios, phase)[1]
     }
 
     fn add_local_forces(&mut self, at: Point<'_>, rate: &mut [f64]) {
@@ -210,16 +207,24 @@ pub(super) fn switches_of(element: &LocalElement) -> usize {
 }
 
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the
-/// support moves it; zero if there are none.
+/// supports move it; zero if there are none.
 fn shortest_length(system: &System, frequency_hz: f64) -> f64 {
-    let amplitude = |k: usize| system.support_amplitude(k, TAU * frequency_hz).0.norm();
-    let support: f64 = (0..system.orders().len()).map(amplitude).sum();
+    let orders = 0..system.orders().len();
+    let amplitudes: Vec<Vec<c64>> =
+        orders.map(|order| support_amplitudes(system, order, frequency_hz)).collect();
+    let largest = |support: usize| amplitudes.iter().map(|order| order[support].norm()).sum::<f64>();
     let lengths = system.elements().iter().flat_map(|element| {
-        let moved = (element.support_ratio * support).abs();
+        let ratios = element.support_ratios.iter().enumerate();
+        let moved: f64 = ratios.map(|(support, ratio)| (ratio * largest(support)).abs()).sum();
         let levels = element.law.contacts().iter().map(move |contact| contact.level.abs().max(moved));
         levels.map(|length| length / dot(&element.shape, &element.shape).sqrt())
     });
     lengths.filter(|length| *length > 0.0 && length.is_finite()).reduce(f64::min).unwrap_or(0.0)
+}
+
+/// Amplitudes of the displacements of all supports of an order.
+fn support_amplitudes(system: &System, order: usize, frequency_hz: f64) -> Vec<c64> {
+    system.support_amplitudes(order, TAU * frequency_hz).into_iter().map(|(amplitude, _)| amplitude).collect()
 }
 
 impl Damping {

@@ -83,8 +83,7 @@ impl SystemField<'_> {
             let pressed = self.pressing_forces(time, state, before);
             while let Some((pulled, _)) = self.weakest_that_pulls(time, state, inside) {
                 self.release(pulled, inside);
-                let speed =
-                    dot(&element.shape, &state[n..]) + element.support_ratio * self.support_motion(time)[1];
+                let speed = dot(&element.shape, &state[n..]) + self.carried(&element.support_ratios, time)[1];
                 let last = columns.len() / (2 * n);
                 let delay = |(index, column): (usize, &[f64])| {
                     let moved = self.support_change(e, time, index + 1 == last)[0];

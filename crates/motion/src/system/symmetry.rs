@@ -19,17 +19,17 @@ impl System {
     /// Whether a load of the order with that index is more than zero.
     fn acts(&self, index: usize) -> bool {
         let driven =
-            self.driven.iter().flat_map(|driven| driven.forces[index].iter().chain([&driven.support[index]]));
-        let given = self.forces[index].iter().chain([&self.support[index]]);
+            self.driven.iter().flat_map(|driven| driven.forces[index].iter().chain(&driven.supports[index]));
+        let given = self.forces[index].iter().chain(&self.supports[index]);
         given.chain(driven).any(|value| *value != c64::new(0.0, 0.0))
     }
 
     fn has_image(&self, element: &LocalElement) -> bool {
         let is_opposite = |other: &LocalElement| {
-            let shapes = other.shape.iter().zip(&element.shape);
+            let opposite = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| *a == -b);
             other.law == element.law
-                && other.support_ratio == -element.support_ratio
-                && shapes.into_iter().all(|(a, b)| *a == -b)
+                && opposite(&other.support_ratios, &element.support_ratios)
+                && opposite(&other.shape, &element.shape)
         };
         is_odd(&element.law) || self.elements.iter().any(is_opposite)
     }

@@ -21,10 +21,15 @@ impl System {
     /// [`ParameterError::DampingPartSize`] if it is over another number of modes.
     pub fn with_damping_part(mut self, part: DampingPart) -> Result<Self, ParameterError> {
         let expected = self.dof();
-        for found in [part.matrix.nrows(), part.matrix.ncols(), part.support.len()] {
+        let transmitted = part.supports.iter().map(Vec::len);
+        for found in [part.matrix.nrows(), part.matrix.ncols()].into_iter().chain(transmitted) {
             if found != expected {
                 return Err(ParameterError::DampingPartSize { found, expected });
             }
+        }
+        let (found, expected) = (part.supports.len(), self.model.supports.len());
+        if found != expected {
+            return Err(ParameterError::DampingPartSupports { found, expected });
         }
         self.damping_parts.push(part);
         self.added_damping.push(0.0);
@@ -83,7 +88,8 @@ impl System {
         self.excitation_scale = scale;
         for (index, &order) in self.orders.iter().enumerate() {
             let factor = if order == 0 { 1.0 } else { scale };
-            self.support[index] = self.unscaled.0[index] * factor;
+            let supports = self.supports[index].iter_mut().zip(&self.unscaled.0[index]);
+            supports.for_each(|(support, given)| *support = given * factor);
             let forces = self.forces[index].iter_mut().zip(&self.unscaled.1[index]);
             forces.for_each(|(force, given)| *force = given * factor);
         }
@@ -102,12 +108,12 @@ impl System {
         if !(0..n).all(|i| damping[(i, i)].is_finite() && damping[(i, i)] >= 0.0) {
             return Err(ParameterError::AddedDamping { found: value });
         }
-        let transmitted = |i: usize| parts().map(|(part, value)| value * part.support[i]).sum::<f64>();
-        let support: Vec<f64> = (0..n).map(|i| given.support[i] + transmitted(i)).collect();
-        self.model.damping = damping;
-        if let Some(input) = &mut self.model.support {
-            input.damping = support;
+        let transmitted =
+            |s: usize, i: usize| parts().map(|(part, value)| value * part.supports[s][i]).sum::<f64>();
+        for (s, input) in self.model.supports.iter_mut().enumerate() {
+            input.damping = (0..n).map(|i| given.supports[s][i] + transmitted(s, i)).collect();
         }
+        self.model.damping = damping;
         self.added_damping = added;
         Ok(())
     }

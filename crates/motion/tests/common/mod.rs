@@ -26,8 +26,8 @@ pub fn beam_model(damping_ratio: f64) -> ReducedModel {
     ReducedModel {
         damping: modal_damping(&natural_frequencies, damping_ratio),
         natural_frequencies,
-        points: vec![PointOutput { name: "contact".into(), shape, support_ratio: 1.0 }],
-        support: Some(SupportInput { inertia, damping: vec![0.0; 6] }),
+        points: vec![PointOutput { name: "contact".into(), shape, support_ratios: vec![1.0] }],
+        supports: vec![SupportInput { inertia, damping: vec![0.0; 6] }],
         uniform_acceleration: vec![0.0; 6],
     }
 }
@@ -42,8 +42,10 @@ pub fn modal_damping(natural_frequencies: &[f64], ratio: f64) -> Mat<f64> {
 pub fn beam_with(damping_ratio: f64, law: Law) -> System {
     let model = beam_model(damping_ratio);
     let shape: Vec<f64> = model.points[0].shape.iter().map(|phi| -phi).collect();
-    let load =
-        Load { support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }], ..Load::default() };
+    let load = Load {
+        support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }.into()],
+        ..Load::default()
+    };
     System::new(model, &load, vec![element(&shape, 0.0, law)]).unwrap()
 }
 
@@ -64,10 +66,11 @@ pub fn uniform_beam(n: usize) -> System {
         damping: modal_damping(&natural_frequencies, 0.015),
         natural_frequencies,
         points: vec![],
-        support: Some(SupportInput { inertia, damping: vec![0.0; n] }),
+        supports: vec![SupportInput { inertia, damping: vec![0.0; n] }],
         uniform_acceleration: vec![0.0; n],
     };
-    let load = Load { support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }], ..Load::default() };
+    let load =
+        Load { support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }.into()], ..Load::default() };
     System::new(model, &load, vec![element(&shape, 0.0, hertz(1e8, 0.0))]).unwrap()
 }
 
@@ -77,7 +80,7 @@ pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
         natural_frequencies: natural_frequencies.to_vec(),
         damping,
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![0.0; natural_frequencies.len()],
     }
 }
@@ -107,7 +110,7 @@ pub fn hertz(stiffness: f64, gap: f64) -> Law {
 }
 
 pub fn element(shape: &[f64], support_ratio: f64, law: Law) -> LocalElement {
-    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratio, law }
+    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratios: vec![support_ratio], law }
 }
 
 pub fn integrator(system: &System) -> ExactIntegrator {

@@ -11,7 +11,7 @@ pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
         natural_frequencies: natural_frequencies.to_vec(),
         damping,
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![0.0; natural_frequencies.len()],
     }
 }
@@ -19,7 +19,7 @@ pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
 /// The same with a moving support.
 pub fn supported(model: ReducedModel, inertia: &[f64], damping: &[f64]) -> ReducedModel {
     ReducedModel {
-        support: Some(SupportInput { inertia: inertia.to_vec(), damping: damping.to_vec() }),
+        supports: vec![SupportInput { inertia: inertia.to_vec(), damping: damping.to_vec() }],
         ..model
     }
 }

@@ -329,15 +329,15 @@ impl<'a> TouchEquations<'a> {
         let (size, width) = (self.size(), linear.residual.len());
         let (element, scales) = (self.elements[k], self.problem.scale().values());
         let frequency_hz = self.frequency(unknowns);
-        let support = self.problem.system().support_motion(frequency_hz, unknowns.phase(k, size));
-        let unit = self.units(element, frequency_hz)[which];
-        let LocalElement { shape, support_ratio, .. } = &self.problem.system().elements()[element];
+        let (system, unit) = (self.problem.system(), self.units(element, frequency_hz)[which]);
+        let LocalElement { shape, support_ratios, .. } = &system.elements()[element];
+        let carried = system.carried(support_ratios, frequency_hz, unknowns.phase(k, size));
         let (n, at) = (size / 2, which * (size / 2));
         let entries = &mut linear.matrix[row * width..(row + 1) * width];
         for i in 0..n {
             entries[k * (size + 1) + at + i] = shape[i] * scales[at + i] / unit;
         }
-        entries[k * (size + 1) + size] = support_ratio * support[which + 1] / frequency_hz / unit;
+        entries[k * (size + 1) + size] = carried[which + 1] / frequency_hz / unit;
         linear.residual[row] = self.instant(unknowns, (k, unknowns.last())).values[which] - wanted;
     }
 
@@ -382,12 +382,13 @@ impl<'a> TouchEquations<'a> {
         let mobility: f64 = of.shape.iter().map(|phi| phi * phi).sum();
         let factor = -(1.0 + restitution) / mobility;
         let frequency_hz = self.frequency(unknowns);
-        let support = self.problem.system().support_motion(frequency_hz, unknowns.phase(k, size));
+        let system = self.problem.system();
+        let carried = system.carried(&of.support_ratios, frequency_hz, unknowns.phase(k, size));
         for i in 0..n {
             for j in 0..n {
                 matrix[(n + i) * size + n + j] += factor * of.shape[i] * of.shape[j] * scales[j] / scales[i];
             }
-            by_phase[n + i] = factor * of.shape[i] * of.support_ratio * support[2] / frequency_hz / scales[i];
+            by_phase[n + i] = factor * of.shape[i] * carried[2] / frequency_hz / scales[i];
         }
         (matrix, by_phase)
     }

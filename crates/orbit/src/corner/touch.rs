@@ -126,12 +126,7 @@ fn turns(
             .map(|k| {
                 let velocities = &samples[k][of.shape.len()..];
                 let own: f64 = of.shape.iter().zip(velocities).map(|(phi, v)| phi * v).sum();
-                let support = if of.support_ratio == 0.0 {
-                    0.0
-                } else {
-                    of.support_ratio * system.support_motion(frequency_hz, phases[k])[1]
-                };
-                own + support
+                own + system.carried(&of.support_ratios, frequency_hz, phases[k])[1]
             })
             .collect();
         for k in (1..samples.len()).filter(|&k| speeds[k - 1] >= 0.0 && speeds[k] < 0.0) {

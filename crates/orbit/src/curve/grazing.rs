@@ -77,26 +77,26 @@ impl Touch {
         let contact = element.law.contacts()[self.contact];
         let [r, speed, acceleration] =
             system.relative_motion(self.element, place.frequency_hz, place.phase, &state);
-        let u = system.support_motion(place.frequency_hz, place.phase);
+        let carried = system.carried(&element.support_ratios, place.frequency_hz, place.phase);
         let unit = scales[2 * n - 1];
         // The slowest mode has the largest displacement.
         let length = scales[..n].iter().copied().fold(0.0, f64::max);
-        let (f, ratio, sign) = (place.frequency_hz, element.support_ratio, contact.sign);
+        let (f, sign) = (place.frequency_hz, contact.sign);
         let nodes = place.nodes.len();
         let mut rows = vec![vec![0.0; nodes + 3]; 2];
         for i in 0..n {
             rows[0][i] = sign * element.shape[i] * scales[i] / length;
             rows[1][n + i] = sign * element.shape[i] * scales[n + i] / unit;
         }
-        let by_frequency = system.support_motion_by_frequency(f, place.phase);
-        rows[0][nodes] = sign * ratio * by_frequency[0] / length;
-        rows[1][nodes] = sign * ratio * by_frequency[1] / unit;
-        rows[0][nodes + 2] = sign * ratio * u[1] / f / length;
-        rows[1][nodes + 2] = sign * ratio * u[2] / f / unit;
+        let by_frequency = system.carried_by_frequency(&element.support_ratios, f, place.phase);
+        rows[0][nodes] = sign * by_frequency[0] / length;
+        rows[1][nodes] = sign * by_frequency[1] / unit;
+        rows[0][nodes + 2] = sign * carried[1] / f / length;
+        rows[1][nodes + 2] = sign * carried[2] / f / unit;
         match shooting.parameter {
             Parameter::ExcitationScale => {
-                rows[0][nodes + 1] = sign * ratio * u[0] / place.value / length;
-                rows[1][nodes + 1] = sign * ratio * u[1] / place.value / unit;
+                rows[0][nodes + 1] = sign * carried[0] / place.value / length;
+                rows[1][nodes + 1] = sign * carried[1] / place.value / unit;
             }
             Parameter::Gap { element } if element == self.element => rows[0][nodes + 1] = -1.0 / length,
             _ => {

@@ -28,8 +28,8 @@ fn system() -> System {
     let model = ReducedModel {
         natural_frequencies: vec![1.0, 1.7],
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.1 } else { 0.02 }),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0, 1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0, 1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0, 0.0],
     };
     let harmonic = |order, amplitude| Harmonic { order, amplitude, phase: 0.0 };
@@ -38,7 +38,7 @@ fn system() -> System {
     let element = |shape: [f64; 2], law| LocalElement {
         name: "element".into(),
         shape: shape.to_vec(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     };
     let spring = element([1.0, 1.0], Law::Power(PowerSpring::cubic(1.0).unwrap()));
@@ -48,7 +48,7 @@ fn system() -> System {
 
 fn shooting(parameter: Parameter) -> Shooting {
     let system = system();
-    let response = Response { shape: vec![1.0, 1.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0, 1.0], support_ratios: vec![0.0] };
     let mut integrator = integrator(&system, &response, &OrbitSettings::default()).unwrap();
     integrator.differentiate_by(Some(parameter)).unwrap();
     Shooting {

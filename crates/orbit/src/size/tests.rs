@@ -26,15 +26,15 @@ fn resting(phase: f64) -> (System, Response) {
     let model = ReducedModel {
         natural_frequencies: vec![10.0],
         damping: Mat::from_fn(1, 1, |_, _| 20.0),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 10.0, phase: TAU * phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Hertz(HertzStop::with_preload(1e6, 2.0).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+    (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 struct Found {

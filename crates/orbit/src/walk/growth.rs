@@ -80,7 +80,7 @@ impl BranchWalk {
             elements.iter().map(|element| (element.shape.clone(), outermost(&element.law))).collect();
         let least = self.of_present(|orbit, integrator, _| {
             let mut least = f64::INFINITY;
-            // The support moves as before, and does not count beside motion that grows.
+            // Supports move as before, and do not count beside motion that grows.
             for (shape, level) in levels.iter().filter(|(_, level)| *level > 0.0) {
                 least = least.min(orbit.largest_along(integrator, shape)? / level);
             }

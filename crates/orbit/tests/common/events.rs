@@ -22,15 +22,15 @@ pub fn oscillator_driven_at(phase: f64, stiffness: f64, damper: f64, force: f64,
     let model = ReducedModel {
         natural_frequencies: vec![stiffness.sqrt()],
         damping: Mat::from_fn(1, 1, |_, _| damper),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: force, phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let element = LocalElement { name: "element".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let element = LocalElement { name: "element".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     let system = System::new(model, &load, vec![element]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 pub fn step_of(max_step_hz: f64) -> OrbitSettings {

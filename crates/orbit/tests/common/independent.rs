@@ -88,7 +88,7 @@ pub fn together(parts: &[Part]) -> Case {
         elements.extend(part.elements.iter().map(|(shape, law)| LocalElement {
             name: "local".into(),
             shape: wide(first, shape),
-            support_ratio: 0.0,
+            support_ratios: vec![0.0],
             law: *law,
         }));
     }
@@ -96,13 +96,17 @@ pub fn together(parts: &[Part]) -> Case {
     let model = ReducedModel {
         natural_frequencies: parts.iter().flat_map(|part| part.frequencies.clone()).collect(),
         damping,
-        points: vec![PointOutput { name: "first".into(), shape: response.clone(), support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput {
+            name: "first".into(),
+            shape: response.clone(),
+            support_ratios: vec![0.0],
+        }],
+        supports: vec![],
         uniform_acceleration: response.clone(),
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: force, harmonic }] };
-    (System::new(model, &load, elements).unwrap(), Response { shape: response, support_ratio: 0.0 })
+    (System::new(model, &load, elements).unwrap(), Response { shape: response, support_ratios: vec![0.0] })
 }
 
 /// The same with another value of a parameter.

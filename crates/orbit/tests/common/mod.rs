@@ -42,16 +42,18 @@ pub fn beam() -> (System, Response) {
     let reduction = Reduction::FreeInterface { cut_off_hz: 1000.0 };
     let model = shaken.reduce(&reduction, &Damping::modal(0.015), &["contact"]).unwrap().model;
     let point = model.point("contact").unwrap().clone();
-    let load =
-        Load { support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }], forces: vec![] };
+    let load = Load {
+        support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }.into()],
+        forces: vec![],
+    };
     let stop = LocalElement {
         name: "stop".into(),
         shape: point.shape.iter().map(|phi| -phi).collect(),
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law: Law::Hertz(HertzStop::with_gap(4.5e9, 0.0).unwrap()),
     };
     let system = System::new(model, &load, vec![stop]).unwrap();
-    (system, Response { shape: point.shape, support_ratio: point.support_ratio })
+    (system, Response { shape: point.shape, support_ratios: point.support_ratios })
 }
 
 /// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out
@@ -70,10 +72,11 @@ pub fn chain(with_stop: bool) -> (System, Response) {
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: last.shape.clone(), harmonic }] };
     let law = Law::Linear(LinearStop::with_gap(1000.0, 1.0).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: last.shape.clone(), support_ratio: 0.0, law };
+    let stop =
+        LocalElement { name: "stop".into(), shape: last.shape.clone(), support_ratios: vec![0.0], law };
     let elements = if with_stop { vec![stop] } else { vec![] };
     let system = System::new(model, &load, elements).unwrap();
-    (system, Response { shape: last.shape, support_ratio: 0.0 })
+    (system, Response { shape: last.shape, support_ratios: vec![0.0] })
 }
 
 /// `x'' + damping x' + x = 0`.
@@ -81,8 +84,8 @@ pub fn unit_mass(damping: f64) -> ReducedModel {
     ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| damping),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
+        supports: vec![],
         uniform_acceleration: vec![1.0],
     }
 }
@@ -93,9 +96,9 @@ pub fn duffing() -> (System, Response) {
     let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     let system = System::new(model, &load, vec![spring]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 /// The harmonic orbit at a frequency, along its branch from where motions settle on it.

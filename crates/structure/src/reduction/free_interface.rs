@@ -39,9 +39,9 @@ pub(super) fn basis(
     let component = structure.released_coordinates();
     let modes = Modes::over(&structure.assembly, &component)?;
     let kept = modes.kept(cut_off_hz)?;
-    let loaded = places(&component, &joined(structure.prescribed(), interface));
+    let loaded = places(&component, &joined(&structure.prescribed(), interface));
     let reduced = &modes.shapes * coefficients(&modes, kept, &loaded);
-    let relative = prescribe(reduced.as_ref(), &places(&component, structure.prescribed()));
+    let relative = prescribe(reduced.as_ref(), &places(&component, &structure.prescribed()));
     let free = places(&component, &structure.free_coordinates());
     Ok(Basis {
         relative: Mat::from_fn(free.len(), relative.ncols(), |i, j| relative[(free[i], j)]),

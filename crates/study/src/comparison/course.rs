@@ -72,8 +72,8 @@ pub struct Course {
     pub velocity: Vec<f64>,
     /// Acceleration [m/s²].
     pub acceleration: Vec<f64>,
-    /// Displacement of the support [m].
-    pub support: Vec<f64>,
+    /// Displacement of each moving support [m].
+    pub supports: Vec<Vec<f64>>,
 }
 
 /// Goes over an orbit.
@@ -108,7 +108,9 @@ pub fn follow(
     periods: u32,
     samples: usize,
 ) -> Result<Course, CourseError> {
-    let mut course = Course { duration_s: f64::from(periods) / frequency_hz, ..Course::default() };
+    let supports = vec![Vec::new(); model.system.model().supports.len()];
+    let duration_s = f64::from(periods) / frequency_hz;
+    let mut course = Course { duration_s, supports, ..Course::default() };
     let response = model.response_motion(frequency_hz);
     for _ in 0..periods {
         for sample in simulation.period(samples)?.0 {
@@ -116,7 +118,8 @@ pub fn follow(
             course.displacement.push(y);
             course.velocity.push(v);
             course.acceleration.push(a);
-            course.support.push(model.system.support_motion(frequency_hz, sample.phase)[0]);
+            let motions = model.system.support_motions(frequency_hz, sample.phase);
+            course.supports.iter_mut().zip(motions).for_each(|(series, [u, ..])| series.push(u));
         }
     }
     Ok(course)

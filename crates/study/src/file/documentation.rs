@@ -70,5 +70,5 @@ fn complete_examples_are_understood_and_partial_ones_are_toml() {
             toml::de::DeTable::parse(example).unwrap();
         }
     }
-    assert_eq!(complete, 3);
+    assert_eq!(complete, 4);
 }

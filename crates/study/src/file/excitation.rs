@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Table, Value, quantity};
 
-use super::{Amplitude, Structure, amplitude, names::Names};
+use super::{Amplitude, MovingSupport, Structure, amplitude, names::Names, support_motion};
 
 /// What shakes the structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,6 +40,11 @@ pub enum ExcitationKind {
         /// Amplitude [m].
         amplitude_m: Amplitude,
     },
+    /// Displacements of several supports are prescribed, each in its own way.
+    SupportMotions {
+        /// The supports.
+        supports: Vec<MovingSupport>,
+    },
     /// A force acts.
     Force {
         /// Point.
@@ -56,13 +61,35 @@ impl Excitation {
         if let Self::Harmonic(harmonic) = self { Some(harmonic) } else { None }
     }
 
-    /// The supports whose motion is prescribed; none for a force.
+    /// The supports whose motion is prescribed, by the names of their places; none for a force. Places that
+    /// move alike are one support.
     #[must_use]
-    pub fn moving_supports(&self) -> &[String] {
+    pub fn supports(&self) -> Vec<&[String]> {
         match self.harmonic().map(|harmonic| &harmonic.kind) {
-            Some(ExcitationKind::SupportMotion { at, .. }) => at,
-            Some(ExcitationKind::Force { .. }) | None => &[],
+            Some(ExcitationKind::SupportMotion { at, .. }) => vec![at],
+            Some(ExcitationKind::SupportMotions { supports }) => {
+                supports.iter().map(|support| support.at.as_slice()).collect()
+            }
+            Some(ExcitationKind::Force { .. }) | None => Vec::new(),
         }
+    }
+
+    /// The places of all of them.
+    #[must_use]
+    pub fn moving_places(&self) -> Vec<&str> {
+        self.supports().into_iter().flatten().map(String::as_str).collect()
+    }
+
+    /// Number of the support that has a place with that name.
+    #[must_use]
+    pub fn support_at(&self, name: &str) -> Option<usize> {
+        self.supports().iter().position(|places| places.iter().any(|place| place == name))
+    }
+
+    /// Whether each support has a motion of its own, so that it has to be named.
+    #[must_use]
+    pub fn supports_differ(&self) -> bool {
+        self.supports().len() > 1
     }
 
     /// The point at which a force acts; none for support motion.
@@ -70,7 +97,7 @@ impl Excitation {
     pub fn force_point(&self) -> Option<&str> {
         match self.harmonic().map(|harmonic| &harmonic.kind) {
             Some(ExcitationKind::Force { at, .. }) => Some(at),
-            Some(ExcitationKind::SupportMotion { .. }) | None => None,
+            Some(ExcitationKind::SupportMotion { .. } | ExcitationKind::SupportMotions { .. }) | None => None,
         }
     }
 
@@ -82,12 +109,13 @@ impl Excitation {
 }
 
 impl HarmonicExcitation {
-    /// Amplitude [m or N].
+    /// Amplitude [m or N]; supports that move each in its own way have several.
     #[must_use]
-    pub fn amplitude(&self) -> &Amplitude {
+    pub fn amplitude(&self) -> Option<&Amplitude> {
         match &self.kind {
-            ExcitationKind::SupportMotion { amplitude_m, .. } => amplitude_m,
-            ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
+            ExcitationKind::SupportMotion { amplitude_m, .. } => Some(amplitude_m),
+            ExcitationKind::SupportMotions { .. } => None,
+            ExcitationKind::Force { amplitude_n, .. } => Some(amplitude_n),
         }
     }
 }
@@ -105,7 +133,7 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     let kind = table.required("kind").and_then(|value| value.choice(&kinds));
     let known = kind.is_some();
     let kind = kind.and_then(|kind| match kind {
-        Kind::SupportMotion => read_support_motion(&table, names),
+        Kind::SupportMotion => support_motion::read(&table, names),
         Kind::Force => read_force(&table, names),
     });
     let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
@@ -124,32 +152,6 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     Some(Excitation::Harmonic(HarmonicExcitation { kind, phase_rad, order, frequency_hz }))
 }
 
-fn read_support_motion(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
-    let at = table.required("at").and_then(|value| read_supports(&value, names));
-    let amplitude =
-        table.required("amplitude_m").and_then(|value| amplitude::read(&value, &quantity::AMPLITUDE));
-    Some(ExcitationKind::SupportMotion { at: at?, amplitude_m: amplitude? })
-}
-
-fn read_supports(value: &Value<'_>, names: &Names) -> Option<Vec<String>> {
-    if value.is_text() {
-        return names.support(value).map(|name| vec![name]);
-    }
-    let elements = value.array_of("supports")?;
-    let supports: Vec<Option<String>> = elements.iter().map(|element| names.support(element)).collect();
-    let supports = supports.into_iter().collect::<Option<Vec<String>>>()?;
-    let mut distinct = supports.clone();
-    distinct.sort_unstable();
-    distinct.dedup();
-    if supports.is_empty() || distinct.len() < supports.len() {
-        let message =
-            if supports.is_empty() { "`at` is an empty list" } else { "`at` names a support twice" };
-        value.problem(message.into(), vec!["allowed: one support or more, each once".into()]);
-        return None;
-    }
-    Some(supports)
-}
-
 fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
     let at = table.required("at").and_then(|value| names.point(&value));
     let amplitude = table.required("amplitude_n").and_then(|value| amplitude::read(&value, &quantity::FORCE));
@@ -160,6 +162,7 @@ fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
 fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) {
     let (key, amplitude) = match kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m),
+        ExcitationKind::SupportMotions { .. } => return,
         ExcitationKind::Force { amplitude_n, .. } => ("amplitude_n", amplitude_n),
     };
     if let Some([first, last]) = amplitude.ends()
@@ -173,13 +176,18 @@ fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) 
 
 /// A support that moves further than the beam is long is in the wrong unit.
 fn check_magnitude(table: &Table<'_>, kind: &ExcitationKind, structure: &Structure) {
-    let (ExcitationKind::SupportMotion { amplitude_m, .. }, Structure::Beam(beam)) = (kind, structure) else {
-        return;
+    let Structure::Beam(beam) = structure else { return };
+    let (key, amplitude) = match kind {
+        ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m.largest()),
+        ExcitationKind::SupportMotions { supports } => {
+            ("support", supports.iter().map(|support| support.amplitude_m).fold(0.0, f64::max))
+        }
+        ExcitationKind::Force { .. } => return,
     };
-    let (amplitude, length) = (amplitude_m.largest(), beam.length_m);
+    let length = beam.length_m;
     if amplitude > length {
         let help = format!("allowed: at most {length} m, the length of the beam; is the unit m?");
-        table.problem("amplitude_m", format!("`amplitude_m` is {amplitude} m"), vec![help]);
+        table.problem(key, format!("`amplitude_m` is {amplitude} m"), vec![help]);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table, quantity};
+use crate::document::{Reading, Table, Value, quantity};
 
 use super::{Excitation, names::Names};
 
@@ -26,8 +26,11 @@ pub enum Load {
         /// Phase [rad].
         phase_rad: f64,
     },
-    /// A further harmonic of the support motion.
+    /// A further harmonic of the motion of a support.
     SupportMotion {
+        /// Number of the support among those that move, from 0.
+        #[serde(skip_serializing_if = "is_first")]
+        support: usize,
         /// Amplitude [m].
         amplitude_m: f64,
         /// Multiple of the excitation frequency.
@@ -35,6 +38,11 @@ pub enum Load {
         /// Phase [rad].
         phase_rad: f64,
     },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
+fn is_first(support: &usize) -> bool {
+    *support == 0
 }
 
 #[derive(Clone, Copy)]
@@ -87,14 +95,30 @@ fn read_force(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>)
 }
 
 fn read_support_motion(table: &Table<'_>, excitation: Option<&Excitation>) -> Option<Load> {
-    if excitation.is_some_and(|excitation| excitation.moving_supports().is_empty()) {
+    if excitation.is_some_and(|excitation| excitation.supports().is_empty()) {
         let help = vec!["allowed: only with `kind = \"support-motion\"` in [excitation]".into()];
         table.problem("kind", "a load of kind \"support-motion\" needs a moving support".into(), help);
     }
+    let support = match excitation {
+        Some(excitation) if excitation.supports_differ() => {
+            table.required("at").and_then(|value| read_support(&value, excitation))
+        }
+        _ => Some(0),
+    };
     let amplitude =
         table.required("amplitude_m").and_then(|value| value.number(&quantity::LOAD_DISPLACEMENT));
     let (order, phase) = read_harmonic(table, 1);
-    Some(Load::SupportMotion { amplitude_m: amplitude?, order: order?, phase_rad: phase? })
+    Some(Load::SupportMotion { support: support?, amplitude_m: amplitude?, order: order?, phase_rad: phase? })
+}
+
+/// Number of the support that has a place with that name.
+fn read_support(value: &Value<'_>, excitation: &Excitation) -> Option<usize> {
+    let name = value.text()?;
+    let number = excitation.support_at(name);
+    if number.is_none() {
+        value.unknown_word(name, "a support that [excitation] moves", &excitation.moving_places());
+    }
+    number
 }
 
 /// `order`, which a load has to state, and `phase_rad`, which a constant does not have.

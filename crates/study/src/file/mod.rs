@@ -24,6 +24,7 @@ mod stop;
 mod stop_law;
 mod structure;
 mod study;
+mod support_motion;
 mod vary;
 
 pub use amplitude::Amplitude;
@@ -43,6 +44,7 @@ pub use stop::{FixedTo, Place, Stop, StopEntry};
 pub use stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
+pub use support_motion::MovingSupport;
 pub use vary::{Curve, CurveOf, Vary};
 
 #[cfg(test)]

@@ -106,9 +106,11 @@ impl Variable<'_> {
     /// Every parameter by its name; stops also by their number, from 1. What both sides of a stop have in
     /// common is a number of the model as any other, so a side has no number.
     fn known(self) -> Vec<Known> {
-        let amplitude = self.excitation.harmonic().map(|harmonic| match harmonic.kind {
-            ExcitationKind::SupportMotion { .. } => ("excitation.amplitude_m", quantity::AMPLITUDE),
-            ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
+        let amplitude = self.excitation.harmonic().and_then(|harmonic| match harmonic.kind {
+            ExcitationKind::SupportMotion { .. } => Some(("excitation.amplitude_m", quantity::AMPLITUDE)),
+            // Each has a number of its own, as any other of the model.
+            ExcitationKind::SupportMotions { .. } => None,
+            ExcitationKind::Force { .. } => Some(("excitation.amplitude_n", quantity::FORCE)),
         });
         let of_amplitude =
             |(key, quantity): (&str, Quantity)| (key.to_owned(), ParameterKind::Amplitude, quantity);

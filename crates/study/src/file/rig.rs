@@ -2,6 +2,8 @@
 
 use crate::document::{Table, Value, quantity};
 
+use super::Excitation;
+
 /// How a virtual rig is built and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rig {
@@ -35,8 +37,12 @@ pub struct Rig {
 const SIGNALS: [(f64, u32); 8] =
     [(31.0, 1), (31.5, 1), (33.6, 1), (34.5, 1), (50.8, 2), (61.65, 2), (63.7, 2), (66.5, 2)];
 
-pub(super) fn read(root: &Table<'_>) -> Option<Option<Rig>> {
+pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<Option<Rig>> {
     let Some(value) = root.optional("rig") else { return Some(None) };
+    if excitation.is_some_and(Excitation::supports_differ) {
+        let help = vec!["allowed: supports that all move alike, with `at = [...]`".to_owned()];
+        value.problem("a rig has one table, but the supports move differently".to_owned(), help);
+    }
     let table = value.table()?;
     // What differs from this study is read when the rig is built.
     let changes = table.required("changes").and_then(|value| value.table());

@@ -65,13 +65,23 @@ pub enum Place {
 }
 
 /// What carries a stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FixedTo {
-    /// It rides on the moving support.
-    Support,
+    /// It rides on a moving support, of this number from 0.
+    Support(usize),
     /// It does not move.
     Space,
+}
+
+impl Serialize for FixedTo {
+    /// The first support, the only one of most studies, has no number.
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Space => serializer.serialize_str("space"),
+            Self::Support(0) => serializer.serialize_str("support"),
+            Self::Support(number) => serializer.serialize_str(&format!("support {}", number + 1)),
+        }
+    }
 }
 
 pub(super) fn read(
@@ -155,20 +165,25 @@ fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>)
 
 /// A moving support by its name, or what stands still; by default the moving support if there is one.
 fn read_fixed_to(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<FixedTo> {
-    let moving = excitation.map_or(&[][..], Excitation::moving_supports);
-    let riding = if moving.is_empty() { FixedTo::Space } else { FixedTo::Support };
-    let Some(value) = table.optional("fixed_to") else { return Some(riding) };
+    let moving = excitation.map_or_else(Vec::new, Excitation::moving_places);
+    let mut known = moving.clone();
+    known
+        .extend(["space", "ground"].iter().chain(&names.held_ends()).filter(|still| !moving.contains(still)));
+    let Some(value) = table.optional("fixed_to") else {
+        return match excitation.map_or(0, |excitation| excitation.supports().len()) {
+            0 => Some(FixedTo::Space),
+            1 => Some(FixedTo::Support(0)),
+            several => {
+                let message = format!("`fixed_to` is missing: {several} supports move differently");
+                table.problem("fixed_to", message, vec![format!("allowed: {}", known.join(", "))]);
+                None
+            }
+        };
+    };
     let name = value.text()?;
-    if moving.iter().any(|support| support == name) {
-        return Some(FixedTo::Support);
+    if let Some(support) = excitation.and_then(|excitation| excitation.support_at(name)) {
+        return Some(FixedTo::Support(support));
     }
-    let mut known: Vec<&str> = moving.iter().map(String::as_str).collect();
-    known.extend(
-        ["space", "ground"]
-            .iter()
-            .chain(&names.held_ends())
-            .filter(|still| !moving.iter().any(|m| m == *still)),
-    );
     if excitation.is_some() && !known.contains(&name) {
         value.unknown_word(name, "a support, \"space\" or \"ground\"", &known);
         return None;

@@ -190,7 +190,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) 
     })();
     let varied = if pieces { vary::read(root, reading, variable) } else { Some(vary::passed_over(root)) };
     let figures = figures::read(root, reading);
-    let rig = rig::read(root);
+    let rig = rig::read(root, excitation.as_ref());
     let varied = varied?;
     Some(Study {
         title: title?.to_owned(),

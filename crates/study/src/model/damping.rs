@@ -34,8 +34,8 @@ pub(super) fn part(
     let mut alone = study.clone();
     constants(&mut alone, |other, value| *value = if other == key { 1.0 } else { 0.0 });
     let model = reduce(&alone, interface)?.model;
-    let support = model.support.map_or_else(|| vec![0.0; model.damping.nrows()], |support| support.damping);
-    Ok(DampingPart { matrix: model.damping, support })
+    let supports = model.supports.into_iter().map(|support| support.damping).collect();
+    Ok(DampingPart { matrix: model.damping, supports })
 }
 
 /// The value that the study gives a constant.

@@ -7,7 +7,7 @@ use hammerbeam_motion::{
         RigidStop, TwoSidedStop,
     },
 };
-use hammerbeam_structure::ReducedModel;
+use hammerbeam_structure::{PointOutput, ReducedModel};
 
 use crate::file::{
     Approach, FixedTo, GapMeasured, HertzStiffness, ImpactModel, Place, Side, Stop, StopLaw, StudyError,
@@ -16,11 +16,11 @@ use crate::file::{
 
 use super::load::rest;
 
-/// Relative displacement of an element, `r = shape . q + support_ratio u`.
+/// Relative displacement of an element, `r = shape . q + support_ratios . u`.
 #[derive(Debug, Clone)]
 struct Relative {
     shape: Vec<f64>,
-    support_ratio: f64,
+    support_ratios: Vec<f64>,
 }
 
 impl Relative {
@@ -28,25 +28,29 @@ impl Relative {
         let point = |name: &str| model.point(name).expect("the study knows the names of its structure");
         match place {
             Place::At { point: name, fixed_to } => {
-                let carrier = if *fixed_to == FixedTo::Support { 1.0 } else { 0.0 };
-                let point = point(name);
-                Self { shape: point.shape.clone(), support_ratio: point.support_ratio - carrier }
+                let PointOutput { shape, support_ratios, .. } = point(name).clone();
+                let mut relative = Self { shape, support_ratios };
+                if let FixedTo::Support(carrier) = fixed_to {
+                    relative.support_ratios[*carrier] -= 1.0;
+                }
+                relative
             }
             Place::Between { first, second } => {
                 let (first, second) = (point(first), point(second));
-                let shape = first.shape.iter().zip(&second.shape).map(|(a, b)| a - b).collect();
-                Self { shape, support_ratio: first.support_ratio - second.support_ratio }
+                let less = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
+                Self {
+                    shape: less(&first.shape, &second.shape),
+                    support_ratios: less(&first.support_ratios, &second.support_ratios),
+                }
             }
         }
     }
 
     fn towards(self, side: Side) -> Self {
+        let turned = |values: &[f64]| values.iter().map(|value| -value).collect();
         match side {
             Side::Above => self,
-            Side::Below => Self {
-                shape: self.shape.iter().map(|entry| -entry).collect(),
-                support_ratio: -self.support_ratio,
-            },
+            Side::Below => Self { shape: turned(&self.shape), support_ratios: turned(&self.support_ratios) },
         }
     }
 
@@ -56,7 +60,7 @@ impl Relative {
     }
 
     fn element(self, name: &str, law: Law) -> LocalElement {
-        LocalElement { name: name.to_owned(), shape: self.shape, support_ratio: self.support_ratio, law }
+        LocalElement { name: name.to_owned(), shape: self.shape, support_ratios: self.support_ratios, law }
     }
 }
 

@@ -68,7 +68,7 @@ impl Family for StudyFamily {
             .and_then(|file| Model::like(&file, Some(&self.reference)));
         let model =
             built.map_err(|error| format!("{} = {value}: {}", self.number.keys[0], in_short(&error)))?;
-        let response = (model.response.shape, model.response.support_ratio);
+        let response = (model.response.shape, model.response.support_ratios);
         Ok(Member { system: model.system, response })
     }
 }
@@ -118,7 +118,7 @@ pub(super) fn turn_like(reduced: &mut Reduced, study: &Study, reference: &Refere
     for mode in turned {
         model.points.iter_mut().for_each(|point| point.shape[mode] *= -1.0);
         model.uniform_acceleration[mode] *= -1.0;
-        if let Some(support) = &mut model.support {
+        for support in &mut model.supports {
             support.inertia[mode] *= -1.0;
             support.damping[mode] *= -1.0;
         }

@@ -1,10 +1,10 @@
 //! A modal state from displacements and velocities of named points.
 //!
-//! The displacement of a point is `y_p = phi_p . q + s_p u` and its velocity `phi_p . q' + s_p u'`, with the
-//! support motion `u` at that moment. Fewer points than modes leave the state open. Of all states in which
-//! the points move as given the one of the smallest norm is taken, of `q` and of `q'` by themselves. Modes
-//! are mass-normalised, so `|q'|^2` is twice the kinetic energy relative to the support: a mass that is not
-//! mentioned rests relative to it.
+//! The displacement of a point is `y_p = phi_p . q + s_p . u` and its velocity `phi_p . q' + s_p . u'`, with
+//! the displacements `u` of the supports at that moment. Fewer points than modes leave the state open. Of all
+//! states in which the points move as given the one of the smallest norm is taken, of `q` and of `q'` by
+//! themselves. Modes are mass-normalised, so `|q'|^2` is twice the kinetic energy relative to the supports: a
+//! mass that is not mentioned rests relative to them.
 
 use hammerbeam_structure::PointOutput;
 
@@ -57,26 +57,27 @@ impl Model {
         frequency_hz: f64,
         starts: &[PointStart],
     ) -> Result<Vec<f64>, PointStartError> {
-        let [u, v, _] = self.system.support_motion(frequency_hz, 0.0);
-        let mut state = self.least_norm(starts, PointStartKind::Displacement, u)?;
-        state.extend(self.least_norm(starts, PointStartKind::Velocity, v)?);
+        let carried = |point: &PointOutput| self.system.carried(&point.support_ratios, frequency_hz, 0.0);
+        let displaced = |point: &PointOutput| carried(point)[0];
+        let mut state = self.least_norm(starts, PointStartKind::Displacement, &displaced)?;
+        state.extend(self.least_norm(starts, PointStartKind::Velocity, &|point| carried(point)[1])?);
         Ok(state)
     }
 
-    /// The shortest vector with `phi_p . x = value - s_p support` for every start of a kind.
+    /// The shortest vector with `phi_p . x = value - carried` for every start of a kind.
     ///
     /// Each row is made orthogonal to those before it, so its own condition is met without touching theirs.
     fn least_norm(
         &self,
         starts: &[PointStart],
         kind: PointStartKind,
-        support: f64,
+        carried: &dyn Fn(&PointOutput) -> f64,
     ) -> Result<Vec<f64>, PointStartError> {
         let mut x = vec![0.0; self.system.dof()];
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for start in starts.iter().filter(|start| start.kind == kind) {
             let point = self.known_point(&start.point)?;
-            let missing = start.value - point.support_ratio * support - dot(&point.shape, &x);
+            let missing = start.value - carried(point) - dot(&point.shape, &x);
             let mut row = point.shape.clone();
             for unit in basis.iter().chain(&basis) {
                 let along = dot(unit, &row);
@@ -147,7 +148,7 @@ mod tests {
         let state = model.state_of_points(1.5, &starts).unwrap();
         let motion = |name: &str| {
             let point = model.system.model().point(name).unwrap();
-            model.system.point_motion(1.5, &point.shape, point.support_ratio).at(0.0, &state, &[])
+            model.system.point_motion(1.5, &point.shape, &point.support_ratios).at(0.0, &state, &[])
         };
         for (name, expected) in [("a", [1e-3, -0.3]), ("b", [0.02, 0.0])] {
             for (found, expected) in motion(name).into_iter().zip(expected) {

@@ -1,9 +1,11 @@
 //! Excitation and loads of a study as harmonics over the modes.
 
-use hammerbeam_motion::{AmplitudeCurve, Harmonic, HarmonicForce, Load};
+use hammerbeam_motion::{AmplitudeCurve, Harmonic, HarmonicForce, Load, SupportHarmonic};
 use hammerbeam_structure::ReducedModel;
 
-use crate::file::{self, ExcitationKind, HarmonicExcitation, Study, StudyError, StudyFile};
+use crate::file::{
+    self, Amplitude, ExcitationKind, HarmonicExcitation, MovingSupport, Study, StudyError, StudyFile,
+};
 
 /// Refuses forces on points that cannot move.
 pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyError> {
@@ -23,8 +25,12 @@ pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyE
 
 /// All that drives the structure with amplitudes that the frequency does not change.
 pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
-    let constant = |harmonic: &HarmonicExcitation| {
-        harmonic.amplitude().constant().map(|amplitude| excitation(harmonic, model, amplitude))
+    let constant = |harmonic: &HarmonicExcitation| match &harmonic.kind {
+        ExcitationKind::SupportMotions { supports } => Some(each_in_its_way(supports, harmonic.order)),
+        ExcitationKind::SupportMotion { .. } | ExcitationKind::Force { .. } => {
+            let amplitude = harmonic.amplitude().and_then(Amplitude::constant);
+            amplitude.map(|amplitude| excitation(harmonic, model, amplitude))
+        }
     };
     let mut load = study.excitation.harmonic().and_then(constant).unwrap_or_default();
     for further in &study.loads {
@@ -36,13 +42,24 @@ pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
 /// The excitation at amplitude 1 and its amplitude, where that is a table over the frequency.
 pub(super) fn over_frequency(study: &Study, model: &ReducedModel) -> Option<(Load, AmplitudeCurve)> {
     let harmonic = study.excitation.harmonic()?;
-    Some((excitation(harmonic, model, 1.0), harmonic.amplitude().curve()?))
+    let curve = harmonic.amplitude()?.curve()?;
+    Some((excitation(harmonic, model, 1.0), curve))
+}
+
+/// The motions of supports that move differently.
+fn each_in_its_way(supports: &[MovingSupport], order: u32) -> Load {
+    let motion = |(support, of): (usize, &MovingSupport)| {
+        let harmonic = Harmonic { order, amplitude: of.amplitude_m, phase: of.phase_rad };
+        SupportHarmonic { support, harmonic }
+    };
+    Load { support: supports.iter().enumerate().map(motion).collect(), forces: Vec::new() }
 }
 
 fn excitation(excitation: &HarmonicExcitation, model: &ReducedModel, amplitude: f64) -> Load {
     let harmonic = Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
     match &excitation.kind {
-        ExcitationKind::SupportMotion { .. } => Load { support: vec![harmonic], forces: Vec::new() },
+        ExcitationKind::SupportMotion { .. } => Load { support: vec![harmonic.into()], forces: Vec::new() },
+        ExcitationKind::SupportMotions { supports } => each_in_its_way(supports, excitation.order),
         ExcitationKind::Force { at, .. } => {
             let force = HarmonicForce { shape: shape(model, at), harmonic };
             Load { support: Vec::new(), forces: vec![force] }
@@ -60,8 +77,9 @@ fn add(load: &mut Load, further: &file::Load, model: &ReducedModel) {
             shape: shape(model, at),
             harmonic: Harmonic { order: *order, amplitude: *amplitude_n, phase: *phase_rad },
         }),
-        file::Load::SupportMotion { amplitude_m, order, phase_rad } => {
-            load.support.push(Harmonic { order: *order, amplitude: *amplitude_m, phase: *phase_rad });
+        file::Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
+            let harmonic = Harmonic { order: *order, amplitude: *amplitude_m, phase: *phase_rad };
+            load.support.push(SupportHarmonic { support: *support, harmonic });
         }
     }
 }

@@ -110,7 +110,7 @@ impl Model {
     #[must_use]
     pub fn observed_at(&self, point: &str) -> Option<Self> {
         let point = self.system.model().point(point)?;
-        let response = Response { shape: point.shape.clone(), support_ratio: point.support_ratio };
+        let response = Response { shape: point.shape.clone(), support_ratios: point.support_ratios.clone() };
         Some(Self { response, ..self.clone() })
     }
 
@@ -124,7 +124,7 @@ impl Model {
     /// then.
     #[must_use]
     pub fn response_motion(&self, frequency_hz: f64) -> PointMotion {
-        self.system.point_motion(frequency_hz, &self.response.shape, self.response.support_ratio)
+        self.system.point_motion(frequency_hz, &self.response.shape, &self.response.support_ratios)
     }
 
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they
@@ -207,7 +207,7 @@ fn interface(study: &Study) -> Vec<String> {
 
 fn response_point(study: &Study, model: &ReducedModel) -> Response {
     let point = model.point(&study.response.point).expect("the study knows the names of its structure");
-    Response { shape: point.shape.clone(), support_ratio: point.support_ratio }
+    Response { shape: point.shape.clone(), support_ratios: point.support_ratios.clone() }
 }
 
 /// The fault of a structure at the key that is to blame.

@@ -52,7 +52,7 @@ impl Model {
         let plain = |parameter| StudyParameter { parameter, factor: 1.0, offset: 0.0 };
         match varied.kind {
             ParameterKind::Amplitude => {
-                let amplitude = study.excitation.harmonic().map(HarmonicExcitation::amplitude);
+                let amplitude = study.excitation.harmonic().and_then(HarmonicExcitation::amplitude);
                 let Some(factor) = amplitude.and_then(Amplitude::constant) else {
                     return Err(format!("{} is a table over the frequency", varied.name));
                 };

@@ -11,8 +11,11 @@ pub(super) fn reduce(study: &Study, interface: &[String]) -> Result<Reduced, Str
         Structure::Beam(beam) => beam.descriptor()?.structure()?,
         Structure::Lumped(lumped) => lumped_descriptor(lumped).structure()?,
     };
-    let moving: Vec<&str> = study.excitation.moving_supports().iter().map(String::as_str).collect();
-    let supported = if moving.is_empty() { structure } else { structure.with_support_motion(&moving)? };
+    let supports = study.excitation.supports();
+    let moving: Vec<Vec<&str>> =
+        supports.into_iter().map(|places| places.iter().map(String::as_str).collect()).collect();
+    let moving: Vec<&[&str]> = moving.iter().map(Vec::as_slice).collect();
+    let supported = structure.with_support_motions(&moving)?;
     let interface: Vec<&str> = interface.iter().map(String::as_str).collect();
     supported.reduce(&reduction(study), &damping(&study.damping), &interface)
 }

@@ -29,15 +29,15 @@ fn the_paper_has_six_modes_and_a_riding_stop_below() {
     assert_eq!(model.system.dof(), 6);
     let element = &model.system.elements()[0];
     assert!(model.response.shape[0] > 0.0 && element.shape[0] == -model.response.shape[0]);
-    assert_relative_eq!(element.support_ratio, 0.0, epsilon = 1e-12);
-    assert_relative_eq!(model.response.support_ratio, 1.0, epsilon = 1e-12);
+    assert_relative_eq!(element.support_ratios[0], 0.0, epsilon = 1e-12);
+    assert_relative_eq!(model.response.support_ratios[0], 1.0, epsilon = 1e-12);
     assert_relative_eq!(model.tables.reduced_hz[0], 17.495, max_relative = 1e-4);
 }
 
 #[test]
 fn a_stop_fixed_in_space_feels_the_support_motion() {
     let model = paper_with("fixed_to = \"left\"", "fixed_to = \"space\"").unwrap();
-    assert_relative_eq!(model.system.elements()[0].support_ratio, -1.0, epsilon = 1e-12);
+    assert_relative_eq!(model.system.elements()[0].support_ratios[0], -1.0, epsilon = 1e-12);
 }
 
 #[test]

@@ -222,12 +222,16 @@ fn append(course: &mut Course, more: Course) {
     course.displacement.extend(more.displacement);
     course.velocity.extend(more.velocity);
     course.acceleration.extend(more.acceleration);
-    course.support.extend(more.support);
+    course.supports.resize(more.supports.len(), Vec::new());
+    course.supports.iter_mut().zip(more.supports).for_each(|(all, more)| all.extend(more));
 }
 
 /// Acceleration of the support, from the model: the table has a sensor of its own.
 fn second_derivative(model: &Model, course: &Course, samples: usize, frequency_hz: f64) -> Vec<f64> {
-    let at = |k: usize| model.system.support_motion(frequency_hz, (k % samples) as f64 / samples as f64)[2];
+    // All supports of a rig move as its one table.
+    let motions = |phase: f64| model.system.support_motions(frequency_hz, phase);
+    let at =
+        |k: usize| motions((k % samples) as f64 / samples as f64).first().map_or(0.0, |motion| motion[2]);
     (0..course.acceleration.len()).map(at).collect()
 }
 

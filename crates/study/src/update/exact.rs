@@ -29,7 +29,7 @@ pub(super) fn eigenfrequency_derivatives(
         FrequencyTable::FixedInterface | FrequencyTable::Reduced => return Ok(None),
     };
     let Some(change) = change(beam, number, value) else { return Ok(None) };
-    let moving: Vec<&str> = file.study.excitation.moving_supports().iter().map(String::as_str).collect();
+    let moving = file.study.excitation.moving_places();
     let derivatives =
         beam.descriptor().and_then(|beam| beam.eigenfrequency_derivatives(&moving, boundary, &change));
     derivatives.map_err(|error| file.fault("structure", error.to_string(), Vec::new()))

@@ -119,16 +119,17 @@ fn mobility_if_rigid(element: &LocalElement) -> Option<f64> {
     element.law.rigid().map(|_| element.shape.iter().map(|phi| phi * phi).sum())
 }
 
-/// Largest relative acceleration of an element that the loads and the support make [m/s^2].
+/// Largest relative acceleration of an element that the loads and the supports make [m/s^2].
 fn driven(system: &System, frequency_hz: f64) -> f64 {
     let circular = std::f64::consts::TAU * frequency_hz;
     let of_element = |element: &LocalElement| -> f64 {
         let orders = system.orders().iter().enumerate().map(|(index, &order)| {
             let load = system.modal_load(index, circular).amplitude;
             let modal: faer::c64 = load.iter().zip(&element.shape).map(|(b, phi)| *b * *phi).sum();
-            let support =
-                system.support_amplitude(index, circular).0.norm() * (f64::from(order) * circular).powi(2);
-            modal.norm() + element.support_ratio.abs() * support
+            let rate = (f64::from(order) * circular).powi(2);
+            let moved = system.support_amplitudes(index, circular);
+            let carried = moved.iter().zip(&element.support_ratios);
+            modal.norm() + carried.map(|((u, _), ratio)| ratio.abs() * (u.norm() * rate)).sum::<f64>()
         });
         orders.sum()
     };

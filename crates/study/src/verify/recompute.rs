@@ -103,7 +103,7 @@ pub(super) fn recompute(
     settings: &GeneralSettings,
 ) -> Result<Recomputed, Failed> {
     let (system, size, segments) = (&model.system, scales.len(), solution.nodes.len());
-    let response = (model.response.shape.as_slice(), model.response.support_ratio);
+    let response = (model.response.shape.as_slice(), model.response.support_ratios.as_slice());
     let mut settings = *settings;
     let (mut state, mut product) = (solution.nodes[0].clone(), Mat::<f64>::identity(size, size));
     let (mut residual, mut largest) = (0.0_f64, 0.0_f64);

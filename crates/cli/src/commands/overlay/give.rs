@@ -52,7 +52,13 @@ pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
     let value = |what: &str| format!("{what}_{}_{unit}", laid.quantity.word());
     let mut titles = header(&["time_s", "phase_cycles"]);
     titles.extend(["measured", "shifted", "computed", "computed_unfiltered"].map(value));
-    titles.extend(header(&["orbit_displacement_m", "support_displacement_m"]));
+    titles.extend(header(&["orbit_displacement_m"]));
+    // Without a moving support it stands still; where several move differently they are numbered.
+    let supports = laid.overlay.supports.len();
+    titles.extend((0..supports.max(1)).map(|k| match supports {
+        0 | 1 => "support_displacement_m".to_owned(),
+        _ => format!("support_{}_displacement_m", k + 1),
+    }));
     let mut table = Table::begin(folder, "overlay.csv", &titles)?;
     let (overlay, measured) = (&laid.overlay, &laid.measured);
     let per_period = measured.per_period as f64;
@@ -60,7 +66,7 @@ pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
     let mean = |series: &[f64]| series.iter().sum::<f64>() / length;
     let (level, computed_level) = (mean(&measured.samples), mean(&overlay.filtered));
     for (k, value) in measured.samples.iter().enumerate() {
-        table.row(&[
+        let mut row = vec![
             number(laid.time_s(k as f64)),
             number((k as f64 - overlay.alignment.shift).rem_euclid(length) / per_period),
             number(*value),
@@ -68,8 +74,12 @@ pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
             number(overlay.filtered[k]),
             number(overlay.unfiltered[k]),
             number(overlay.displacement[k]),
-            number(overlay.support[k]),
-        ])?;
+        ];
+        match &overlay.supports[..] {
+            [] => row.push(number(0.0)),
+            supports => row.extend(supports.iter().map(|series| number(series[k]))),
+        }
+        table.row(&row)?;
     }
     Ok(table.finish()?.display().to_string())
 }

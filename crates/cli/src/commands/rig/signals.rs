@@ -134,7 +134,7 @@ mod tests {
             filtered: vec![0.0; 4],
             unfiltered: vec![0.0; 4],
             displacement: vec![0.0; 4],
-            support: vec![0.0; 4],
+            supports: vec![vec![0.0; 4]],
             largest: (1.0, 1.0),
             alike: None,
             tried: 7,

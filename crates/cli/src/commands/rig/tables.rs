@@ -104,7 +104,7 @@ fn figure_2(folder: &Path, found: &Found) -> Result<(), Failure> {
 pub fn table_acceleration(found: &Found, frequency_hz: f64) -> f64 {
     let of = |excitation: &HarmonicExcitation| {
         let rate = std::f64::consts::TAU * frequency_hz * f64::from(excitation.order);
-        excitation.amplitude().at(frequency_hz) * rate * rate
+        excitation.amplitude().map_or(0.0, |amplitude| amplitude.at(frequency_hz)) * rate * rate
     };
     found.file.study.excitation.harmonic().map_or(0.0, of)
 }
@@ -173,7 +173,7 @@ fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Fa
             number(computed.map(|orbit| orbit.filtered[k])),
             number(computed.map(|orbit| orbit.unfiltered[k])),
             number(computed.map(|orbit| orbit.displacement[k])),
-            number(computed.map(|orbit| orbit.support[k])),
+            number(computed.map(|orbit| orbit.supports.first().map_or(0.0, |series| series[k]))),
         ])?;
     }
     table.finish()?;

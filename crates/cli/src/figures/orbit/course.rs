@@ -30,7 +30,6 @@ pub(super) fn course(
     let states = states_at_phase(&mut integrator, orbit, 0.0).map_err(refused)?;
     let first = states.first().map_or(&[][..], Vec::as_slice);
     let mut simulation = Simulation::new(model.system.clone(), frequency_hz, first, settings)?;
-    let is_moved = model.system.model().support.is_some();
     let response = model.response_motion(frequency_hz);
     let (mut samples, mut contacts) = (Vec::new(), Vec::new());
     for _ in 0..orbit.period_multiple {
@@ -39,13 +38,13 @@ pub(super) fn course(
         for sample in sampled {
             let [displacement_m, velocity_m_s, acceleration_m_s2] =
                 response.at(sample.phase, &sample.state, &sample.forces);
-            let support = model.system.support_motion(frequency_hz, sample.phase)[0];
+            let motions = model.system.support_motions(frequency_hz, sample.phase);
             samples.push(OrbitSample {
                 displacement_m,
                 velocity_m_s,
                 acceleration_m_s2,
                 forces_n: sample.forces,
-                support_m: is_moved.then_some(support),
+                supports_m: motions.into_iter().map(|[u, ..]| u).collect(),
             });
         }
     }

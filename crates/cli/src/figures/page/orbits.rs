@@ -102,7 +102,6 @@ fn solution(
 /// What is written down of an orbit.
 struct Drawing {
     model: Model,
-    is_moved: bool,
     /// The highest eigenfrequency.
     highest_hz: f64,
     interrupt: Option<Interrupt>,
@@ -112,8 +111,7 @@ impl Drawing {
     fn of(model: &Model, interrupt: Option<Interrupt>) -> Self {
         let eigenfrequencies = model.system.model().natural_frequencies.iter();
         let highest_hz = eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
-        let is_moved = model.system.model().support.is_some();
-        Self { model: model.clone(), is_moved, highest_hz, interrupt }
+        Self { model: model.clone(), highest_hz, interrupt }
     }
 
     /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be
@@ -145,7 +143,7 @@ impl Drawing {
             duration_s: f64::from(solution.period_multiple) / frequency_hz,
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
-            support_m: self.support(frequency_hz, samples / stride),
+            support_m: self.supports(frequency_hz, samples / stride),
             impulses: impulses.iter().map(|impulse| page_impulse(impulse, &response)).collect(),
             ..PageOrbit::default()
         };
@@ -176,10 +174,13 @@ impl Drawing {
         Ok(orbit)
     }
 
-    /// Displacements of the support over an excitation period.
-    fn support(&self, frequency_hz: f64, count: usize) -> Vec<f64> {
-        let at = |k: usize| self.model.system.support_motion(frequency_hz, k as f64 / count as f64)[0];
-        (0..count).map(|k| if self.is_moved { at(k) } else { 0.0 }).collect()
+    /// Displacements of the supports over an excitation period, one after the other.
+    fn supports(&self, frequency_hz: f64, count: usize) -> Vec<f64> {
+        let system = &self.model.system;
+        let at = |k: usize| system.support_motions(frequency_hz, k as f64 / count as f64);
+        let instants: Vec<Vec<[f64; 3]>> = (0..count).map(at).collect();
+        let of_support = |support: usize| instants.iter().map(move |motions| motions[support][0]);
+        (0..system.model().supports.len()).flat_map(of_support).collect()
     }
 }
 

@@ -22,7 +22,7 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         name: name_at(place.at).cloned().unwrap_or_default(),
         at: place.at,
         shape: place.shape.clone(),
-        support_ratio: place.support_ratio,
+        support_ratios: place.support_ratios.clone(),
     });
     let links = match &study.structure {
         Structure::Beam(_) => Vec::new(),
@@ -43,6 +43,8 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         stops: stops(file, model),
         links,
         eigenfrequencies_hz: frequencies.map(|rate| rate / std::f64::consts::TAU).collect(),
+        supports: study.excitation.supports().iter().map(|places| places.join(", ")).collect(),
+        ground: study.excitation.support_at("ground").map(|support| support as u32),
     }
 }
 
@@ -55,8 +57,8 @@ fn stops(file: &StudyFile, model: &Model) -> Vec<PageStop> {
         };
         let Some(stop) = file.study.stops.iter().find(|stop| of(&stop.name)) else { continue };
         let (name, other, rides) = match &stop.place {
-            Place::At { point, fixed_to } => (point, None, *fixed_to == FixedTo::Support),
-            Place::Between { first, second } => (first, Some(second), false),
+            Place::At { point, fixed_to } => (point, None, riding(*fixed_to)),
+            Place::Between { first, second } => (first, Some(second), None),
         };
         let Some(place) = place(file, model, name) else { continue };
         drawn.push(PageStop {
@@ -69,6 +71,13 @@ fn stops(file: &StudyFile, model: &Model) -> Vec<PageStop> {
         });
     }
     drawn
+}
+
+fn riding(fixed_to: FixedTo) -> Option<u32> {
+    match fixed_to {
+        FixedTo::Support(support) => Some(support as u32),
+        FixedTo::Space => None,
+    }
 }
 
 /// Displacements of the point relative to what carries the stop at which contacts begin, and whether the stop

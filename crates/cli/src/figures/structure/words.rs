@@ -4,8 +4,8 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{
     Study,
     file::{
-        Amplitude, Approach, Beam, BeamPoint, ExcitationKind, FixedTo, GapMeasured, Load, Lumped, Place,
-        Side, Stop, StopLaw, Structure,
+        Amplitude, Approach, Beam, BeamPoint, Excitation, ExcitationKind, FixedTo, GapMeasured, Load, Lumped,
+        MovingSupport, Place, Side, Stop, StopLaw, Structure,
     },
 };
 
@@ -18,9 +18,9 @@ pub fn of(study: &Study, unit: FrequencyUnit) -> Vec<String> {
         Structure::Beam(beam) => beam_words(beam),
         Structure::Lumped(lumped) => lumped_words(lumped),
     };
-    lines.extend(study.stops.iter().map(stop_words));
+    lines.extend(study.stops.iter().map(|stop| stop_words(stop, &study.excitation)));
     lines.push(excitation_words(study, unit));
-    lines.extend(study.loads.iter().map(load_words));
+    lines.extend(study.loads.iter().map(|load| load_words(load, &study.excitation)));
     lines
 }
 
@@ -65,9 +65,12 @@ fn lumped_words(lumped: &Lumped) -> Vec<String> {
     lists.into_iter().filter_map(line).collect()
 }
 
-fn stop_words(stop: &Stop) -> String {
+fn stop_words(stop: &Stop, excitation: &Excitation) -> String {
     let place = match &stop.place {
-        Place::At { point, fixed_to: FixedTo::Support } => format!("at {point}, on the moving support"),
+        Place::At { point, fixed_to: FixedTo::Support(support) } if excitation.supports_differ() => {
+            format!("at {point}, on the support that moves by u{}", support + 1)
+        }
+        Place::At { point, fixed_to: FixedTo::Support(_) } => format!("at {point}, on the moving support"),
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
@@ -137,6 +140,15 @@ fn excitation_words(study: &Study, unit: FrequencyUnit) -> String {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
             format!("motion u of the support ({}), {} mm", at.join(", "), amplitude_words(amplitude_m, 1e3))
         }
+        ExcitationKind::SupportMotions { supports } => {
+            let motion = |(index, support): (usize, &MovingSupport)| {
+                let (amplitude, phase) = (number(1e3 * support.amplitude_m), number(support.phase_rad));
+                let at = support.at.join(", ");
+                format!("u{} of {at}, {amplitude} mm at {phase} rad", index + 1)
+            };
+            let motions: Vec<String> = supports.iter().enumerate().map(motion).collect();
+            format!("motions of the supports, {}", motions.join("; "))
+        }
         ExcitationKind::Force { at, amplitude_n } => {
             format!("force F at {at}, {} N", amplitude_words(amplitude_n, 1.0))
         }
@@ -157,7 +169,7 @@ fn amplitude_words(amplitude: &Amplitude, factor: f64) -> String {
     }
 }
 
-fn load_words(load: &Load) -> String {
+fn load_words(load: &Load, excitation: &Excitation) -> String {
     match load {
         Load::Gravity { acceleration_m_s2 } => format!("Gravity: {} m/s².", number(*acceleration_m_s2)),
         Load::Force { at, amplitude_n, order: 0, .. } => {
@@ -166,8 +178,9 @@ fn load_words(load: &Load) -> String {
         Load::Force { at, amplitude_n, order, .. } => {
             format!("Force F at {at}: {} N, order {order}.", number(*amplitude_n))
         }
-        Load::SupportMotion { amplitude_m, order, .. } => {
-            format!("Further motion u: {} mm, order {order}.", number(1e3 * amplitude_m))
+        Load::SupportMotion { support, amplitude_m, order, .. } => {
+            let which = if excitation.supports_differ() { format!("{}", support + 1) } else { String::new() };
+            format!("Further motion u{which}: {} mm, order {order}.", number(1e3 * amplitude_m))
         }
     }
 }

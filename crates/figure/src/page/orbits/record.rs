@@ -156,7 +156,7 @@ pub(super) fn packed(orbit: &PageOrbit) -> Vec<u8> {
     bytes
 }
 
-/// Lengths of the series: samples, local elements, samples of the support, modes, their samples, harmonics,
+/// Lengths of the series: samples, local elements, samples of the supports, modes, their samples, harmonics,
 /// samples in contacts, impulses.
 fn counts(orbit: &PageOrbit) -> [usize; 8] {
     [

@@ -12,9 +12,10 @@ use crate::{
 
 impl Place<'_> {
     /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from
-    /// what moves to them.
+    /// what moves to them. Of supports that move differently each stop has a block of its own.
     pub(super) fn draw_carriers(&self, svg: &mut SvgWriter) {
-        let moving: Vec<f64> = self.diagram.moving.iter().filter_map(|name| self.of(name)).collect();
+        let places = self.diagram.moving.iter().filter_map(|moving| self.of(&moving.place));
+        let moving: Vec<f64> = places.collect();
         let has_bar = [false, true].map(|above| self.draw_bar(svg, &moving, above));
         for &x in &moving {
             let (side, end) = match x {
@@ -26,7 +27,7 @@ impl Place<'_> {
                 let top = if has_bar[1] { self.ceiling } else { self.middle - END_HALF };
                 let bottom = if has_bar[0] { self.floor } else { self.middle + END_HALF };
                 block(svg, at(x, top), at(x + side, bottom));
-            } else if has_bar[0] {
+            } else if has_bar[0] || (end == SketchEnd::Free && self.diagram.supports_differ()) {
                 let top = if end == SketchEnd::Pinned { self.middle + HALF + 7.0 } else { self.middle };
                 block(svg, at(x - 0.5 * BASE, top), at(x + 0.5 * BASE, self.floor));
             }
@@ -35,15 +36,19 @@ impl Place<'_> {
 
     /// The stops on a side that ride on the support.
     pub(super) fn riding(&self, above: bool) -> impl Iterator<Item = &SketchStop> {
-        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
+        let riding =
+            self.diagram.stops.iter().filter(|stop| matches!(stop.carrier, SketchCarrier::Support(_)));
         riding.filter(move |stop| self.is_on(stop, above))
     }
 
     /// Whether a bar that moves stands on a side.
     pub(super) fn has_bar(&self, above: bool) -> bool {
+        if self.diagram.supports_differ() {
+            return false;
+        }
         let is_needed =
             self.riding(above).next().is_some() || (!above && self.inner_moving().next().is_some());
-        is_needed && self.diagram.moving.iter().any(|name| self.of(name).is_some())
+        is_needed && self.diagram.moving.iter().any(|moving| self.of(&moving.place).is_some())
     }
 
     /// The bar above or below the beam; false if nothing needs it.
@@ -69,7 +74,8 @@ impl Place<'_> {
     pub(super) fn draw_end(&self, svg: &mut SvgWriter, end: SketchEnd, is_left: bool) {
         let (x, side, behind) =
             if is_left { (self.left, -1.0, Behind::Left) } else { (self.right, 1.0, Behind::Right) };
-        let moves = self.diagram.moves(if is_left { "left" } else { "right" });
+        let support = self.diagram.support_of(if is_left { "left" } else { "right" });
+        let moves = support.is_some();
         let (top, bottom) = (self.middle - END_HALF, self.middle + END_HALF);
         match (end, moves) {
             (SketchEnd::Clamped, false) => wall(svg, at(x, top), at(x, bottom), behind),
@@ -99,11 +105,12 @@ impl Place<'_> {
                 wall(svg, at(x + side * 4.0, top), at(x + side * 4.0, bottom), behind);
             }
         }
-        if moves {
+        if let Some(support) = support {
             let out = x + side * 14.0;
             arrow(svg, at(out, self.middle + 9.0), at(out, self.middle - 9.0), true);
             let anchor = if is_left { Anchor::End } else { Anchor::Start };
-            variable(svg, at(out + side * 3.0, self.middle + 2.5), "u", anchor, self.style);
+            let motion = self.diagram.motion_of(support);
+            variable(svg, at(out + side * 3.0, self.middle + 2.5), &motion, anchor, self.style);
         }
     }
 }

@@ -21,14 +21,14 @@ fn integrator(laws: [Law; 2], frequencies: [f64; 2]) -> ExactIntegrator {
         damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.06 * frequencies[i] } else { 0.2 }),
         natural_frequencies: frequencies.to_vec(),
         points: vec![],
-        support: None,
+        supports: vec![],
         uniform_acceleration: vec![0.0; 2],
     };
     let shapes = [vec![1.0, 0.6], vec![0.7, -1.1]];
     let elements = laws.into_iter().zip(shapes.clone()).map(|(law, shape)| LocalElement {
         name: "element".into(),
         shape,
-        support_ratio: 0.0,
+        support_ratios: vec![0.0],
         law,
     });
     let force = |order: u32| HarmonicForce {

@@ -25,10 +25,9 @@ impl SystemField<'_> {
     pub(super) fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
         self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
         for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
-            if (slope != 0.0 || damping != 0.0) && element.support_ratio != 0.0 {
-                let [u, v, _] = self.support_by_frequency(at.time);
-                let force = element.support_ratio * (slope * u + damping * v);
-                add_scaled(sum, self.period * force, &element.shape);
+            if slope != 0.0 || damping != 0.0 {
+                let [u, v, _] = self.carried_by_frequency(&element.support_ratios, at.time);
+                add_scaled(sum, self.period * (slope * u + damping * v), &element.shape);
             }
         }
     }
@@ -45,7 +44,7 @@ impl SystemField<'_> {
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
             let mut displacement = dot(&element.shape, &column[..n]);
             if index + 1 == last {
-                displacement += element.support_ratio * self.support_by_frequency(time)[0];
+                displacement += self.carried_by_frequency(&element.support_ratios, time)[0];
             }
             let impulse = -damping * displacement;
             add_scaled(&mut column[n..], impulse, &direction);
@@ -91,17 +90,16 @@ impl SystemField<'_> {
         let speed = self.relative_velocity(element, &at.state[n..], at.time);
         let mut rates = vec![0.0; 2 * n];
         self.evaluate(at, &mut rates);
-        let support = self.support_motion(at.time);
-        let acceleration =
-            dot(&element.shape, &rates[n..]) / self.period + element.support_ratio * support[2];
+        let carried = self.carried(&element.support_ratios, at.time);
+        let acceleration = dot(&element.shape, &rates[n..]) / self.period + carried[2];
         let last = columns.len() / (2 * n);
         let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
             let mut change = dot(&element.shape, &column[n..]);
             let mut displacement = dot(&element.shape, &column[..n]);
             if index + 1 == last {
-                let by_frequency = self.support_by_frequency(at.time);
-                displacement += element.support_ratio * by_frequency[0];
-                change += element.support_ratio * by_frequency[1];
+                let by_frequency = self.carried_by_frequency(&element.support_ratios, at.time);
+                displacement += by_frequency[0];
+                change += by_frequency[1];
             }
             (change - acceleration * displacement / speed) * speed.signum()
         });

@@ -128,7 +128,7 @@ mod tests {
             filtered: Vec::new(),
             unfiltered: Vec::new(),
             displacement: Vec::new(),
-            support: Vec::new(),
+            supports: Vec::new(),
             largest: (0.0, 0.0),
             alike: None,
             tried: 0,

@@ -47,7 +47,7 @@ pub(super) fn laid(
         filtered: delayed(&shown, lay.alignment.shift)?,
         unfiltered: turned(unfiltered),
         displacement: turned(&course.displacement),
-        support: turned(&course.support),
+        supports: course.supports.iter().map(|series| turned(series)).collect(),
         largest: (largest(unfiltered), largest(&filtered)),
         alignment: lay.alignment,
         alike: None,

@@ -92,10 +92,10 @@ pub struct Overlay {
     pub filtered: Vec<f64>,
     /// and without filter, with all its lines.
     pub unfiltered: Vec<f64>,
-    /// Displacement of the point [m], and of the support [m], so delayed.
+    /// Displacement of the point [m], and of each moving support [m], so delayed.
     pub displacement: Vec<f64>,
     /// See above.
-    pub support: Vec<f64>,
+    pub supports: Vec<Vec<f64>>,
     /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
     pub largest: (f64, f64),
     /// Others that are as alike, as far as the record can tell: of other branches, or farther away than
