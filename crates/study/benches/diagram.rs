@@ -132,7 +132,7 @@ fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
 }
 
 fn costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) -> Costs {
-    let watched = Some((model.response.shape.as_slice(), model.response.support_ratio));
+    let watched = Some((model.response.shape.as_slice(), model.response.support_ratios.as_slice()));
     let settings = ExactSettings { tolerance: 1e-11 };
     let mut integrator = ExactIntegrator::watching(model.system.clone(), settings, watched).unwrap();
     let flights: Vec<Vec<(Stretch, Vec<f64>)>> =
