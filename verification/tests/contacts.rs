@@ -43,7 +43,7 @@ fn table_carries_the_weight_of_a_bouncing_mass_on_average() {
     let laws = [Law::Linear(LinearStop::with_gap(3e4, 0.0).unwrap()), hertz(2e6, 0.0)];
     for law in laws {
         for (amplitude, frequency_hz) in [(1e-3, 7.0), (8e-3, 9.0), (12e-3, 8.0)] {
-            let rig = bouncing(law, amplitude);
+            let rig = bouncing(law.clone(), amplitude);
             let orbit = orbit(&rig, frequency_hz, 1);
             assert!(orbit.maxima.contacts >= 1);
             let expected = MASS * GRAVITY / frequency_hz;

@@ -27,4 +27,5 @@ mod van_de_vorst_eigenfrequencies;
 mod van_de_vorst_harmonic_branch;
 mod van_de_vorst_harmonic_walk;
 mod van_de_vorst_measured_modes;
+mod van_der_pol;
 mod whole_runs;

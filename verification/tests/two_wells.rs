@@ -12,7 +12,13 @@ use hammerbeam_verification::results::Results;
 const DAMPING: f64 = 0.25;
 const FORCE: f64 = 1e-4;
 
-fn study() -> String {
+/// The spring, as a law of its own and as a formula.
+const LAWS: [&str; 2] = [
+    "law = \"cubic\"\nstiffness_n_m = -1.0\nstiffness_n_m3 = 1.0",
+    "law = \"formula\"\nformula = \"k*(x^3 - x)\"\nconstants = { k = 1.0 }",
+];
+
+fn study(law: &str) -> String {
     format!(
         r#"
 [structure]
@@ -27,9 +33,7 @@ frequency_hz = [0.14, 0.16]
 [[stop]]
 name = "wells"
 at = "mass"
-law = "cubic"
-stiffness_n_m = -1.0
-stiffness_n_m3 = 1.0
+{law}
 [search]
 frequencies = 1
 starts = 8
@@ -42,8 +46,12 @@ max_step_hz = 0.002
 
 #[test]
 fn both_wells_and_the_saddle_between_them_are_as_small_motions_have_it() {
+    LAWS.iter().for_each(|law| check_wells(law));
+}
+
+fn check_wells(law: &str) {
     let folder = tempfile::tempdir().unwrap();
-    let results = Results::of_run(&study(), folder.path(), 2).unwrap();
+    let results = Results::of_run(&study(law), folder.path(), 2).unwrap();
     let frequency = 0.15;
     let (w, period) = (TAU * frequency, 1.0 / frequency);
     let amplitude = FORCE / (2.0 - w * w).hypot(DAMPING * w);
@@ -74,5 +82,5 @@ fn both_wells_and_the_saddle_between_them_are_as_small_motions_have_it() {
             }
         }
     }
-    assert_eq!(found, [1, 1, 1], "left, middle, right");
+    assert_eq!(found, [1, 1, 1], "left, middle, right, {law}");
 }

@@ -8,7 +8,7 @@ use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, ly
 use hammerbeam_motion::{
     Law, System,
     exact::ExactSettings,
-    law::{Degree, LinearStop, PowerSpring, TwoSidedStop},
+    law::{Degree, Formula, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 fn spectrum(
@@ -102,4 +102,17 @@ fn two_well_oscillator_has_the_published_exponents() {
         assert!(exponent.half_width < 2e-2);
     }
     assert!((found.sum - divergence).abs() < 1e-6);
+}
+
+/// The same by a formula, whose damper takes the place of that of the structure: what its force does to
+/// volumes is all there is of the sum.
+#[test]
+fn ueda_oscillator_by_a_formula_has_the_published_exponents() {
+    let formula = element(&[1.0], 0.0, Law::Formula(Formula::new("x^3 + 0.05*v", &[]).unwrap()));
+    let (found, _) = spectrum(oscillator(0.0, 0.0, 7.5, vec![formula]), 1.0 / TAU, 4, (100, 3000));
+    for (exponent, published) in found.exponents.iter().zip([0.1034, -0.1534]) {
+        assert!((exponent.value - published).abs() < 0.5e-4 + 2.0 * exponent.half_width, "{exponent:?}");
+        assert!(exponent.half_width < 2e-2);
+    }
+    assert!((found.sum + 0.05).abs() < 1e-6);
 }

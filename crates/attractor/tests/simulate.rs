@@ -101,7 +101,7 @@ fn loss_free_laws_lose_no_energy_in_any_contact() {
         Law::TwoSided(TwoSidedStop::new(5e5, 1e-4, 2e-4).unwrap()),
     ];
     for law in laws {
-        let found = contacts(&mut settled(beam_with(0.015, law), 53.0, 50), 50);
+        let found = contacts(&mut settled(beam_with(0.015, law.clone()), 53.0, 50), 50);
         assert!(found.len() > 20, "{}", found.len());
         let energy = |contact: &ContactRecord| {
             contact.impulse * contact.begin.as_ref().map_or(0.0, |touch| touch.velocity.abs())

@@ -15,6 +15,7 @@ mod every_law;
 mod failing_writes;
 mod figure;
 mod figure_refused;
+mod formula;
 mod impact_oscillator;
 mod interrupts;
 mod json;

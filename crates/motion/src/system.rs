@@ -121,7 +121,7 @@ impl System {
         let untouched = vec![vec![0.0; model.dof()]; model.supports.len()];
         let damping_parts = vec![DampingPart { matrix: ratio, supports: untouched }];
         Ok(Self {
-            given_laws: elements.iter().map(|element| element.law).collect(),
+            given_laws: elements.iter().map(|element| element.law.clone()).collect(),
             families: Vec::new(),
             model,
             elements,

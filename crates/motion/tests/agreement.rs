@@ -76,7 +76,7 @@ fn flows_of_the_beam_agree_for_every_law() {
     ];
     for (law, frequency_hz) in laws {
         for damping_ratio in [0.015, 0.0] {
-            let system = beam_with(damping_ratio, law);
+            let system = beam_with(damping_ratio, law.clone());
             let state = settled(&system, frequency_hz, if damping_ratio > 0.0 { 60 } else { 3 }, 0.3);
             let stretch = Stretch { frequency_hz, start: 0.3, end: 1.3 };
             let what = format!("{law:?}, damping {damping_ratio}");

@@ -79,8 +79,8 @@ fn motion_is_that_of_the_amplitude_at_its_frequency() {
     for law in laws() {
         for frequency_hz in [2.0, 4.4, 6.0, 9.5] {
             let (found, expected) = (
-                flow(&driven(law, 0.7), frequency_hz, 1e-12),
-                flow(&frozen(law, 0.7, frequency_hz), frequency_hz, 1e-12),
+                flow(&driven(law.clone(), 0.7), frequency_hz, 1e-12),
+                flow(&frozen(law.clone(), 0.7, frequency_hz), frequency_hz, 1e-12),
             );
             for (a, b) in found.state.iter().zip(&expected.state) {
                 // Amplitudes are added in another order.
@@ -94,11 +94,11 @@ fn motion_is_that_of_the_amplitude_at_its_frequency() {
 fn frequency_column_holds_the_slope_of_the_amplitude() {
     for law in laws() {
         for support_ratio in [0.0, 1.0, -0.6] {
-            let system = driven(law, support_ratio);
+            let system = driven(law.clone(), support_ratio);
             let column = flow(&system, 6.0, 1e-12).by_frequency;
             let step = 3e-7;
             let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| flow(&system, 6.0 + k * step, 1e-13).state);
-            let without = flow(&frozen(law, support_ratio, 6.0), 6.0, 1e-12).by_frequency;
+            let without = flow(&frozen(law.clone(), support_ratio, 6.0), 6.0, 1e-12).by_frequency;
             for part in [0..3, 3..6] {
                 let difference = |i: usize| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * step);
                 let largest = part.clone().map(|i| difference(i).abs()).fold(0.0, f64::max);
@@ -123,7 +123,7 @@ fn frequency_column_holds_the_slope_of_the_amplitude() {
 fn the_general_integrator_agrees() {
     for law in laws() {
         for support_ratio in [0.0, 0.7] {
-            let system = driven(law, support_ratio);
+            let system = driven(law.clone(), support_ratio);
             let exact = flow(&system, 6.0, 1e-12);
             let general =
                 advance(&system, &STRETCH, &STATE, &GeneralSettings::with_tolerance(1e-12)).unwrap();

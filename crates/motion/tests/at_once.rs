@@ -26,7 +26,7 @@ const STATIC: f64 = 1e-3;
 fn mass(stops: &[(f64, Law)], load: f64) -> System {
     let pushing =
         Law::Hertz(HertzStop::with_preload(5.0 * W * W / STATIC.sqrt(), 1.5 * STATIC * W * W).unwrap());
-    let stops = stops.iter().map(|&(shape, law)| element(&[shape], 0.0, law));
+    let stops = stops.iter().map(|(shape, law)| element(&[*shape], 0.0, law.clone()));
     let elements: Vec<LocalElement> = std::iter::once(element(&[-0.6], 0.0, pushing)).chain(stops).collect();
     let load = Load { support: vec![], forces: vec![force(&[1.0], 1, load * STATIC * W * W, 0.0)] };
     System::new(model(&[W], diagonal(&[0.1 * W])), &load, elements).unwrap()
@@ -88,7 +88,7 @@ fn an_impact_that_is_remembered_is_that_before_a_damper_of_the_same_level_acts()
     let remembers = Law::Restitution(RestitutionStop::new(elastic, RestitutionModel::HuGuo, 0.5).unwrap());
     let damped = LinearStop::with_gap(300.0 * W * W, level).unwrap().with_damping(5.0 * W).unwrap();
     let load = Load { support: vec![], forces: vec![force(&[1.0], 1, 2.0 * STATIC * W * W, 0.0)] };
-    for laws in [[remembers, Law::Linear(damped)], [Law::Linear(damped), remembers]] {
+    for laws in [[remembers.clone(), Law::Linear(damped)], [Law::Linear(damped), remembers]] {
         let stops = laws.map(|law| element(&[1.0], 0.0, law)).to_vec();
         let system = System::new(model(&[W], diagonal(&[0.1 * W])), &load, stops).unwrap();
         let mut touches = 0;
@@ -113,7 +113,7 @@ fn an_impact_that_is_remembered_is_that_before_a_damper_of_the_same_level_acts()
 fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
     for load in [-0.5, -1.2, 0.5] {
         for law in [hertz(300.0 * W * W / STATIC.sqrt(), 0.0), linear(300.0)] {
-            let (system, what) = (mass(&[(0.8, law)], load), format!("{load} {law:?}"));
+            let (system, what) = (mass(&[(0.8, law.clone())], load), format!("{load} {law:?}"));
             let stretch = Stretch { frequency_hz: 4.0, start: 0.0, end: 0.2 };
             let touches = assert_agreement(&system, &stretch, &[0.0, 0.0], 1e-8, &what);
             let phases: Vec<f64> = (1..20_000).map(|k| 1e-5 * f64::from(k)).collect();
@@ -174,7 +174,7 @@ fn a_contact_is_left_where_another_one_closes() {
     let hunt_crossley = HuntCrossleyStop::new(elastic, 20.0).unwrap();
     let two_sided = Law::TwoSided(TwoSidedStop::new(200.0 * W * W, 0.0, STATIC).unwrap());
     for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley)] {
-        let system = mass(&[(0.8, law), (-0.5, two_sided)], 2.0);
+        let system = mass(&[(0.8, law), (-0.5, two_sided.clone())], 2.0);
         assert!(agree_over_periods(&system, 1e-7) > 50);
     }
 }
@@ -192,7 +192,7 @@ fn an_impact_takes_the_force_off_a_damped_contact() {
     for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley), Law::Restitution(remembers)] {
         for restitution in [0.8, 0.3] {
             let rigid = Law::Rigid(RigidStop::with_gap(restitution, behind).unwrap());
-            let system = mass(&[(1.0, law), (1.0, rigid)], 3.0);
+            let system = mass(&[(1.0, law.clone()), (1.0, rigid)], 3.0);
             touches += agree_over_periods(&system, 1e-7);
         }
     }

@@ -173,7 +173,7 @@ fn records_of_a_bounce_are_those_of_its_speeds() {
         remembering(1e8, RestitutionModel::Flores, 0.4, 0.0),
         crate::common::hertz(1e8, 0.0),
     ] {
-        let bounce = Bounce::new(mass, law);
+        let bounce = Bounce::new(mass, law.clone());
         let (_, e) = bounce.restitution(speed, 0.2);
         let start = [-1e-3 * mass.sqrt(), speed * mass.sqrt()];
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.3 };

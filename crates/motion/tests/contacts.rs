@@ -133,7 +133,7 @@ fn permanent_contact_under_preload_agrees_with_the_general_integrator() {
 #[test]
 fn a_damped_mass_comes_to_rest_on_a_stop() {
     for law in [hertz(1e6, 1e-3), Law::Linear(LinearStop::with_gap(1e5, 1e-3).unwrap())] {
-        let system = oscillator(0.0, 3.0, 9.81, vec![element(&[1.0], 0.0, law)]);
+        let system = oscillator(0.0, 3.0, 9.81, vec![element(&[1.0], 0.0, law.clone())]);
         let mut exact = integrator(&system);
         let mut state = vec![0.0, 0.0];
         for second in 0..60 {

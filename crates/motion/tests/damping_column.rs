@@ -136,7 +136,7 @@ fn three_modes(frequencies: [f64; 3], (ratio, damper): (f64, f64), laws: &[Law])
         force([2.3, 0.4, 0.2], 1, 0.5, 0.4),
         force([0.3, -0.5, 0.4], 3, 0.5, 2.0),
     ];
-    let elements = laws.iter().map(|law| element(&SHAPE, 0.0, *law)).collect();
+    let elements = laws.iter().map(|law| element(&SHAPE, 0.0, law.clone())).collect();
     System::new(model(&frequencies, damping), &Load { support: vec![], forces }, elements).unwrap()
 }
 

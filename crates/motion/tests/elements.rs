@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{assert_agreement, diagonal, element, force, hertz, model, settled};
+use crate::common::{assert_agreement, diagonal, element, force, formula, hertz, model, settled};
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
@@ -72,12 +72,14 @@ fn every_law_agrees_on_either_side_and_any_support() {
         Law::TwoSided(TwoSidedStop::new(1e5, 1e-3, 2e-3).unwrap()),
         Law::Power(PowerSpring::cubic(1e9).unwrap()),
         Law::Power(PowerSpring::cubic(-1e5).unwrap()),
+        formula("40*v*(1e6*x^2 - 1) + 1e5*sin(x)"),
+        formula("2e4*x*exp(30*x) + 5*tanh(20*v)"),
     ];
     for law in laws {
         for (shape, support_ratio) in [(TIP, 0.0), (negative(TIP), 0.0), (TIP, 1.0), (negative(TIP), -0.6)] {
             for damping in [light(), coupled()] {
                 let what = format!("{law:?} {shape:?} {support_ratio}");
-                let elements = vec![element(&shape, support_ratio, law)];
+                let elements = vec![element(&shape, support_ratio, law.clone())];
                 let contacts = check(structure(damping), &rich_load(), elements, &what);
                 assert!(contacts > 0 || law.contacts().is_empty(), "{what}: no contact");
             }
@@ -97,7 +99,7 @@ fn several_elements_at_once_agree() {
         ("two points", vec![element(&TIP, 0.0, hertz(1e8, 2e-4)), element(&MIDDLE, 1.0, hertz(1e8, 1e-4))]),
         (
             "a cubic spring and a Hertz stop",
-            vec![element(&TIP, 0.0, cubic), element(&TIP, 0.0, hertz(1e8, 2e-4))],
+            vec![element(&TIP, 0.0, cubic.clone()), element(&TIP, 0.0, hertz(1e8, 2e-4))],
         ),
         ("between two points", vec![element(&between, 0.0, hertz(1e8, 2e-4))]),
         (

@@ -41,7 +41,7 @@ fn flows_of_the_beam_agree() {
     ];
     for (law, frequency_hz) in laws {
         for damping_ratio in [0.015, 0.0] {
-            let system = beam_with(damping_ratio, law);
+            let system = beam_with(damping_ratio, law.clone());
             let state = settled(&system, frequency_hz, if damping_ratio > 0.0 { 60 } else { 3 }, 0.3);
             let stretch = Stretch { frequency_hz, start: 0.3, end: 1.3 };
             let what = format!("{law:?}, damping {damping_ratio}");
@@ -55,7 +55,7 @@ fn flows_of_the_beam_agree() {
 #[test]
 fn stretches_that_start_and_end_inside_contacts_agree() {
     for (law, parts) in [(damped(1e5, 60.0, 0.0), 200_u32), (hunt_crossley(1e6, 20.0, 0.0), 400)] {
-        let system = beam_with(0.015, law);
+        let system = beam_with(0.015, law.clone());
         let element = &system.elements()[0];
         let relative = |state: &[f64]| {
             let read = |part: &[f64]| part.iter().zip(&element.shape).map(|(q, phi)| q * phi).sum::<f64>();
@@ -95,7 +95,7 @@ fn the_modes_lose_what_the_contact_takes() {
         let system = System::new(
             model(&frequencies, diagonal(&[0.0; 3])),
             &Load::default(),
-            vec![element(&[1.0, 0.6, -0.4], 0.0, law)],
+            vec![element(&[1.0, 0.6, -0.4], 0.0, law.clone())],
         )
         .unwrap();
         let stretch = Stretch { frequency_hz: 20.0, start: 0.0, end: 1.0 };
@@ -225,7 +225,7 @@ fn observations_agree() {
         remembering(4.5e9, RestitutionModel::LankaraniNikravesh, 0.7, 0.0),
     ];
     for law in laws {
-        let system = beam_with(0.015, law);
+        let system = beam_with(0.015, law.clone());
         let shape = &system.model().points[0].shape.clone();
         let state = settled(&system, 36.0, 80, 0.0);
         let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
@@ -262,9 +262,12 @@ fn grazing_contacts_of_any_depth_come_to_their_end() {
         remembering(1e8, RestitutionModel::Gonthier, 0.2, gap),
     ];
     for law in laws {
-        let system =
-            System::new(model(&[omega], diagonal(&[0.2])), &Load::default(), vec![element(&[1.0], 0.0, law)])
-                .unwrap();
+        let system = System::new(
+            model(&[omega], diagonal(&[0.2])),
+            &Load::default(),
+            vec![element(&[1.0], 0.0, law.clone())],
+        )
+        .unwrap();
         let mut exact = integrator(&system);
         for exponent in 3..60 {
             for part in [1.0, 0.7, 0.3] {
@@ -302,7 +305,7 @@ fn a_trace_tells_when_the_penetration_of_a_parted_contact_ends() {
         remembering(1e6, RestitutionModel::Flores, 0.3, 0.0),
     ];
     for law in laws {
-        let (system, frequency_hz) = (beam_with(0.015, law), 36.0);
+        let (system, frequency_hz) = (beam_with(0.015, law.clone()), 36.0);
         let state = settled(&system, frequency_hz, 60, 0.3);
         let trace =
             integrator(&system).trace(&Stretch { frequency_hz, start: 0.3, end: 2.3 }, &state, &[]).unwrap();

@@ -38,7 +38,7 @@ fn sensitivities_agree_under_a_load_of_order_300() {
     };
     for (order, m, count) in [(40, 1.0, 1), (300, 1.0, 4), (300, 1e4, 2), (300, 1e-3, 2)] {
         for law in &laws(m)[..count] {
-            let system = two_masses(order, (m, *law));
+            let system = two_masses(order, (m, law.clone()));
             for frequency_hz in [2.898_802_636_591_897_3, 3.3, 4.1] {
                 let state = settled(&system, frequency_hz, 60, 0.0);
                 let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };

@@ -9,7 +9,7 @@ use crate::general_common::{
 use hammerbeam_motion::{
     Flow, Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralFlow, GeneralSettings, advance, sample},
-    law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
+    law::{Formula, HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 const STRETCH: Stretch = Stretch { frequency_hz: 4.0, start: 0.1, end: 1.85 };
@@ -31,7 +31,7 @@ fn two_modes(support_ratio: f64, law: Law) -> System {
     System::new(model, &Load { support, forces }, vec![element(&[1.4, -1.1], support_ratio, law)]).unwrap()
 }
 
-fn laws() -> [Law; 6] {
+fn laws() -> [Law; 7] {
     [
         Law::Hertz(HertzStop::with_gap(5e6, 0.0).unwrap()),
         Law::Hertz(HertzStop::with_preload(5e6, 3.0).unwrap()),
@@ -39,6 +39,7 @@ fn laws() -> [Law; 6] {
         Law::Linear(LinearStop::with_preload(2e4, 8.0).unwrap()),
         Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap()),
         Law::Power(PowerSpring::cubic(1e8).unwrap()),
+        Law::Formula(Formula::new("1e4*x + 60*sin(400*x) + 1e5*x^2", &[]).unwrap()),
     ]
 }
 
@@ -72,7 +73,7 @@ fn assert_sensitivities(system: &System, flow: &Flow, bound: f64) {
 fn sensitivities_agree_with_differences_for_every_law() {
     for law in laws() {
         for support_ratio in [0.0, 1.0, -0.6] {
-            let system = two_modes(support_ratio, law);
+            let system = two_modes(support_ratio, law.clone());
             let GeneralFlow { flow, counts, .. } = run(&system, &STRETCH, &STATE, 1e-12);
             let stops = !law.contacts().is_empty();
             assert!(!stops || counts.crossings >= 2, "{law:?} {support_ratio}: {counts:?}");
@@ -95,7 +96,7 @@ fn contacts_leave_volumes_alone() {
 #[test]
 fn errors_follow_the_tolerance_through_contacts() {
     for law in laws() {
-        let system = two_modes(0.0, law);
+        let system = two_modes(0.0, law.clone());
         let exact = run(&system, &STRETCH, &STATE, 1e-14).flow;
         for tolerance in [1e-7, 1e-9, 1e-11] {
             let GeneralFlow { flow, counts, .. } = run(&system, &STRETCH, &STATE, tolerance);
@@ -221,7 +222,8 @@ fn a_load_moves_a_structure_off_the_level_it_rests_on() {
     for (force, stiffness) in [(2.0, 100.0_f64), (-2.0, 25.0)] {
         let load = Load { support: vec![], forces: vec![harmonic_force(&[1.0], 0, force, 0.0)] };
         let system =
-            System::new(model(&[5.0], diagonal(&[0.0])), &load, vec![element(&[1.0], 0.0, stop)]).unwrap();
+            System::new(model(&[5.0], diagonal(&[0.0])), &load, vec![element(&[1.0], 0.0, stop.clone())])
+                .unwrap();
         let time = 0.2;
         let stretch = Stretch { frequency_hz: 2.0, start: 0.0, end: 2.0 * time };
         let flow = run(&system, &stretch, &[0.0, 0.0], 1e-12).flow;
@@ -234,7 +236,7 @@ fn a_load_moves_a_structure_off_the_level_it_rests_on() {
 
 #[test]
 fn the_next_step_spares_the_search_for_the_first() {
-    let system = two_modes(0.0, laws()[5]);
+    let system = two_modes(0.0, laws()[5].clone());
     let first = run(&system, &STRETCH, &STATE, 1e-10);
     let next = Stretch { start: STRETCH.end, end: STRETCH.end + 0.5, ..STRETCH };
     let settings = GeneralSettings { first_step: Some(first.next_step), ..GeneralSettings::default() };
@@ -247,7 +249,7 @@ fn the_next_step_spares_the_search_for_the_first() {
 /// Work as it came out; more of it is a slow-down that no clock shows.
 #[test]
 fn work_through_eight_crossings_of_a_hertz_stop_does_not_grow() {
-    let counts = run(&two_modes(0.0, laws()[0]), &STRETCH, &STATE, 1e-9).counts;
+    let counts = run(&two_modes(0.0, laws()[0].clone()), &STRETCH, &STATE, 1e-9).counts;
     assert_eq!(counts.crossings, 8);
     assert!(counts.steps <= 345 && counts.rejected <= 120 && counts.evaluations <= 5800, "{counts:?}");
 }

@@ -55,12 +55,13 @@ fn states_agree_with_another_integrator() {
         Law::Hertz(HertzStop::with_gap(1e5, 1e-3).unwrap()),
     ] {
         let (frequency, state) = (3.3, [1e-3, -5e-4, 0.1, 0.02]);
-        let by_hand = ByHand { frequency, law };
+        let by_hand = ByHand { frequency, law: law.clone() };
         let method = ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-14).max_steps(1_000_000);
         let theirs = IVP::ode(&by_hand, 0.0, 2.0 / frequency, state).method(method).solve().unwrap();
         let (_, theirs) = theirs.iter().next_back().unwrap();
         let stretch = Stretch { frequency_hz: frequency, start: 0.0, end: 2.0 };
-        let ours = advance(&system(law), &stretch, &state, &GeneralSettings::with_tolerance(1e-12)).unwrap();
+        let ours =
+            advance(&system(law.clone()), &stretch, &state, &GeneralSettings::with_tolerance(1e-12)).unwrap();
         let error = column_error(&ours.flow.state, theirs);
         assert!(error < 1e-9, "{law:?}: {error:e}, {:?}", ours.counts);
     }

@@ -45,7 +45,7 @@ impl Spring {
             } else {
                 elements.push(LocalElement { name: "spring".into(), ..element(&one, 0.0, law) });
             }
-            if let Some(law) = second {
+            if let Some(law) = second.clone() {
                 elements.push(LocalElement { name: "second".into(), ..element(&two, 0.0, law) });
             }
             System::new(model, &Load { support: vec![], forces }, elements).unwrap()

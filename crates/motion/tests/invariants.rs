@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{beam_with, difference, element, hertz, model, paper_beam, settled};
+use crate::common::{beam_with, difference, element, formula, hertz, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, Stretch, System,
@@ -67,6 +67,7 @@ fn laws() -> Vec<Law> {
         Law::Linear(LinearStop::with_gap(3e5, 1e-3).unwrap()),
         Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap()),
         Law::Power(PowerSpring::cubic(1e8).unwrap()),
+        formula("1e4*x + 60*sin(400*x) + 1e5*x^2"),
     ]
 }
 
@@ -79,6 +80,7 @@ fn lossy_laws() -> Vec<Law> {
         Law::HuntCrossley(HuntCrossleyStop::new(hertz, 40.0).unwrap()),
         Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::LankaraniNikravesh, 0.8).unwrap()),
         Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::Flores, 0.3).unwrap()),
+        formula("6*v*(2e5*x^2 - 1) + 4*tanh(6*v)/(1 + 1e4*x^2)"),
     ]
 }
 
@@ -94,7 +96,7 @@ fn sensitivities_agree_with_differences() {
         for support_ratio in [0.0, 1.0, -0.6] {
             systems.push((
                 format!("{law:?} {support_ratio}"),
-                three_modes(TAU * 3.5, true, vec![element(&SHAPE, support_ratio, law)]),
+                three_modes(TAU * 3.5, true, vec![element(&SHAPE, support_ratio, law.clone())]),
             ));
         }
         systems.push((format!("{law:?} rigid"), three_modes(0.0, false, vec![element(&SHAPE, 0.0, law)])));
@@ -130,7 +132,7 @@ fn sensitivities_agree_with_differences() {
 fn contacts_leave_volumes_alone() {
     for law in laws() {
         for coupled in [false, true] {
-            let system = three_modes(TAU * 3.5, coupled, vec![element(&SHAPE, 1.0, law)]);
+            let system = three_modes(TAU * 3.5, coupled, vec![element(&SHAPE, 1.0, law.clone())]);
             let trace: f64 = (0..3).map(|i| system.model().damping[(i, i)]).sum();
             let expected = (-trace * STRETCH.duration()).exp();
             let found = flow(&system, &STRETCH, &STATE, 1e-12).by_state.determinant();

@@ -39,7 +39,7 @@ fn three_modes(laws: &[Law], coupled: bool) -> System {
         support: vec![Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }.into()],
         forces: vec![force(&[0.6, 0.2, 0.1], 0, -1.0, 0.0), force(&[0.3, -0.5, 0.4], 3, 0.5, 2.0)],
     };
-    let elements = laws.iter().map(|law| element(&[-1.4, 1.1, -0.9], 0.3, *law)).collect();
+    let elements = laws.iter().map(|law| element(&[-1.4, 1.1, -0.9], 0.3, law.clone())).collect();
     // Another damper between two points, one of which the support moves with.
     let other = [0.3, 0.8, -0.6];
     let part = DampingPart {

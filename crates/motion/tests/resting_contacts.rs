@@ -59,7 +59,7 @@ fn a_contact_at_the_place_of_a_rigid_stop_does_nothing() {
         let expected = frequencies.map(|frequency_hz| flow(&alone, frequency_hz));
         let harder = |law: &Law| law.rigid().is_some_and(|law| law.restitution() > restitution);
         for law in laws().into_iter().filter(|law| !harder(law)) {
-            let other = || element(&SHAPE.map(|entry| 0.7 * entry), 0.0, law);
+            let other = || element(&SHAPE.map(|entry| 0.7 * entry), 0.0, law.clone());
             for stops in [vec![other(), stop()], vec![stop(), other()]] {
                 let system = two_modes(stops);
                 for (&frequency_hz, expected) in frequencies.iter().zip(&expected) {
@@ -81,7 +81,7 @@ fn a_contact_between_two_held_points_goes_with_the_first_that_leaves() {
     let elastic = laws().into_iter().filter(|law| law.rigid().is_none() && !law.remembers_impact());
     for law in elastic {
         let ends = [one, two].map(|shape| element(&shape, 0.0, rigid(0.0, 0.0)));
-        let system = two_modes(ends.into_iter().chain([element(&between, 0.0, law)]).collect());
+        let system = two_modes(ends.into_iter().chain([element(&between, 0.0, law.clone())]).collect());
         for frequency_hz in [1.3, 2.3, 3.1] {
             let stretch = Stretch { frequency_hz, start: 0.0, end: 2.0 };
             let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-12 }).unwrap();
@@ -105,7 +105,7 @@ fn a_contact_between_two_held_points_goes_with_the_first_that_leaves() {
 fn a_mass_at_rest_on_both_stops_stays() {
     for law in laws() {
         let load = Load { support: vec![], forces: vec![force(&[1.0, 0.3], 0, STATIC * W * W, 0.0)] };
-        let stops = vec![element(&[1.0, 0.0], 0.0, law), element(&[1.0, 0.0], 0.0, rigid(0.0, 0.0))];
+        let stops = vec![element(&[1.0, 0.0], 0.0, law.clone()), element(&[1.0, 0.0], 0.0, rigid(0.0, 0.0))];
         let system = System::new(model(&[W, 3.1 * W], diagonal(&[0.1 * W; 2])), &load, stops).unwrap();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 20.0 };
         let settings = GeneralSettings::with_tolerance(1e-11);
@@ -132,7 +132,8 @@ fn a_mass_that_meets_both_stops_just_before_it_is_pressed_on_is_held() {
                 let settings = GeneralSettings::with_tolerance(1e-12).state_only();
                 advance(&one_mode(stops), &stretch, &[-STATIC, 0.0], &settings).unwrap().flow.state
             };
-            let (found, expected) = (state(vec![element(&[1.0], 0.0, law), stop()]), state(vec![stop()]));
+            let (found, expected) =
+                (state(vec![element(&[1.0], 0.0, law.clone()), stop()]), state(vec![stop()]));
             for (found, expected) in found.iter().zip(&expected) {
                 assert!(
                     (found - expected).abs() < 1e-9 * W * STATIC,

@@ -76,7 +76,7 @@ fn a_contact_that_the_impact_takes_the_pressure_off() {
         ("memory", remembering(1e4, RestitutionModel::Flores, 0.2, 0.0088)),
     ] {
         for second in [-0.6, -1.0] {
-            let system = pressed(vec![beside(1.0, law)], 0.0);
+            let system = pressed(vec![beside(1.0, law.clone())], 0.0);
             assert_differences(&system, &[0.0085, 0.0, 0.0, 0.4, second, 0.1], name);
         }
     }
@@ -87,7 +87,7 @@ fn a_contact_that_the_impact_lets_press_again() {
     for (name, law) in [("linear", damped(100.0, 20.0, 0.0)), ("hunt-crossley", hunt_crossley(1e4, 8.0, 0.0))]
     {
         for second in [0.6, 1.0] {
-            let system = pressed(vec![beside(-1.0, law)], 0.0);
+            let system = pressed(vec![beside(-1.0, law.clone())], 0.0);
             assert_differences(&system, &[0.0085, 0.05, 0.0, 0.4, second, 0.1], name);
         }
     }

@@ -25,11 +25,11 @@ fn oscillator(damping: f64, force: f64, laws: &[(f64, Law)]) -> Case {
     };
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let local = |(k, &(shape, law)): (usize, &(f64, Law))| LocalElement {
+    let local = |(k, (shape, law)): (usize, &(f64, Law))| LocalElement {
         name: format!("local {k}"),
-        shape: vec![shape],
+        shape: vec![*shape],
         support_ratios: vec![0.0],
-        law,
+        law: law.clone(),
     };
     let elements = laws.iter().enumerate().map(local).collect();
     (System::new(model, &load, elements).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
@@ -197,7 +197,7 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         Law::Rigid(law::RigidStop::with_gap(0.8, gap).unwrap()),
     ];
     for law in laws {
-        let case = oscillator(0.2, 1.0, &[(1.0, law)]);
+        let case = oscillator(0.2, 1.0, &[(1.0, law.clone())]);
         let range_hz = (0.05, 0.4);
         // At that of a rigid stop the multipliers jump: it counts as bracketed.
         let rows = branch_in(Segments::Fixed(4), &case, 0.06, range_hz);
@@ -252,7 +252,8 @@ fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches()
     let grazed = law::LinearStop::with_gap(5.0, 0.8).unwrap();
     let never_open = law::LinearStop::with_preload(1e-3, 5e-3).unwrap();
     let laws = [Law::Restitution(struck), Law::Linear(grazed), Law::Linear(never_open)];
-    let case = oscillator(0.2, 1.0, &[(1.0, laws[0]), (-1.0, laws[1]), (1.0, laws[2])]);
+    let case =
+        oscillator(0.2, 1.0, &[(1.0, laws[0].clone()), (-1.0, laws[1].clone()), (1.0, laws[2].clone())]);
     let range_hz = (0.25, 0.3);
     let rows = branch(&case, 0.29, range_hz);
     let grazes = |row: &&BranchRow| row.located.iter().flat_map(|l| &l.contacts).any(|c| c.contact == 1);
@@ -374,7 +375,7 @@ fn a_neimark_sacker_curve_ends_at_the_strong_resonance() {
 fn grazing_curves_at_two_rigid_stops_begin_beside_the_grazing() {
     const DAMPING: f64 = 0.04;
     let rigid = Law::Rigid(law::RigidStop::with_gap(0.8, 1.0).unwrap());
-    let case = oscillator(DAMPING, 0.4, &[(1.0, rigid), (-1.0, rigid)]);
+    let case = oscillator(DAMPING, 0.4, &[(1.0, rigid.clone()), (-1.0, rigid)]);
     let half = 0.5 * DAMPING * DAMPING;
     let hz_of = |force: f64| {
         let root = (half * half - 2.0 * half + force * force).sqrt();

@@ -79,7 +79,7 @@ fn a_contact_that_appears_upwards_vanishes_downwards() {
 #[test]
 fn the_contact_is_the_one_that_grazes() {
     let (near, far) = (linear(), Law::Linear(LinearStop::with_gap(5.0, 100.0).unwrap()));
-    let subject = oscillator(1.0, DAMPER, FORCE, near);
+    let subject = oscillator(1.0, DAMPER, FORCE, near.clone());
     let harmonic = Harmonic { order: 1, amplitude: FORCE, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let element =

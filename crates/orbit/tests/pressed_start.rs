@@ -32,11 +32,11 @@ fn pressed(stops: &[(&str, Law)]) -> (System, Response) {
         harmonic: Harmonic { order, amplitude, phase: 0.0 },
     };
     let load = Load { support: vec![], forces: vec![force(0, WEIGHT), force(1, FORCE)] };
-    let stop = |&(name, law): &(&str, Law)| LocalElement {
-        name: name.into(),
+    let stop = |(name, law): &(&str, Law)| LocalElement {
+        name: (*name).into(),
         shape: vec![1.0],
         support_ratios: vec![0.0],
-        law,
+        law: law.clone(),
     };
     let system = System::new(unit_mass(DAMPING), &load, stops.iter().map(stop).collect()).unwrap();
     (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })

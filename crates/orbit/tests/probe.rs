@@ -87,7 +87,7 @@ fn motions_that_settle_on_one_orbit_give_it_once() {
 }
 
 fn with(laws: &[(f64, Law)]) -> System {
-    let (system, _) = oscillator(1.0, 0.1, 10.0, laws[0].1);
+    let (system, _) = oscillator(1.0, 0.1, 10.0, laws[0].1.clone());
     let load = |amplitude| hammerbeam_motion::HarmonicForce {
         shape: vec![1.0],
         harmonic: hammerbeam_motion::Harmonic { order: 1, amplitude, phase: 0.0 },
@@ -96,7 +96,7 @@ fn with(laws: &[(f64, Law)]) -> System {
         name: "element".into(),
         shape: vec![*sign],
         support_ratios: vec![0.0],
-        law: *law,
+        law: law.clone(),
     };
     let loads = Load { support: vec![], forces: vec![load(10.0)] };
     System::new(system.model().clone(), &loads, laws.iter().map(element).collect()).unwrap()
@@ -125,8 +125,8 @@ fn a_system_is_symmetric_if_forces_change_their_sign_with_the_displacement() {
     let even = Law::TwoSided(TwoSidedStop::new(20.0, 0.5, 0.5).unwrap());
     let uneven = Law::TwoSided(TwoSidedStop::new(20.0, 0.5, 0.6).unwrap());
     assert!(with(&[(1.0, cubic)]).is_symmetric() && with(&[(1.0, even)]).is_symmetric());
-    assert!(with(&[(1.0, stop), (-1.0, stop)]).is_symmetric(), "opposite stops");
-    assert!(!with(&[(1.0, stop)]).is_symmetric() && !with(&[(1.0, uneven)]).is_symmetric());
+    assert!(with(&[(1.0, stop.clone()), (-1.0, stop.clone())]).is_symmetric(), "opposite stops");
+    assert!(!with(&[(1.0, stop.clone())]).is_symmetric() && !with(&[(1.0, uneven)]).is_symmetric());
     assert!(!with(&[(1.0, stop), (-1.0, rigid(0.5))]).is_symmetric());
 }
 
@@ -134,11 +134,11 @@ fn a_system_is_symmetric_if_forces_change_their_sign_with_the_displacement() {
 #[test]
 fn the_mirror_image_of_an_asymmetric_orbit_is_another_orbit() {
     let spring = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let (system, _) = oscillator(1e-6, 0.1, 10.0, spring);
+    let (system, _) = oscillator(1e-6, 0.1, 10.0, spring.clone());
     let mut motion = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
     let mut asymmetric = 0;
     for frequency_hz in [0.13, 0.15, 0.17, 0.19, 0.21, 0.23, 0.25, 0.27] {
-        let (system, response) = oscillator(1e-6, 0.1, 10.0, spring);
+        let (system, response) = oscillator(1e-6, 0.1, 10.0, spring.clone());
         let (effort, settings) = (SurveyEffort::default(), OrbitSettings::default());
         let starts = about(4, 4);
         let orbit = (frequency_hz, &[1, 2][..]);

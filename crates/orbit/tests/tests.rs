@@ -14,6 +14,7 @@ mod find;
 mod flips_beam;
 mod flips_bilinear;
 mod flips_duffing;
+mod formulas;
 mod grazing_located;
 mod grazing_pair;
 mod grazing_rows;

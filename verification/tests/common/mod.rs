@@ -51,11 +51,11 @@ pub fn paper_beam_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
     let model = paper_beam_model(damping_ratio);
     let point = model.point("contact").unwrap().clone();
     let load = shaken(0.5015e-3);
-    let element = |&(sign, law): &(f64, Law)| LocalElement {
+    let element = |(sign, law): &(f64, Law)| LocalElement {
         name: "stop".into(),
         shape: point.shape.iter().map(|phi| sign * phi).collect(),
         support_ratios: vec![0.0],
-        law,
+        law: law.clone(),
     };
     let system = System::new(model, &load, laws.iter().map(element).collect()).unwrap();
     Rig { system, response: Response { shape: point.shape, support_ratios: point.support_ratios } }

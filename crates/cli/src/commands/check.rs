@@ -339,6 +339,11 @@ fn stop_text(stop: &Stop, excitation: &Excitation) -> String {
             let words: Vec<String> = there.map(|(constant, unit)| format!("{constant} {unit}")).collect();
             format!("cubic spring, {}", words.join(", "))
         }
+        StopLaw::Formula { ref formula, ref constants } => {
+            let with = |(name, value): &(String, f64)| format!(", {name} = {value}");
+            let constants: String = constants.iter().map(with).collect();
+            format!("force {formula} N against x, with x in m and v in m/s{constants}")
+        }
     };
     format!("\"{}\" {place}: {law}", stop.name)
 }

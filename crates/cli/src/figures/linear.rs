@@ -78,7 +78,7 @@ fn sides(law: &StopLaw) -> &'static [bool] {
         | StopLaw::Linear { side, .. }
         | StopLaw::Rigid { side, .. } => side,
         StopLaw::TwoSided { .. } => return &[true, false],
-        StopLaw::Cubic { .. } => return &[],
+        StopLaw::Cubic { .. } | StopLaw::Formula { .. } => return &[],
     };
     if *side == Side::Above { &[true] } else { &[false] }
 }

@@ -103,7 +103,7 @@ fn sketched_stop(stop: &Stop) -> SketchStop {
         StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
             (StopKind::TwoSided, Side::Above, gap_above_m.max(gap_below_m) > 0.0)
         }
-        StopLaw::Cubic { .. } => (StopKind::Always, Side::Below, false),
+        StopLaw::Cubic { .. } | StopLaw::Formula { .. } => (StopKind::Always, Side::Below, false),
     };
     SketchStop { point: point.clone(), carrier, kind, above: side == Side::Above, has_gap }
 }

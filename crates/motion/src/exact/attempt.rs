@@ -122,7 +122,7 @@ impl ExactIntegrator {
         self.step.velocity.clear();
         for a in 0..self.step.active.len() {
             let element = self.step.active[a];
-            let law = self.laws[element];
+            let law = &self.laws[element];
             let mobility = self.mobility[element][element];
             let mut jet = run.start[element].jet;
             let stiffness = mobility * law.pressing_force(jet.value, jet.slope).slope * jet.slope;

@@ -115,7 +115,7 @@ impl ExactIntegrator {
         self.drive.forget();
         self.course.clear();
         self.laws.clear();
-        self.laws.extend(self.system.elements().iter().map(|element| element.law));
+        self.laws.extend(self.system.elements().iter().map(|element| element.law.clone()));
         self.memory = None;
         Ok(())
     }

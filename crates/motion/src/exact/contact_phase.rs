@@ -96,7 +96,7 @@ impl ExactIntegrator {
             }
             let start = run.start[element];
             let jet = clearance_of(start.jet, contact.level, contact.sign);
-            if self.laws[element].depends_on_velocity() && self.has_parted(run, element) {
+            if self.laws[element].has_pressure() && self.has_parted(run, element) {
                 run.parted[element] = run.closed[element].take();
             } else if jet.value >= -run.slack * jet.slope - start.margin && self.rises(run, element, contact)
             {

@@ -147,8 +147,8 @@ impl Course {
     /// The solved step, with `run` at its start.
     pub fn step(&mut self, run: &Run, step: &ForceStep, laws: &[Law], impulses: &[f64]) {
         let first = self.elements.len();
-        self.elements.extend(step.active.iter().map(|&element| (element, laws[element])));
-        let damped = |a: &usize| laws[step.active[*a]].depends_on_velocity();
+        self.elements.extend(step.active.iter().map(|&element| (element, laws[element].clone())));
+        let damped = |a: &usize| laws[step.active[*a]].has_pressure();
         let passed = CourseStep {
             grading: step.grading(),
             start: step.start,

@@ -134,7 +134,7 @@ impl ExactIntegrator {
     fn presses_at_start(&self, run: &Run, element: usize, contact: usize) -> bool {
         let touch = Touch { element, contact, boundary: Boundary::Presses };
         let jet = self.output_jet(&run.state, element, 0.0);
-        !self.laws[element].depends_on_velocity() || self.distance(jet, touch).value < 0.0
+        !self.laws[element].has_pressure() || self.distance(jet, touch).value < 0.0
     }
 
     /// The contact of an element that is closed at the start of a stretch.

@@ -80,7 +80,7 @@ impl ExactIntegrator {
     pub(super) fn forget_impacts(&mut self) {
         for (law, element) in self.laws.iter_mut().zip(self.system.elements()) {
             if law.remembers_impact() {
-                *law = element.law;
+                *law = element.law.clone();
             }
         }
     }

@@ -239,7 +239,7 @@ impl ExactIntegrator {
         let outputs: Vec<Output> =
             elements.chain(response).map(|(shape, ratios)| Output::new(&blocks, shape, ratios)).collect();
         let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| blocks.input(&e.shape)).collect();
-        let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
+        let laws: Vec<Law> = system.elements().iter().map(|e| e.law.clone()).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
         let drive = Drive::new(&system, &blocks, &outputs, &stretch);
         let structure = Structure::new(blocks, outputs, inputs, drive);

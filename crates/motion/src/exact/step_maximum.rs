@@ -129,7 +129,7 @@ impl ExactIntegrator {
     pub(super) fn largest_force(&mut self, course: &Course, peaks: Peaks) -> f64 {
         let mut largest = 0.0_f64;
         for peak in &peaks.peaks {
-            let law = self.laws[peak.output];
+            let law = self.laws[peak.output].clone();
             largest = largest.max(if law.depends_on_velocity() {
                 self.exact_damped_force(course, peak)
             } else {
@@ -194,7 +194,7 @@ impl ExactIntegrator {
         self.step.active.clear();
         for (element, law) in course.active(step) {
             self.step.active.push(*element);
-            self.laws[*element] = *law;
+            self.laws[*element] = law.clone();
         }
         self.step.force.clear();
         self.step.force.extend_from_slice(course.numbers(step.force));

@@ -50,9 +50,9 @@ fn steps(law: Law, state: &[f64], duration: f64, count: usize, grading: Grading)
 
 /// Order between two lengths, from the largest velocity error.
 fn order(law: Law, state: &[f64], duration: f64, counts: [usize; 2], grading: Grading) -> f64 {
-    let exact = steps(law, state, duration, 8 * counts[1], grading);
+    let exact = steps(law.clone(), state, duration, 8 * counts[1], grading);
     let error = |count: usize| {
-        let found = steps(law, state, duration, count, grading);
+        let found = steps(law.clone(), state, duration, count, grading);
         found[2..].iter().zip(&exact[2..]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
     let errors = counts.map(error);
@@ -73,8 +73,8 @@ fn smooth_steps_converge_with_twice_the_number_of_nodes() {
 fn steps_graded_at_the_touch_converge_as_fast() {
     let law = Law::Hertz(HertzStop::with_gap(1e7, 0.0).unwrap());
     let state = [0.0, 0.0, 1.0, 0.2];
-    let exact = steps(law, &state, 2e-3, 16, Grading::Touch);
-    let one = steps(law, &state, 2e-3, 1, Grading::Touch);
+    let exact = steps(law.clone(), &state, 2e-3, 16, Grading::Touch);
+    let one = steps(law.clone(), &state, 2e-3, 1, Grading::Touch);
     for i in 2..4 {
         assert!((one[i] - exact[i]).abs() < 1e-11, "{} {}", one[i], exact[i]);
     }

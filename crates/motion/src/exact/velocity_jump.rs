@@ -4,9 +4,10 @@
 //! with `G_e = C_e A B`, and its force jumps by `[F_e]`. A neighbour comes `dt = -dr/v` later, and for so
 //! long has the force before the impact in place of the one behind it: `V+ = V + sum_e B_e [F_e] dr/v`.
 //!
-//! **Pressure.** Every law is linear in the velocity while it presses. Where a contact presses before and
-//! behind the impact, `[F_e] = f_v,e G_e P`, and since P is proportional to v the quotient `[F_e]/v` does not
-//! depend on the speed: it is taken so, and keeps its digits as `v -> 0`. Where the jump ends the pressure or
+//! **Pressure.** Every law of a contact is linear in the velocity while it presses. Where one presses before
+//! and behind the impact, `[F_e] = f_v,e G_e P`, and since P is proportional to v the quotient `[F_e]/v` does
+//! not depend on the speed: it is taken so, and keeps its digits as `v -> 0`. A formula that always acts need
+//! not be linear; of it `f_v,e` is the mean between both velocities. Where the jump ends the pressure or
 //! begins it, one of both forces is zero and the other one is pressure that the jump of velocity takes or
 //! gives: `[F_e]/v` lies between zero and `f_v,e G_e P/v`, and is computed as it stands.
 
@@ -34,7 +35,8 @@ impl ExactIntegrator {
                 (None, None) => 0.0,
                 (Some(_), Some(_)) => {
                     let jet = self.output_jet(&run.state, *e, run.time);
-                    let damping = self.laws[*e].pressing_force(jet.value, jet.slope).damping;
+                    let before = jet.slope - self.mobility[*e][hit] * impulse;
+                    let damping = self.laws[*e].mean_damping(jet.value, [before, jet.slope]);
                     damping * self.mobility[*e][hit] * (impulse / speed)
                 }
                 (before, behind) => (behind.unwrap_or(0.0) - before.unwrap_or(0.0)) / speed,
@@ -57,7 +59,7 @@ impl ExactIntegrator {
     fn turn_pressures(&self, run: &mut Run) {
         for element in 0..self.laws.len() {
             let contact = run.closed[element].or(run.parted[element]);
-            let Some(contact) = contact.filter(|_| self.laws[element].depends_on_velocity()) else {
+            let Some(contact) = contact.filter(|_| self.laws[element].has_pressure()) else {
                 continue;
             };
             let touch = Touch { element, contact, boundary: Boundary::Presses };
@@ -67,13 +69,13 @@ impl ExactIntegrator {
         }
     }
 
-    /// Forces that depend on the velocity, of contacts with penetration; `None` where they do not press.
+    /// Forces that depend on the velocity, of what acts or is parted; `None` where it does not press.
     fn velocity_forces(&self, run: &Run) -> Vec<VelocityForce> {
-        let within = |e: usize| run.closed[e].is_some() || run.parted[e].is_some();
+        let within = |e: usize| self.acts(run, e) || run.parted[e].is_some();
         let damped = (0..self.laws.len()).filter(|&e| within(e) && self.laws[e].depends_on_velocity());
         let force = |e: usize| {
             let jet = self.output_jet(&run.state, e, run.time);
-            run.closed[e].map(|_| self.laws[e].pressing_force(jet.value, jet.slope).value)
+            self.acts(run, e).then(|| self.laws[e].pressing_force(jet.value, jet.slope).value)
         };
         damped.map(|e| (e, force(e))).collect()
     }

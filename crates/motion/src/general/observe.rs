@@ -177,7 +177,7 @@ impl Watched {
         let (mut first, mut watched) = (0, Vec::new());
         for (element, local) in field.system.elements().iter().enumerate() {
             let contacts = local.law.contacts();
-            let pressure = local.law.depends_on_velocity().then_some(first + contacts.len());
+            let pressure = local.law.has_pressure().then_some(first + contacts.len());
             watched.extend(contacts.iter().enumerate().map(|(k, &contact)| Self {
                 element,
                 contact,
@@ -325,7 +325,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         }
         for element in 0..field.system.elements().len() {
             let law = &field.system.elements()[element].law;
-            if law.depends_on_velocity() || field.rigid.held.contains(&element) {
+            if law.has_pressure() || field.rigid.held.contains(&element) {
                 self.largest_force(field, step, element);
             }
         }

@@ -308,7 +308,7 @@ impl SystemField<'_> {
         let mut end = 0;
         for element in self.system.elements() {
             end += switches_of(element);
-            if element.law.depends_on_velocity() {
+            if element.law.has_pressure() {
                 inside[end - 1] = values[end - 1] > 0.0;
             }
         }

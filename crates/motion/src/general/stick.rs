@@ -8,9 +8,8 @@
 //! `C psi dr/D + (sum_e phi_e [F_e] + sum_j psi_j lambda_j) dr/v`:
 //!
 //! the dampers of the structure, the forces that jump with the velocities, and what held stops pressed with
-//! that the impact throws off. Of a law that is linear in the velocity while it presses `[F_e]/v = -f_v,e
-//! (phi_e . psi)/D` where it presses before and behind the impact, and that is its limit as v goes to zero,
-//! too. Where its pressure ends or begins with the jump the quotient is taken. Stops that would have to pull
+//! that the impact throws off. Where a law presses before and behind the impact, `[F_e]/v = -f_v,e (phi_e .
+//! psi)/D` with the mean of `f_v,e` between both velocities, and that is its limit as v goes to zero, too. Where its pressure ends or begins with the jump the quotient is taken. Stops that would have to pull
 //! behind the impact are let go as after any other (`thrown_off.rs`).
 
 use super::{
@@ -19,9 +18,9 @@ use super::{
     system_field::{SystemField, add_scaled, dot, switches_of},
 };
 
-/// Force of an element and its derivative by the velocity; `None` where the law does not depend on that, or
-/// does not press.
-type VelocityForce = Option<(f64, f64)>;
+/// Force of an element, with its relative displacement and velocity; `None` where the law does not depend on
+/// that velocity, or does not press.
+type VelocityForce = Option<(f64, [f64; 2])>;
 
 impl SystemField<'_> {
     /// At the start of a motion: stops that stick are held, none is behind.
@@ -118,8 +117,7 @@ impl SystemField<'_> {
                 let u = self.carried(&element.support_ratios, time);
                 let r = dot(&element.shape, &state[..n]) + u[0];
                 let velocity = dot(&element.shape, &state[n..]) + u[1];
-                let force = law.pressing_force(r, velocity);
-                (force.value, force.damping)
+                (law.pressing_force(r, velocity).value, [r, velocity])
             })
         };
         self.laws.iter().zip(self.system.elements()).map(of_element).collect()
@@ -135,16 +133,16 @@ impl SystemField<'_> {
     ) -> Vec<f64> {
         let direction = self.free_direction(e);
         let mobility = dot(&self.system.elements()[e].shape, &direction);
-        let jump =
-            |((element, before), behind): ((&crate::LocalElement, &VelocityForce), &VelocityForce)| match (
-                before, behind,
-            ) {
-                (None, None) => 0.0,
-                (Some((_, damping)), Some(_)) => -damping * dot(&element.shape, &direction) / mobility,
-                (Some((force, _)), None) => -force / speed,
-                (None, Some((force, _))) => force / speed,
-            };
-        self.system.elements().iter().zip(before).zip(behind).map(jump).collect()
+        let jump = |e: usize| match (before[e], behind[e]) {
+            (None, None) => 0.0,
+            (Some((_, [r, before])), Some((_, [_, behind]))) => {
+                let damping = self.laws[e].mean_damping(r, [before, behind]);
+                -damping * dot(&self.system.elements()[e].shape, &direction) / mobility
+            }
+            (Some((force, _)), None) => -force / speed,
+            (None, Some((force, _))) => force / speed,
+        };
+        (0..before.len()).map(jump).collect()
     }
 
     /// Holds an element: `r` is its level and `r'` zero from now on. `jumps` are the `[F_e]/v` of all

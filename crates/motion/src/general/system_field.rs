@@ -78,7 +78,7 @@ impl<'a> SystemField<'a> {
             switches: system.elements().iter().map(switches_of).sum(),
             length: 1e-3 * shortest_length(system, frequency_hz),
             slopes: vec![(0.0, 0.0); system.elements().len()],
-            laws: system.elements().iter().map(|element| element.law).collect(),
+            laws: system.elements().iter().map(|element| element.law.clone()).collect(),
             impacts: vec![(0.0, Vec::new()); system.elements().len()],
             rigid: RigidStops::of(system),
             region: Vec::new(),
@@ -203,7 +203,7 @@ impl<'a> SystemField<'a> {
 /// Switching functions of an element: its contacts, and the pressure of a law that depends on the velocity,
 /// which has one contact.
 pub(super) fn switches_of(element: &LocalElement) -> usize {
-    element.law.contacts().len() + usize::from(element.law.depends_on_velocity())
+    element.law.contacts().len() + usize::from(element.law.has_pressure())
 }
 
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the

@@ -12,6 +12,7 @@
 //! begins it is continuous too, or, for a damper, jumps by `-c p'`, see [`Law::onset_damping`]. Some laws
 //! remember the speed with which the present contact began ([`Law::remembers_impact`]).
 
+mod formula;
 mod hertz;
 mod hunt_crossley;
 mod linear;
@@ -20,6 +21,7 @@ mod restitution;
 mod rigid;
 mod two_sided;
 
+pub use formula::{CONSTANTS, DEEPEST, Formula, FormulaError, Function, LONGEST, VARIABLES};
 pub use hertz::HertzStop;
 pub use hunt_crossley::HuntCrossleyStop;
 pub use linear::LinearStop;
@@ -56,9 +58,13 @@ pub enum LawError {
     #[error("coefficient of restitution of a rigid stop is {found}, must be from 0 to 1")]
     #[expect(missing_docs, reason = "the message names its fields")]
     RigidRestitution { found: f64 },
-    /// A rigid stop has no stiffness.
-    #[error("a rigid stop has no stiffness")]
-    NoStiffness,
+    /// A rigid stop and a formula have no stiffness.
+    #[error("{law} has no stiffness")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    NoStiffness { law: &'static str },
+    /// A text that is no formula of a force.
+    #[error(transparent)]
+    Formula(#[from] FormulaError),
     /// A law that remembers how fast its contact began cannot be closed from the outset.
     #[error("the stop presses at rest, but its law needs the speed with which a contact begins")]
     MemoryOfPreload,
@@ -117,7 +123,7 @@ impl Pressure {
 }
 
 /// The law of a local element.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Law {
     /// Sphere on sphere, after Hertz.
     Hertz(HertzStop),
@@ -131,6 +137,8 @@ pub enum Law {
     TwoSided(TwoSidedStop),
     /// A power of the displacement, always active.
     Power(PowerSpring),
+    /// A formula of displacement and velocity, always active.
+    Formula(Formula),
     /// Rigid stop with a coefficient of restitution.
     Rigid(RigidStop),
 }
@@ -147,6 +155,7 @@ impl Law {
             Self::Linear(law) => law.force(displacement, velocity),
             Self::TwoSided(law) => law.force(displacement),
             Self::Power(law) => law.force(displacement),
+            Self::Formula(law) => law.force(displacement, velocity),
             Self::Rigid(_) => RigidStop::force(),
         }
     }
@@ -169,21 +178,39 @@ impl Law {
         }
     }
 
-    /// What has to be positive for a contact to press, if the force depends on the velocity.
+    /// What has to be positive for a contact to press, if its force depends on the velocity.
     #[must_use]
     pub fn pressure(&self) -> Option<Pressure> {
         match self {
             Self::HuntCrossley(law) => law.pressure(),
             Self::Restitution(law) => Some(law.pressure()),
             Self::Linear(law) => law.pressure(),
-            Self::Hertz(_) | Self::TwoSided(_) | Self::Power(_) | Self::Rigid(_) => None,
+            Self::Hertz(_) | Self::TwoSided(_) | Self::Power(_) | Self::Formula(_) | Self::Rigid(_) => None,
         }
     }
 
-    /// Whether the force depends on the velocity.
+    /// Whether a contact of the law can part while there is penetration left.
+    #[must_use]
+    pub fn has_pressure(&self) -> bool {
+        self.pressure().is_some()
+    }
+
+    /// Whether the force depends on the velocity: that of a contact that has a pressure, or a formula.
     #[must_use]
     pub fn depends_on_velocity(&self) -> bool {
-        self.pressure().is_some()
+        match self {
+            Self::Formula(law) => law.depends_on_velocity(),
+            _ => self.has_pressure(),
+        }
+    }
+
+    /// Mean of `df/dr'` between two velocities, by which the force jumps with its velocity.
+    pub(crate) fn mean_damping(&self, displacement: f64, velocities: [f64; 2]) -> f64 {
+        match self {
+            Self::Formula(law) => law.mean_damping(displacement, velocities),
+            // Every other law is linear in the velocity while it presses.
+            _ => self.pressing_force(displacement, velocities[1]).damping,
+        }
     }
 
     /// Whether the force depends on the speed with which the present contact began, so that a contact has to
@@ -198,7 +225,7 @@ impl Law {
     pub fn struck_at(&self, impact_speed: f64) -> Self {
         match self {
             Self::Restitution(law) => Self::Restitution(law.struck_at(impact_speed)),
-            law => *law,
+            law => law.clone(),
         }
     }
 
@@ -252,7 +279,7 @@ impl Law {
         Ok(match self {
             Self::HuntCrossley(law) => Self::HuntCrossley(law.with_loss(damping)?),
             Self::Linear(law) => Self::Linear(law.with_damping(damping)?),
-            law => *law,
+            law => law.clone(),
         })
     }
 
@@ -284,7 +311,7 @@ impl Law {
         Ok(match self {
             Self::Rigid(law) => Self::Rigid(law.with_restitution(restitution)?),
             Self::Restitution(law) => Self::Restitution(law.with_restitution(restitution)?),
-            law => *law,
+            law => law.clone(),
         })
     }
 
@@ -302,12 +329,12 @@ impl Law {
             Self::Restitution(law) => law.contacts(),
             Self::Linear(law) => law.contacts(),
             Self::TwoSided(law) => law.contacts(),
-            Self::Power(_) => &[],
+            Self::Power(_) | Self::Formula(_) => &[],
             Self::Rigid(law) => law.contacts(),
         }
     }
 
-    /// The constant of the law, in its unit; infinite for a rigid stop.
+    /// The constant of the law, in its unit; infinite for a rigid stop, not a number for a formula.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
         match self {
@@ -317,6 +344,7 @@ impl Law {
             Self::Linear(law) => law.stiffness(),
             Self::TwoSided(law) => law.stiffness(),
             Self::Power(law) => law.stiffness(),
+            Self::Formula(_) => f64::NAN,
             Self::Rigid(_) => f64::INFINITY,
         }
     }
@@ -343,7 +371,8 @@ impl Law {
             Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
             Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
             Self::Power(law) => Self::Power(law.with_stiffness(stiffness)?),
-            Self::Rigid(_) => return Err(LawError::NoStiffness),
+            Self::Formula(_) => return Err(LawError::NoStiffness { law: "a formula" }),
+            Self::Rigid(_) => return Err(LawError::NoStiffness { law: "a rigid stop" }),
         })
     }
 
@@ -365,7 +394,7 @@ impl Law {
                 Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?.with_damping(law.damping())?)
             }
             Self::TwoSided(law) => Self::TwoSided(TwoSidedStop::new(law.stiffness(), gap, gap)?),
-            Self::Power(law) => Self::Power(*law),
+            Self::Power(_) | Self::Formula(_) => self.clone(),
             Self::Rigid(law) => Self::Rigid(RigidStop::with_gap(law.restitution(), gap)?),
         })
     }

@@ -47,7 +47,7 @@ fn slopes_agree_with_differences() {
 fn one_sided_stops_are_free_up_to_their_gap_and_press_back_beyond() {
     let hertz = Law::Hertz(HertzStop::with_gap(4.5e9, 1e-3).unwrap());
     let linear = Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap());
-    for law in [hertz, linear] {
+    for law in [hertz.clone(), linear.clone()] {
         assert_eq!(law.force(1e-3, 0.0), Force::ZERO);
         assert_eq!(law.force(-1.0, 0.0), Force::ZERO);
     }

@@ -39,6 +39,7 @@ impl System {
 fn is_odd(law: &Law) -> bool {
     match law {
         Law::Power(law) => law.is_odd(),
+        Law::Formula(law) => law.is_odd(),
         Law::TwoSided(_) => law.gap().is_some(),
         _ => false,
     }

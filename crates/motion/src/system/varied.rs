@@ -72,7 +72,7 @@ impl System {
         let laws = other.elements.iter().zip(&other.given_laws);
         for (own, (theirs, given)) in self.elements.iter_mut().zip(laws) {
             if theirs.law != *given {
-                own.law = theirs.law;
+                own.law = theirs.law.clone();
             }
         }
     }

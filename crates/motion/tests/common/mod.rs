@@ -12,7 +12,8 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
-        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, RigidStop,
+        Formula, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop,
+        RigidStop,
     },
 };
 use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
@@ -97,6 +98,11 @@ pub fn rigid(restitution: f64, gap: f64) -> Law {
 /// A cubic spring.
 pub fn cubic(stiffness: f64) -> Law {
     Law::Power(PowerSpring::cubic(stiffness).unwrap())
+}
+
+/// A force that resists by a formula.
+pub fn formula(text: &str) -> Law {
+    Law::Formula(Formula::new(text, &[]).unwrap())
 }
 
 /// A harmonic force in modal coordinates.

@@ -79,7 +79,7 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
             let phase = stretch.start + begin.time * frequency_hz;
             let [_, behind, _] =
                 problem.system().relative_motion(contact.element, frequency_hz, phase, &jump.state);
-            let law = problem.system().elements()[contact.element].law;
+            let law = &problem.system().elements()[contact.element].law;
             let restitution = law.rigid().map_or(0.0, |stop| stop.restitution());
             if -behind > REBOUNDS * restitution * begin.velocity {
                 touches.push(Touch {

@@ -188,7 +188,7 @@ impl Touch {
             .map(|(phase, state)| self.clearance(shooting, frequency_hz, *phase, state))
             .collect();
         let element = &shooting.integrator.system().elements()[self.element];
-        let opens_at_its_level = !element.law.depends_on_velocity() && element.law.rigid().is_none();
+        let opens_at_its_level = !element.law.has_pressure() && element.law.rigid().is_none();
         let farthest = FARTHEST * self.reach(shooting);
         let (mut turns, mut from_inside) = (Vec::new(), Vec::new());
         for (phases, looks) in phases.windows(2).zip(clearances.windows(2)) {

@@ -89,7 +89,7 @@ pub fn together(parts: &[Part]) -> Case {
             name: "local".into(),
             shape: wide(first, shape),
             support_ratios: vec![0.0],
-            law: *law,
+            law: law.clone(),
         }));
     }
     let response = wide(0, &[1.0]);

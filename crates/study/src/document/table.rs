@@ -5,12 +5,14 @@ use std::{cell::RefCell, ops::Range};
 use toml::de::{DeTable, DeValue};
 
 use super::{
-    Reading, Value, closest,
+    Quantity, Reading, Value, closest,
     unit::{measured, without_unit},
 };
 
 /// Elements of an array of tables: masses, springs, stops.
 const MOST_TABLES: usize = 1000;
+/// Entries of a table of names that the file chooses.
+const MOST_NAMES: usize = 100;
 
 /// A table of the document; what is never asked for is an unknown key.
 pub(crate) struct Table<'a> {
@@ -97,6 +99,27 @@ impl<'a> Table<'a> {
             return Vec::new();
         }
         elements.iter().filter_map(Value::table).collect()
+    }
+
+    /// All entries of a table whose keys are names that the file chooses, as numbers; `None` where one is
+    /// none.
+    pub(crate) fn named_numbers(&self, quantity: &Quantity) -> Option<Vec<(String, f64)>> {
+        if self.entries.len() > MOST_NAMES {
+            let message = format!("there are {} entries{}", self.entries.len(), self.place_name());
+            let help = vec![format!("allowed: at most {MOST_NAMES} names")];
+            self.reading.problem(&self.path, Some(self.span.clone()), message, help);
+            return None;
+        }
+        let mut keys: Vec<&str> = self.entries.keys().map(|key| key.get_ref().as_ref()).collect();
+        keys.sort_unstable();
+        let number = |key: &str| {
+            let (value, path) = (self.entries.get(key)?, self.path_of(key));
+            self.reading.note_place(&path, value.span());
+            let taken = Value::new(self.reading, path, value.span(), value.get_ref());
+            Some((key.to_owned(), taken.number(quantity)?))
+        };
+        let read: Vec<Option<(String, f64)>> = keys.into_iter().map(number).collect();
+        read.into_iter().collect()
     }
 
     /// Notes a fault of a key of this table.

@@ -32,7 +32,7 @@ fn every_key_is_documented() {
             keys.extend(known_keys(&study.replacen(table, &format!("{table}\nwrong_key = 1"), 1)));
         }
     }
-    for added in ["hertz", "linear", "two-sided", "cubic"].map(stop) {
+    for added in ["hertz", "linear", "two-sided", "cubic", "formula"].map(stop) {
         keys.extend(known_keys(&format!("{BEAM}\n{added}")));
     }
     for added in ["gravity", "force", "support-motion"].map(load) {

@@ -15,6 +15,7 @@ mod load;
 mod lumped;
 mod names;
 mod parameter;
+mod read_formula;
 mod read_stop_law;
 mod reduction;
 mod response;

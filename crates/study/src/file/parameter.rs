@@ -200,6 +200,8 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
         }
         // Without a cubic term there is none to be varied by its derivative.
         StopLaw::Cubic { stiffness_n_m3: 0.0, .. } => return Vec::new(),
+        // The constants of a formula are numbers of the model as any other.
+        StopLaw::Formula { .. } => return Vec::new(),
         StopLaw::Cubic { .. } => ("stiffness_n_m3", quantity::CUBIC_STIFFNESS, false),
         StopLaw::Rigid { approach, .. } => ("restitution", quantity::RIGID_RESTITUTION, gap_of(approach)),
     };

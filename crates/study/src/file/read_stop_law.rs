@@ -5,7 +5,10 @@
 //! time, unless they press at rest. So whatever holds for one-sided stops (parting while there is
 //! penetration left, impacts that are remembered, what sticks to a rigid stop) holds for these.
 
-use super::stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
+use super::{
+    read_formula,
+    stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw},
+};
 use crate::document::{Quantity, Table, Value, quantity};
 
 /// Which law it is.
@@ -15,16 +18,18 @@ pub(super) enum Kind {
     Linear,
     TwoSided,
     Cubic,
+    Formula,
     HuntCrossley,
     Restitution(ImpactModel),
     Rigid,
 }
 
-const KINDS: [(&str, Kind); 12] = [
+const KINDS: [(&str, Kind); 13] = [
     ("hertz", Kind::Hertz),
     ("linear", Kind::Linear),
     ("two-sided", Kind::TwoSided),
     ("cubic", Kind::Cubic),
+    ("formula", Kind::Formula),
     ("rigid", Kind::Rigid),
     ("hunt-crossley", Kind::HuntCrossley),
     ("herbert-mcwhannell", Kind::Restitution(ImpactModel::HerbertMcwhannell)),
@@ -81,6 +86,7 @@ pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<ReadLaw> {
         }
         Kind::TwoSided => read_two_sided(table),
         Kind::Cubic => read_cubic(table).map(ReadLaw::One),
+        Kind::Formula => read_formula::read(table).map(ReadLaw::One),
         Kind::Rigid => read_rigid(table),
         Kind::HuntCrossley => read_hunt_crossley(table),
         Kind::Restitution(model) => read_restitution(table, model),

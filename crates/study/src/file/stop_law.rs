@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// Force law of a local element.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StopLaw {
     /// One-sided, `k p^1.5`.
@@ -82,6 +82,14 @@ pub enum StopLaw {
         /// Constant of the cubic term [N/m^3].
         #[serde(skip_serializing_if = "is_absent")]
         stiffness_n_m3: f64,
+    },
+    /// A formula of displacement and velocity, always active.
+    Formula {
+        /// The force with which the element resists [N], of `x` [m] and `v` [m/s].
+        formula: String,
+        /// Its constants by their names, in the order of these.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        constants: Vec<(String, f64)>,
     },
 }
 

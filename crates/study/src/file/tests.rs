@@ -304,7 +304,7 @@ fn law_with(keys: &str) -> Result<Study, String> {
 
 #[test]
 fn laws_that_lose_energy_are_read() {
-    let read = |keys: &str| law_with(keys).unwrap().stops[0].law;
+    let read = |keys: &str| law_with(keys).unwrap().stops[0].law.clone();
     let StopLaw::HuntCrossley { loss_s_m, .. } = read("law = \"hunt-crossley\"\nloss_s_m = 0.25") else {
         panic!("not the law of Hunt and Crossley")
     };

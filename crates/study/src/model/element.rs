@@ -3,8 +3,8 @@
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
     law::{
-        Degree, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop,
-        RigidStop, TwoSidedStop,
+        Degree, Formula, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel,
+        RestitutionStop, RigidStop, TwoSidedStop,
     },
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
@@ -158,6 +158,9 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalEle
             };
             let there = terms.into_iter().filter(|(stiffness, ..)| *stiffness != 0.0);
             return there.map(element).collect();
+        }
+        StopLaw::Formula { ref formula, ref constants } => {
+            element(relative, Law::Formula(Formula::new(formula, constants)?))
         }
     })
 }

@@ -4,6 +4,9 @@
 //! w_i)`. C is positive semidefinite, so where `C_ii` vanishes the mode is not coupled to others by it
 //! either: it never decays, and a pair of multipliers of every orbit on which no stop acts has modulus one.
 //! Below a ratio of 1e-10 or so these multipliers are not told from the unit circle.
+//!
+//! A formula that depends on the velocity always acts: the modes that it moves are not free of damping, be it
+//! positive or negative.
 
 use std::f64::consts::TAU;
 
@@ -63,6 +66,15 @@ impl Model {
             frequency_hz: rate / TAU,
             ratio: model.damping[(index, index)] / (2.0 * rate),
         });
-        ratios.filter(|mode| mode.ratio < NOTHING).collect()
+        ratios.filter(|mode| mode.ratio < NOTHING && !self.has_damping_force(mode.number - 1)).collect()
+    }
+
+    /// Whether a force that always acts on a mode depends on its velocity.
+    fn has_damping_force(&self, mode: usize) -> bool {
+        self.system.elements().iter().any(|element| {
+            element.law.contacts().is_empty()
+                && element.law.depends_on_velocity()
+                && element.shape[mode] != 0.0
+        })
     }
 }

@@ -113,6 +113,11 @@ fn stop_words(stop: &Stop, excitation: &Excitation) -> String {
                 there.map(|(constant, unit)| format!("{} {unit}", number(*constant))).collect();
             format!("cubic spring {}", words.join(", "))
         }
+        StopLaw::Formula { ref formula, ref constants } => {
+            let with = |(name, value): &(String, f64)| format!(", {name} = {}", number(*value));
+            let constants: String = constants.iter().map(with).collect();
+            format!("force {formula} N{constants}")
+        }
     };
     format!("{} {place}: {law}.", stop.name)
 }

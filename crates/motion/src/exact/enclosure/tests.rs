@@ -102,7 +102,7 @@ fn largest_distance((integrator, run): &(ExactIntegrator, Run)) -> f64 {
 fn the_motion_stays_within_the_bounds_of_its_polynomial() {
     let damped = Law::Linear(LinearStop::with_preload(5.0, 8.0).unwrap().with_damping(0.7).unwrap());
     let laws = [
-        [Law::Linear(LinearStop::with_preload(3.0, 9.0).unwrap()), damped],
+        [Law::Linear(LinearStop::with_preload(3.0, 9.0).unwrap()), damped.clone()],
         [
             Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap()),
             Law::Hertz(HertzStop::with_gap(2.0, 0.0).unwrap()),
@@ -119,7 +119,8 @@ fn the_motion_stays_within_the_bounds_of_its_polynomial() {
         for frequencies in [[1.0, 3.0], [2.0, 7.0]] {
             for length in [0.05, 0.3, 0.9, 1.8] {
                 for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
-                    largest = largest.max(largest_distance(&solved(laws, frequencies, length, grading)));
+                    largest =
+                        largest.max(largest_distance(&solved(laws.clone(), frequencies, length, grading)));
                 }
             }
         }
@@ -134,7 +135,7 @@ fn what_all_blocks_have_in_common_bounds_their_sum() {
     let damped = Law::Linear(LinearStop::with_preload(5.0, 8.0).unwrap().with_damping(0.7).unwrap());
     for frequencies in [[1.0, 1.0], [1.0, 3.0], [2.0, 7.0]] {
         for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
-            let (integrator, run) = solved([hertz, damped], frequencies, 0.9, grading);
+            let (integrator, run) = solved([hertz.clone(), damped.clone()], frequencies, 0.9, grading);
             for (element, parts) in [(0, [1.0, 0.0]), (1, [1.0, 0.0]), (1, [0.3, 0.7])] {
                 let sum = integrator.remainder(&run, element, parts);
                 let common = integrator.common_remainder(&run, element, parts);
@@ -147,7 +148,7 @@ fn what_all_blocks_have_in_common_bounds_their_sum() {
 #[test]
 fn what_is_kept_of_the_end_of_a_step_goes_with_the_step() {
     let hertz = Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap());
-    let (mut integrator, run) = solved([hertz; 2], [1.0, 3.0], 0.3, Grading::Smooth);
+    let (mut integrator, run) = solved([hertz.clone(), hertz], [1.0, 3.0], 0.3, Grading::Smooth);
     let read = integrator.free_jet_at_step_end(&run, 1);
     integrator.keep_step_end(&run, 1);
     assert_eq!(integrator.free_jet_at_step_end(&run, 1), read);

@@ -57,7 +57,7 @@ impl SystemField<'_> {
         for (e, element) in self.system.elements().iter().enumerate() {
             let switches = first..first + switches_of(element);
             first = switches.end;
-            if element.law.depends_on_velocity() && !before[switches.start] && inside[switches.start] {
+            if element.law.has_pressure() && !before[switches.start] && inside[switches.start] {
                 closing.push((e, switches));
             }
         }

@@ -8,7 +8,7 @@ pub(in crate::general) fn force_in_region(law: &Law, (r, speed): (f64, f64), ins
     if contacts.is_empty() {
         return law.force(r, speed);
     }
-    if law.depends_on_velocity() {
+    if law.has_pressure() {
         let presses = inside.iter().all(|inside| *inside);
         return if presses { law.pressing_force(r, speed) } else { Force::ZERO };
     }

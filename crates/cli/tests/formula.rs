@@ -1,0 +1,113 @@
+//! A force given as a formula: from the study file to verified branches, on any number of threads; and what
+//! is no formula.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use std::fs;
+
+use crate::common::{Workshop, assert_bad_input, assert_success, stderr, stdout};
+use serde_json::Value;
+
+const VAN_DER_POL: &str = include_str!("../../../studies/van-der-pol.toml");
+const FORMULA: &str = "\"mu*(x^2 - 1)*v\"";
+
+/// The study with another formula and other constants.
+fn with(formula: &str, constants: &str) -> Workshop {
+    let changed = VAN_DER_POL.replace(FORMULA, formula);
+    Workshop::with(&changed.replace("constants = { mu = 0.3 }", constants))
+}
+
+fn document(workshop: &Workshop, arguments: &[&str]) -> Value {
+    let output = workshop.hammerbeam(arguments);
+    assert_success(&output);
+    serde_json::from_str(&stdout(&output)).unwrap()
+}
+
+/// The locked oscillator over its range and over its constant: one branch that is its own mirror image; the
+/// same bytes from one and two threads, and no solution on which the general integrator disagrees.
+#[test]
+fn the_example_is_followed_and_verified() {
+    let vary =
+        "[[vary]]\nparameter = \"stop.damper.constants.mu\"\nrange = [0.25, 0.35]\nfrequency_hz = 0.16\n";
+    let tables = ["1", "2"].map(|jobs| {
+        let workshop = Workshop::with(&format!("{VAN_DER_POL}\n{vary}"));
+        let run = document(&workshop, &["run", "study.toml", "--out", "results", "--jobs", jobs, "--json"]);
+        let branches = run["branches"].as_array().unwrap();
+        assert_eq!(branches.len(), 1, "{run}");
+        assert_eq!(branches[0]["mirror_image"], branches[0]["number"], "{run}");
+        assert_eq!(run["undamped_modes"].as_array().map(Vec::len), Some(0), "{run}");
+        let verify = document(&workshop, &["verify", "results", "--all", "--json"]);
+        assert_eq!(verify["agree"], true, "{verify}");
+        let varied = workshop.path("exported/parameter_branches.csv");
+        [workshop.csv("results"), fs::read_to_string(varied).unwrap()]
+    });
+    assert!(tables[0] == tables[1]);
+    assert!(tables[0].iter().all(|table| table.lines().count() > 20), "{:?}", tables[0]);
+}
+
+#[test]
+fn another_formula_or_constant_is_another_study() {
+    let workshop = with(FORMULA, "constants = { mu = 0.3 }");
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", "1"]));
+    for (old, new) in [("mu = 0.3 }", "mu = 0.4 }"), ("x^2 - 1)*v", "x^2 - 1)*v^3")] {
+        let other = VAN_DER_POL.replace(old, new);
+        assert_ne!(other, VAN_DER_POL);
+        fs::write(workshop.path("other.toml"), other).unwrap();
+        let output = workshop.hammerbeam(&["run", "other.toml", "--out", "results"]);
+        assert!(!output.status.success() && stderr(&output).contains("stop"), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn check_shows_the_formula_and_what_it_acts_against() {
+    let output = with(FORMULA, "constants = { mu = 0.3 }").hammerbeam(&["check", "study.toml"]);
+    assert_success(&output);
+    assert!(stdout(&output).contains("force mu*(x^2 - 1)*v N against x"), "{}", stdout(&output));
+    assert!(!stdout(&output).contains("has no damping"), "{}", stdout(&output));
+}
+
+#[test]
+fn what_is_no_formula_is_refused_with_its_place_and_help() {
+    let deep = format!("\"{}x{}\"", "(".repeat(400), ")".repeat(400));
+    let cases: [(&str, &str, &[&str]); 14] = [
+        ("\"mu*(x^2 - 1)*w\"", "constants = { mu = 0.3 }", &["`w` at character 14", "allowed: x, v, pi, mu"]),
+        ("\"mu*x*sinn(v)\"", "constants = { mu = 0.3 }", &["`sinn` at character 6", "did you mean `sin`?"]),
+        ("\"(x\"", "", &["`(` at character 1 is not closed"]),
+        ("\"\"", "", &["the formula is empty"]),
+        ("\"µ*x\"", "", &["`µ` at character 1"]),
+        ("\"3*pi\"", "", &["neither `x` nor `v`", "load of order 0"]),
+        ("\"ln(x)\"", "", &["is -inf at rest"]),
+        ("\"x*mu\"", "constants = { mu = 0.3, nu = 1.0 }", &["the constant `nu` is not in the formula"]),
+        (
+            "\"x*v\"",
+            "constants = { v = 0.3 }",
+            &["`v` cannot be the name of a constant", "taken: x, v, pi, sin"],
+        ),
+        ("\"x*mu\"", "constants = { mu = \"0.3\" }", &["`mu` must be a number"]),
+        ("\"x*mu\"", "constants = 3", &["`constants` must be a table"]),
+        ("3.0", "", &["`formula` must be a string"]),
+        ("\"x\"", "stiffness_n_m = 3.0", &["unknown key `stiffness_n_m`", "formula, constants"]),
+        (&deep, "", &["more than 50 parentheses within one another at character 51"]),
+    ];
+    for (formula, constants, parts) in cases {
+        let workshop = with(formula, constants);
+        let before = workshop.listing();
+        for arguments in [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results"]] {
+            assert_bad_input(&workshop.hammerbeam(arguments), &[&["stop[0]"], parts].concat());
+        }
+        assert_eq!(workshop.listing(), before);
+    }
+    let long = with(&format!("\"x{}\"", "+x".repeat(9000)), "").hammerbeam(&["check", "study.toml"]);
+    assert_bad_input(&long, &["`formula` is 18001 bytes long"]);
+    let hidden = with("\"x\"", "constants = { \"\\u001b[31m\" = 1.0 }").hammerbeam(&["check", "study.toml"]);
+    assert_bad_input(&hidden, &["cannot be the name of a constant"]);
+    assert!(!stderr(&hidden).contains('\u{1b}'), "{:?}", stderr(&hidden));
+}
+
+/// A motion that comes to where the force has no value ends there, with the time and exit code 1.
+#[test]
+fn a_motion_ends_where_the_force_has_no_value() {
+    let workshop = with("\"0.1*v + ln(x + 1.5)\"", "");
+    let output = workshop.hammerbeam(&["simulate", "study.toml", "--frequency", "0.16", "--periods", "50"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("too short"), "{}", stderr(&output));
+}

@@ -1,0 +1,138 @@
+//! A force law given as a formula of the displacement and the velocity.
+//!
+//! `f = -g(r, r')`, always active, where the formula g is the force with which the element resists: `k*x` is
+//! a spring and `c*v` a damper, with x for r [m] and v for r' [m/s].
+//!
+//! **Derivatives** are exact: the formula is evaluated in numbers that carry them ([`jet`]). The library that
+//! reads the formula could differentiate it as a text, too; but of `x^(3-1)` that leaves `ln(x) (0 - 0)`,
+//! which is not a number at `x = 0`, and each nested quotient makes the text longer.
+//!
+//! **What is not finite** (a logarithm of a negative number, an overflow) is not a number in the equations of
+//! a step, which then has no solution: a motion that comes there ends, and says where. At rest, `r = r' = 0`,
+//! where every search begins, the force and its derivatives must be finite.
+
+mod arithmetic;
+mod jet;
+mod notation;
+mod parity;
+
+use std::sync::Arc;
+
+use exmex::{Express, FlatEx};
+
+use self::{
+    arithmetic::{Literals, Operators},
+    jet::Jet,
+    parity::Parity,
+};
+use super::Force;
+
+pub use arithmetic::Function;
+pub use notation::{CONSTANTS, DEEPEST, FormulaError, LONGEST, VARIABLES};
+
+/// A difference of forces by a velocity is taken as it stands while rounding leaves it so many digits.
+const ENOUGH_DIGITS: f64 = 1e-9;
+
+/// A force law given as a formula, always active.
+///
+/// `f = -g(r, r')` with the formula g. See [`Formula::new`] for what a formula is.
+#[derive(Clone)]
+pub struct Formula(Arc<Expression>);
+
+struct Expression {
+    /// As it was read, with its constants in their places.
+    text: String,
+    program: FlatEx<Jet, Operators, Literals>,
+    has_displacement: bool,
+    has_velocity: bool,
+    is_odd: bool,
+}
+
+impl Formula {
+    /// The law `f = -g` of the formula g.
+    ///
+    /// A formula has numbers, the variables `x` (the relative displacement [m]) and `v` (its rate [m/s]),
+    /// `pi`, the given constants, `+ - * / ^`, parentheses, and the functions of [`Function::ALL`] of one
+    /// argument in parentheses. `-x^2` is `-(x^2)`, and `a^b^c` needs parentheses.
+    ///
+    /// * `constants`: names and values.
+    ///
+    /// # Errors
+    /// [`FormulaError`]: it is no formula, has neither variable, does not use a constant, or it or one of its
+    /// derivatives is not finite at rest.
+    pub fn new(text: &str, constants: &[(String, f64)]) -> Result<Self, FormulaError> {
+        let text = notation::read(text, constants)?;
+        let program = FlatEx::<Jet, Operators, Literals>::parse(&text).map_err(|_| FormulaError::Unread)?;
+        let parity = FlatEx::<Parity, Operators, Literals>::parse(&text).map_err(|_| FormulaError::Unread)?;
+        let has = |variable: &str| program.var_names().iter().any(|name| name == variable);
+        let [has_displacement, has_velocity] = VARIABLES.map(has);
+        if !has_displacement && !has_velocity {
+            return Err(FormulaError::NoVariable);
+        }
+        let odd = vec![Parity::ODD; parity.var_names().len()];
+        let is_odd = parity.eval(&odd).is_ok_and(Parity::is_odd);
+        let law = Self(Arc::new(Expression { text, program, has_displacement, has_velocity, is_odd }));
+        let Force { value, slope, damping } = law.force(0.0, 0.0);
+        for (what, found) in [("force", value), ("slope by `x`", slope), ("slope by `v`", damping)] {
+            if !found.is_finite() {
+                return Err(FormulaError::NotFiniteAtRest { what, found });
+            }
+        }
+        Ok(law)
+    }
+
+    pub(super) fn depends_on_velocity(&self) -> bool {
+        self.0.has_velocity
+    }
+
+    /// Whether the force of the opposite motion is the opposite one, as the formula shows by its form.
+    pub(crate) fn is_odd(&self) -> bool {
+        self.0.is_odd
+    }
+
+    pub(super) fn force(&self, displacement: f64, velocity: f64) -> Force {
+        let Expression { program, has_displacement, has_velocity, .. } = &*self.0;
+        let (x, v) = (Jet::displacement(displacement), Jet::velocity(velocity));
+        // In the order of their names.
+        let resists = match (has_displacement, has_velocity) {
+            (true, true) => program.eval(&[v, x]),
+            (true, false) => program.eval(&[x]),
+            _ => program.eval(&[v]),
+        };
+        let Jet { value, slope, damping } = resists.expect("a formula has a value for each of its variables");
+        // Not the negative, which of nothing is -0.
+        Force { value: 0.0 - value, slope: 0.0 - slope, damping: 0.0 - damping }
+    }
+
+    /// Mean of `df/dr'` between two velocities.
+    ///
+    /// That is the difference of the forces over that of the velocities, as long as it does not cancel;
+    /// between velocities that are nearly the same, Simpson's rule.
+    pub(super) fn mean_damping(&self, displacement: f64, [first, last]: [f64; 2]) -> f64 {
+        let middle = self.force(displacement, 0.5 * (first + last)).damping;
+        let [first, last] = [first, last].map(|velocity| (velocity, self.force(displacement, velocity)));
+        let steepest = first.1.damping.abs().max(middle.abs()).max(last.1.damping.abs());
+        let rounding = f64::EPSILON * (first.1.value.abs() + last.1.value.abs());
+        let apart = last.0 - first.0;
+        if rounding < ENOUGH_DIGITS * steepest * apart.abs() {
+            (last.1.value - first.1.value) / apart
+        } else {
+            (first.1.damping + 4.0 * middle + last.1.damping) / 6.0
+        }
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.text == other.0.text
+    }
+}
+
+impl std::fmt::Debug for Formula {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Formula").field(&self.0.text).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests;
