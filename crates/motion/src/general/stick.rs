@@ -9,7 +9,8 @@
 //!
 //! the dampers of the structure, the forces that jump with the velocities, and what held stops pressed with
 //! that the impact throws off. Where a law presses before and behind the impact, `[F_e]/v = -f_v,e (phi_e .
-//! psi)/D` with the mean of `f_v,e` between both velocities, and that is its limit as v goes to zero, too. Where its pressure ends or begins with the jump the quotient is taken. Stops that would have to pull
+//! psi)/D` with the mean of `f_v,e` between both velocities, and that is its limit as v goes to zero, too.
+//! Where its pressure ends or begins with the jump the quotient is taken. Stops that would have to pull
 //! behind the impact are let go as after any other (`thrown_off.rs`).
 
 use super::{

@@ -41,16 +41,20 @@ fn help(error: &FormulaError, constants: &[(String, f64)]) -> Vec<String> {
             help
         }
         FormulaError::TooLong { .. } | FormulaError::TooDeep { .. } => {
-            vec![format!("allowed: at most {LONGEST} characters and {DEEPEST} parentheses within one another")]
+            let depth = format!("{DEEPEST} parentheses within one another");
+            vec![format!("allowed: at most {LONGEST} characters and {depth}")]
         }
         FormulaError::ConstantName { .. } => {
-            let taken: Vec<&str> =
-                VARIABLES.into_iter().chain(CONSTANTS.iter().map(|(name, _)| *name)).chain(functions()).collect();
+            let constants = CONSTANTS.iter().map(|(name, _)| *name);
+            let taken: Vec<&str> = VARIABLES.into_iter().chain(constants).chain(functions()).collect();
             vec![format!("taken: {}", listed(&taken))]
         }
         FormulaError::NotFiniteAtRest { .. } => {
-            vec!["allowed: a force that is finite, with finite derivatives, where the structure is undeformed".into()]
+            vec!["allowed: a force that is finite at rest, and so are its derivatives".into()]
         }
-        _ => vec!["allowed: numbers, `x`, `v`, names, `+ - * / ^`, parentheses and functions, as in \"c*(x^2 - 1)*v\"".into()],
+        _ => {
+            let example = "as in \"c*(x^2 - 1)*v\"";
+            vec![format!("allowed: numbers, names, `+ - * / ^`, parentheses and functions, {example}")]
+        }
     }
 }

@@ -88,7 +88,7 @@ pub enum StopLaw {
         /// The force with which the element resists [N], of `x` [m] and `v` [m/s].
         formula: String,
         /// Its constants by their names, in the order of these.
-        #[serde(skip_serializing_if = "Vec::is_empty")]
+        #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_table")]
         constants: Vec<(String, f64)>,
     },
 }
@@ -97,6 +97,10 @@ pub enum StopLaw {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
 fn is_absent(number: &f64) -> bool {
     *number == 0.0
+}
+
+fn as_table<S: serde::Serializer>(constants: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(constants.iter().map(|(name, value)| (name, value)))
 }
 
 /// How the loss of a contact follows from its coefficient of restitution.
