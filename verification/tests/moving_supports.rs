@@ -1,9 +1,9 @@
 //! Supports that move differently, with impacts, against the same physics without any moving support.
 //!
 //! Two masses hang between two walls, with springs, dampers and a stop on the right wall. In the frame of
-//! that wall it stands still, the left wall moves by `u_a - u_b`, which is the force `k_1 u + c_1 u'` on the first
-//! mass, and every mass feels `-m u_b''`: forces on masses and a stop that is fixed in space, no support at
-//! all. Motions of both agree, `y = z + u_b`, to the tolerance of the integrators.
+//! that wall it stands still, the left wall moves by `u_a - u_b`, which is the force `k_1 u + c_1 u'` on the
+//! first mass, and every mass feels `-m u_b''`: forces on masses and a stop that is fixed in space, no
+//! support at all. Motions of both agree, `y = z + u_b`, to the tolerance of the integrators.
 
 use std::f64::consts::TAU;
 

@@ -9,6 +9,7 @@ mod completeness;
 mod contact_damping;
 mod contacts;
 mod duffing;
+mod formulas;
 mod licences;
 mod linear;
 mod many_attractors;
@@ -27,5 +28,5 @@ mod van_de_vorst_eigenfrequencies;
 mod van_de_vorst_harmonic_branch;
 mod van_de_vorst_harmonic_walk;
 mod van_de_vorst_measured_modes;
-mod van_der_pol;
+
 mod whole_runs;

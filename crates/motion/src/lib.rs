@@ -3,7 +3,7 @@
 //! # Mathematics
 //! A [`System`] is a reduced structure with its load and its local elements,
 //!
-//! `q'' + C q' + diag(w^2) q = b(t) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q + s_e u`,
+//! `q'' + C q' + diag(w^2) q = b(t) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q + sum_s s_es u_s`,
 //!
 //! where the elements depend on few scalars: their relative displacements `r_e`. The structure is known
 //! exactly and only the forces `F_e(t)` are not, so the forces are discretised and not the modes. Both

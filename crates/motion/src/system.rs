@@ -1,8 +1,8 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
 //!
-//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e .
-//! q + sum_s s_es u_s`, with the circular excitation frequency `W = 2 pi f` and the displacements `u_s` of
-//! the supports. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u_s` and `b_m`, besides the
+//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q
+//! + sum_s s_es u_s`, with the circular excitation frequency `W = 2 pi f` and the displacements `u_s` of the
+//! supports. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u_s` and `b_m`, besides the
 //! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
 
 mod symmetry;

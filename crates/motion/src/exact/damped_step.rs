@@ -78,7 +78,7 @@ impl ForceStep {
             // Every matrix is fresh: what is left is about the square of this correction.
             if part * part <= precision {
                 self.evaluate_damped(laws);
-                return Ok(());
+                return self.if_forces_are_numbers();
             }
         }
         Err(NotSolved)

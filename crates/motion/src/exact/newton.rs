@@ -45,13 +45,15 @@ impl ForceStep {
                 self.factorise()?;
             }
             self.solve_correction();
-            let (mut largest, mut range) = (0.0_f64, 0.0_f64);
+            let (mut largest, mut range, mut sum) = (0.0_f64, 0.0_f64, 0.0);
             for i in 0..size {
                 self.displacement[i] -= self.correction[i];
+                sum += self.correction[i];
                 largest = largest.max(self.correction[i].abs());
                 range = range.max((self.displacement[i] - self.displacement[0]).abs());
             }
-            if !largest.is_finite() {
+            // Maxima pass over what is not a number, sums do not.
+            if !largest.is_finite() || sum.is_nan() {
                 return Err(NotSolved);
             }
             self.evaluate(laws);
@@ -59,12 +61,17 @@ impl ForceStep {
             // rate.
             let rate = if fresh { largest / range } else { largest / previous };
             if largest * rate <= precision * range || largest <= rounding {
-                return Ok(());
+                return self.if_forces_are_numbers();
             }
             fresh = rate > FACTORISE_ABOVE;
             previous = largest;
         }
         Err(NotSolved)
+    }
+
+    /// A law may have no value at a node, as the logarithm in a formula: then there is no such step.
+    pub(super) fn if_forces_are_numbers(&self) -> Result<(), NotSolved> {
+        if self.force.iter().any(|force| force.is_nan()) { Err(NotSolved) } else { Ok(()) }
     }
 
     /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer,

@@ -55,7 +55,7 @@ impl ExactIntegrator {
         press
     }
 
-    /// Contacts whose force depends on the velocity part, or press again.
+    /// Contacts that press only while their pressure is positive part, or press again.
     fn turn_pressures(&self, run: &mut Run) {
         for element in 0..self.laws.len() {
             let contact = run.closed[element].or(run.parted[element]);

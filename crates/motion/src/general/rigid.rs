@@ -1,7 +1,7 @@
 //! Rigid stops in the vector field of a system: impacts, and the contact that sticks.
 //!
 //! Everything is at a fixed phase x, so `dr = phi . dq`, and `dr' = phi . dv` but for the column of the
-//! frequency, where `s u'/f` is added.
+//! frequency, where `s u'/f` is added; `s u` is the sum over the supports.
 //!
 //! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi`
 //!   where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r'

@@ -195,6 +195,12 @@ impl Law {
         self.pressure().is_some()
     }
 
+    /// Whether the force depends on the displacement.
+    #[must_use]
+    pub fn depends_on_displacement(&self) -> bool {
+        if let Self::Formula(law) = self { law.depends_on_displacement() } else { true }
+    }
+
     /// Whether the force depends on the velocity: that of a contact that has a pressure, or a formula.
     #[must_use]
     pub fn depends_on_velocity(&self) -> bool {

@@ -18,7 +18,8 @@ impl System {
     /// [`Parameter::AddedDamping`](crate::Parameter::AddedDamping).
     ///
     /// # Errors
-    /// [`ParameterError::DampingPartSize`] if it is over another number of modes.
+    /// [`ParameterError::DampingPartSize`] if it is over another number of modes,
+    /// [`ParameterError::DampingPartSupports`] if over another number of supports.
     pub fn with_damping_part(mut self, part: DampingPart) -> Result<Self, ParameterError> {
         let expected = self.dof();
         let transmitted = part.supports.iter().map(Vec::len);

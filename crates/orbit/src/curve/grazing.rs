@@ -1,9 +1,9 @@
 //! A contact that is touched with zero velocity: conditions at the node where the orbit is cut.
 //!
-//! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their
-//! derivatives: by the state `phi`; by the phase `r'/f` and `r''/f` as far as `u` has them; by the frequency
-//! those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap
-//! `-1` in the first.
+//! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit; `s u`
+//! is the sum over the supports. Their derivatives: by the state `phi`; by the phase `r'/f` and `r''/f` as
+//! far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale
+//! `a` those of `u` over `a`; by the gap `-1` in the first.
 //!
 //! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its
 //! penetration is. A law whose force depends on the velocity opens where its force vanishes, with

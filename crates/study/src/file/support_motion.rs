@@ -35,6 +35,7 @@ fn read_each(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
             value.problem(format!("`{key}` is given besides `support`"), help);
         }
     }
+    let is_empty = table.optional("support").is_some_and(|value| value.is_empty_list());
     let entries = table.tables("support");
     let count = entries.len();
     let mut supports: Vec<MovingSupport> = Vec::with_capacity(count);
@@ -49,14 +50,12 @@ fn read_each(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
         }
         supports.push(support);
     }
-    if count == 0 {
-        table.problem(
-            "support",
-            "`support` is an empty list".into(),
-            vec!["allowed: one entry or more".into()],
-        );
+    if is_empty || count == 1 {
+        let message = if is_empty { "`support` is an empty list" } else { "`support` has one entry" };
+        let help = "allowed: two entries or more; one support is moved with `at` and `amplitude_m`";
+        table.problem("support", message.to_owned(), vec![help.to_owned()]);
     }
-    (count > 0 && supports.len() == count).then_some(ExcitationKind::SupportMotions { supports })
+    (count > 1 && supports.len() == count).then_some(ExcitationKind::SupportMotions { supports })
 }
 
 fn read_support(entry: Table<'_>, names: &Names) -> Option<MovingSupport> {
@@ -194,6 +193,9 @@ mod tests {
         assert_refused("support = [", "at = \"left\"\nsupport = [", &["`at` is given besides `support`"]);
         assert_refused("amplitude_m = 0.5e-3", "amplitude_m = 0.6", &["0.6 m", "0.5 m, the length"]);
         assert_refused("right = \"pinned\"", "right = \"free\"", &["the right end of the beam is not held"]);
+        let second = "{ at = \"right\", amplitude = \"0.2 mm\", phase = \"90 deg\" },";
+        assert_refused(second, "", &["`support` has one entry", "is moved with `at`"]);
+        assert_refused(second, "\"right\"", &["support[1]"]);
         let rig = "[rig]\nsweep_hz = [20.0, 30.0]\nchanges = {}\n[response]";
         assert_refused("[response]", rig, &["a rig has one table, but the supports move differently"]);
         let whole = "[[vary]]\nparameter = \"excitation.amplitude_m\"\nrange = [1e-4, 1e-3]\n\

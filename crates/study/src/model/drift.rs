@@ -64,7 +64,7 @@ impl Model {
             let elements = system.elements().iter().filter(|element| wanted(&element.law));
             elements.map(|element| rigid.iter().map(|&i| element.shape[i]).collect()).collect()
         };
-        let (mut held, never) = complement(rigid.len(), &shapes(&|_| true));
+        let (mut held, never) = complement(rigid.len(), &shapes(&Law::depends_on_displacement));
         let drift = |direction: &Vec<f64>, held_by_stops| Drift {
             motion: motion(system, &rigid, direction),
             held_by_stops,
@@ -87,7 +87,7 @@ impl Model {
 /// Whether the force of a law is nowhere zero but at a point.
 fn always_acts(law: &Law) -> bool {
     let acts = |size: f64| law.force(size, 0.0).value != 0.0 && law.force(-size, 0.0).value != 0.0;
-    law.contacts().is_empty() || (-12..=0).all(|k| acts(10f64.powi(k)))
+    law.depends_on_displacement() && (law.contacts().is_empty() || (-12..=0).all(|k| acts(10f64.powi(k))))
 }
 
 /// Orthonormal bases of what these rows span in so many dimensions, and of its complement.

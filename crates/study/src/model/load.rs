@@ -25,12 +25,10 @@ pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyE
 
 /// All that drives the structure with amplitudes that the frequency does not change.
 pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
-    let constant = |harmonic: &HarmonicExcitation| match &harmonic.kind {
-        ExcitationKind::SupportMotions { supports } => Some(each_in_its_way(supports, harmonic.order)),
-        ExcitationKind::SupportMotion { .. } | ExcitationKind::Force { .. } => {
-            let amplitude = harmonic.amplitude().and_then(Amplitude::constant);
-            amplitude.map(|amplitude| excitation(harmonic, model, amplitude))
-        }
+    // Supports that move differently have their amplitudes of their own.
+    let constant = |harmonic: &HarmonicExcitation| {
+        let amplitude = harmonic.amplitude().map_or(Some(1.0), Amplitude::constant);
+        amplitude.map(|amplitude| excitation(harmonic, model, amplitude))
     };
     let mut load = study.excitation.harmonic().and_then(constant).unwrap_or_default();
     for further in &study.loads {
@@ -46,10 +44,10 @@ pub(super) fn over_frequency(study: &Study, model: &ReducedModel) -> Option<(Loa
     Some((excitation(harmonic, model, 1.0), curve))
 }
 
-/// The motions of supports that move differently.
-fn each_in_its_way(supports: &[MovingSupport], order: u32) -> Load {
+/// The motions of supports that move differently, each times a factor.
+fn each_in_its_way(supports: &[MovingSupport], order: u32, factor: f64) -> Load {
     let motion = |(support, of): (usize, &MovingSupport)| {
-        let harmonic = Harmonic { order, amplitude: of.amplitude_m, phase: of.phase_rad };
+        let harmonic = Harmonic { order, amplitude: factor * of.amplitude_m, phase: of.phase_rad };
         SupportHarmonic { support, harmonic }
     };
     Load { support: supports.iter().enumerate().map(motion).collect(), forces: Vec::new() }
@@ -59,7 +57,7 @@ fn excitation(excitation: &HarmonicExcitation, model: &ReducedModel, amplitude: 
     let harmonic = Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
     match &excitation.kind {
         ExcitationKind::SupportMotion { .. } => Load { support: vec![harmonic.into()], forces: Vec::new() },
-        ExcitationKind::SupportMotions { supports } => each_in_its_way(supports, excitation.order),
+        ExcitationKind::SupportMotions { supports } => each_in_its_way(supports, excitation.order, amplitude),
         ExcitationKind::Force { at, .. } => {
             let force = HarmonicForce { shape: shape(model, at), harmonic };
             Load { support: Vec::new(), forces: vec![force] }

@@ -216,6 +216,7 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
         StructureError::LumpedIsNotReduced => "reduction.method",
         StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
+        StructureError::MovedTwice { .. } => "excitation.support",
         _ => "structure",
     };
     let help = match error {

@@ -43,6 +43,9 @@ impl std::fmt::Display for Digits {
     }
 }
 
+/// Part of an element's motion below which a mode leaves it at rest.
+const AT_A_NODE: f64 = 1e-8;
+
 /// Excitation frequency over the highest eigenfrequency up to which branches are followed with steps of usual
 /// length: beyond, a period leaves every mode as it was, up to rounding.
 const RESOLVED: f64 = 1e7;
@@ -66,15 +69,22 @@ impl Model {
             frequency_hz: rate / TAU,
             ratio: model.damping[(index, index)] / (2.0 * rate),
         });
-        ratios.filter(|mode| mode.ratio < NOTHING && !self.has_damping_force(mode.number - 1)).collect()
+        let is_undamped = |mode: &UndampedMode| {
+            let modal: Vec<f64> =
+                (0..self.system.dof()).map(|i| if i + 1 == mode.number { 1.0 } else { 0.0 }).collect();
+            mode.ratio < NOTHING && !self.has_damping_force(&modal)
+        };
+        ratios.filter(is_undamped).collect()
     }
 
-    /// Whether a force that always acts on a mode depends on its velocity.
-    fn has_damping_force(&self, mode: usize) -> bool {
+    /// Whether a force that always acts on a combination of the modes depends on the velocity.
+    pub(super) fn has_damping_force(&self, modal: &[f64]) -> bool {
+        let norm = |row: &[f64]| row.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         self.system.elements().iter().any(|element| {
+            let along: f64 = element.shape.iter().zip(modal).map(|(a, b)| a * b).sum();
             element.law.contacts().is_empty()
                 && element.law.depends_on_velocity()
-                && element.shape[mode] != 0.0
+                && along.abs() > AT_A_NODE * norm(&element.shape) * norm(modal)
         })
     }
 }

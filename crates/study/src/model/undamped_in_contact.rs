@@ -116,6 +116,9 @@ impl Model {
             }
             let modal: Vec<f64> =
                 (0..n).map(|i| free.iter().zip(&shape).map(|(row, y)| row[i] * y).sum()).collect();
+            if self.has_damping_force(&modal) {
+                continue;
+            }
             found.push(UndampedInContact {
                 stops: elements.iter().map(|&index| self.system.elements()[index].name.clone()).collect(),
                 frequency_hz: rate / TAU,

@@ -19,7 +19,11 @@ pub fn changed_study(file: &StudyFile) -> Result<StudyFile, RigError> {
     }
     merge(&mut study, changes);
     let text = toml::to_string(&study).map_err(|error| broken(error.to_string()))?;
-    Ok(StudyFile::parse(&format!("{}, with [rig.changes]", file.name), text)?)
+    let changed = StudyFile::parse(&format!("{}, with [rig.changes]", file.name), text)?;
+    if changed.study.excitation.supports_differ() {
+        return Err(broken("a rig has one table, but the supports move differently".to_owned()));
+    }
+    Ok(changed)
 }
 
 fn merge(into: &mut toml::Table, changes: toml::Table) {
@@ -54,6 +58,30 @@ mod tests {
         assert_ne!(changed.stops, model.stops);
         assert_eq!(changed.excitation, model.excitation);
         assert!(changed.rig.is_none());
+    }
+
+    /// Of a study that nothing shakes, whose rig does.
+    #[test]
+    fn supports_that_differ_are_no_change_for_a_rig() {
+        let free = r#"
+            [structure]
+            kind = "lumped"
+            mass = [{ name = "a", mass_kg = 1.0 }, { name = "m", mass_kg = 1.0 }, { name = "b", mass_kg = 1.0 }]
+            spring = [
+                { between = ["a", "m"], stiffness_n_m = 100.0 },
+                { between = ["m", "b"], stiffness_n_m = 100.0 },
+            ]
+            [response]
+            point = "m"
+            [rig]
+            sweep_hz = [1.0, 3.0]
+            [rig.changes.excitation]
+            kind = "support-motion"
+            frequency_hz = [1.0, 3.0]
+            support = [{ at = "a", amplitude_m = 1e-3 }, { at = "b", amplitude_m = 2e-3 }]
+        "#;
+        let error = changed_study(&StudyFile::parse("free.toml", free.to_owned()).unwrap()).unwrap_err();
+        assert!(error.to_string().contains("the supports move differently"), "{error}");
     }
 
     #[test]

@@ -35,11 +35,10 @@ impl Jet {
         self.slope == 0.0 && self.damping == 0.0
     }
 
-    /// `value`, whose derivative by this number is `factor`. What a number does not depend on, nothing of it
-    /// does, be the factor infinite or not.
+    /// `value`, whose derivative by this number is `factor`. Where that is infinite and the number stands still,
+    /// as in `sqrt(x^2)` at 0, there is no derivative, and what comes out is not a number.
     fn chained(self, value: f64, factor: f64) -> Self {
-        let by = |own: f64| if own == 0.0 { 0.0 } else { factor * own };
-        Self { value, slope: by(self.slope), damping: by(self.damping) }
+        Self { value, slope: factor * self.slope, damping: factor * self.damping }
     }
 }
 
@@ -89,7 +88,9 @@ impl Arithmetic for Jet {
         if exponent.is_constant() {
             return by_base;
         }
-        let by_exponent = exponent.chained(by_base.value, by_base.value * a.ln());
+        // `a^b ln a` goes to 0 with a.
+        let by_exponent = if by_base.value == 0.0 { 0.0 } else { by_base.value * a.ln() };
+        let by_exponent = exponent.chained(by_base.value, by_exponent);
         Self {
             value: by_base.value,
             slope: by_base.slope + by_exponent.slope,

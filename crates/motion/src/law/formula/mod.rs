@@ -12,6 +12,7 @@
 //! where every search begins, the force and its derivatives must be finite.
 
 mod arithmetic;
+mod error;
 mod jet;
 mod notation;
 mod parity;
@@ -28,10 +29,11 @@ use self::{
 use super::Force;
 
 pub use arithmetic::Function;
-pub use notation::{CONSTANTS, DEEPEST, FormulaError, LONGEST, VARIABLES};
+pub use error::FormulaError;
+pub use notation::{CONSTANTS, DEEPEST, LONGEST, VARIABLES};
 
-/// A difference of forces by a velocity is taken as it stands while rounding leaves it so many digits.
-const ENOUGH_DIGITS: f64 = 1e-9;
+/// Roundings of a force that its formula may make.
+const ROUNDINGS: f64 = 64.0;
 
 /// A force law given as a formula, always active.
 ///
@@ -85,6 +87,10 @@ impl Formula {
         self.0.has_velocity
     }
 
+    pub(super) fn depends_on_displacement(&self) -> bool {
+        self.0.has_displacement
+    }
+
     /// Whether the force of the opposite motion is the opposite one, as the formula shows by its form.
     pub(crate) fn is_odd(&self) -> bool {
         self.0.is_odd
@@ -106,19 +112,16 @@ impl Formula {
 
     /// Mean of `df/dr'` between two velocities.
     ///
-    /// That is the difference of the forces over that of the velocities, as long as it does not cancel;
-    /// between velocities that are nearly the same, Simpson's rule.
+    /// That is the difference of the forces over that of the velocities. Where rounding hides that difference,
+    /// as between velocities that are nearly the same, Simpson's rule has more digits.
     pub(super) fn mean_damping(&self, displacement: f64, [first, last]: [f64; 2]) -> f64 {
         let middle = self.force(displacement, 0.5 * (first + last)).damping;
-        let [first, last] = [first, last].map(|velocity| (velocity, self.force(displacement, velocity)));
-        let steepest = first.1.damping.abs().max(middle.abs()).max(last.1.damping.abs());
-        let rounding = f64::EPSILON * (first.1.value.abs() + last.1.value.abs());
-        let apart = last.0 - first.0;
-        if rounding < ENOUGH_DIGITS * steepest * apart.abs() {
-            (last.1.value - first.1.value) / apart
-        } else {
-            (first.1.damping + 4.0 * middle + last.1.damping) / 6.0
-        }
+        let apart = last - first;
+        let [first, last] = [first, last].map(|velocity| self.force(displacement, velocity));
+        let by_simpson = (first.damping + 4.0 * middle + last.damping) / 6.0;
+        let difference = last.value - first.value;
+        let rounding = ROUNDINGS * f64::EPSILON * (first.value.abs() + last.value.abs());
+        if (by_simpson * apart - difference).abs() <= rounding { by_simpson } else { difference / apart }
     }
 }
 

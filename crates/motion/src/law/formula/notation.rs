@@ -7,7 +7,10 @@
 //! library would not read as it is meant. Its length and its depth are bounded, and so is what the library
 //! makes of them.
 
-use super::arithmetic::{Function, NEGATIVE};
+use super::{
+    FormulaError,
+    arithmetic::{Function, NEGATIVE},
+};
 
 /// Names of the variables: displacement and velocity.
 pub const VARIABLES: [&str; 2] = ["x", "v"];
@@ -17,55 +20,6 @@ pub const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 pub const LONGEST: usize = 1000;
 /// Most parentheses within one another.
 pub const DEEPEST: usize = 50;
-
-/// Why a text is no formula of a force. Places count characters from 1.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the messages name their fields")]
-pub enum FormulaError {
-    #[error("the formula is empty")]
-    Empty,
-    #[error("the formula has {found} characters, more than {LONGEST}")]
-    TooLong { found: usize },
-    #[error("there are more than {DEEPEST} parentheses within one another at character {place}")]
-    TooDeep { place: usize },
-    #[error("`{found}` at character {place} has no meaning in a formula")]
-    Character { place: usize, found: char },
-    #[error("`{name}` at character {place} is not known")]
-    UnknownName { place: usize, name: String },
-    #[error("the number `{found}` at character {place} is too large")]
-    Number { place: usize, found: String },
-    #[error(
-        "`{name}` at character {place} is a function and needs its argument in parentheses, `{name}(...)`"
-    )]
-    NoArgument { place: usize, name: String },
-    #[error("a number, a name or a parenthesis is missing before `{found}` at character {place}")]
-    MissingOperand { place: usize, found: String },
-    #[error("the formula ends where a number, a name or a parenthesis is missing")]
-    Unfinished,
-    #[error("an operator is missing before `{found}` at character {place}")]
-    MissingOperator { place: usize, found: String },
-    #[error("the sign of an exponent at character {place} needs parentheses, as in `x^(-2)`")]
-    SignedExponent { place: usize },
-    #[error("the second of two powers, at character {place}, needs parentheses: `(a^b)^c` or `a^(b^c)`")]
-    PowerOfPower { place: usize },
-    #[error("`)` at character {place} closes nothing")]
-    ClosesNothing { place: usize },
-    #[error("`(` at character {place} is not closed")]
-    NotClosed { place: usize },
-    #[error("the formula has neither `x` nor `v`: a constant force is a load of order 0")]
-    NoVariable,
-    #[error("`{name}` cannot be the name of a constant: {why}")]
-    ConstantName { name: String, why: &'static str },
-    #[error("the constant `{name}` is {found}, must be finite")]
-    ConstantValue { name: String, found: f64 },
-    #[error("the constant `{name}` is not in the formula")]
-    ConstantNotUsed { name: String },
-    #[error("the {what} is {found} at rest (`x = 0`, `v = 0`), must be finite")]
-    NotFiniteAtRest { what: &'static str, found: f64 },
-    #[error("the formula cannot be read")]
-    Unread,
-}
 
 /// What a piece of a formula is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,9 +106,9 @@ struct Reader<'a> {
 /// The formula as the library is to read it.
 pub(super) fn read(text: &str, constants: &[(String, f64)]) -> Result<String, FormulaError> {
     constants.iter().try_for_each(|(name, value)| check_constant(name, *value))?;
-    // The first character that is not ASCII is refused, so up to there bytes are characters.
-    if text.len() > LONGEST {
-        return Err(FormulaError::TooLong { found: text.chars().count() });
+    let length = text.chars().count();
+    if length > LONGEST {
+        return Err(FormulaError::TooLong { found: length });
     }
     let tokens = tokens(text)?;
     if tokens.is_empty() {
@@ -185,7 +139,7 @@ fn check_constant(name: &str, value: f64) -> Result<(), FormulaError> {
         || CONSTANTS.iter().any(|(other, _)| *other == name)
         || Function::ALL.iter().any(|(other, _)| *other == name);
     let why = match (is_name, is_taken) {
-        (false, _) => "names have letters from a to z, digits and `_`, and start with a letter",
+        (false, _) => "names have letters, digits and `_`, and begin with no digit",
         (_, true) => "it has a meaning already",
         _ if !value.is_finite() => {
             return Err(FormulaError::ConstantValue { name: name.to_owned(), found: value });

@@ -9,7 +9,7 @@ use super::arithmetic::{Arithmetic, Function};
 
 /// What becomes of a term where `(x, v)` turns into `(-x, -v)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Kind {
+enum Symmetry {
     /// It stays.
     #[default]
     Even,
@@ -21,27 +21,27 @@ enum Kind {
 /// The parity of a term, and its value if that is constant.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Parity {
-    kind: Kind,
+    symmetry: Symmetry,
     constant: Option<f64>,
 }
 
 impl Parity {
     /// That of the variables.
-    pub const ODD: Self = Self { kind: Kind::Odd, constant: None };
+    pub const ODD: Self = Self { symmetry: Symmetry::Odd, constant: None };
 
     pub fn is_odd(self) -> bool {
-        self.kind == Kind::Odd
+        self.symmetry == Symmetry::Odd
     }
 
-    fn joined(self, other: Self, kind: Kind, value: impl Fn(f64, f64) -> f64) -> Self {
-        Self { kind, constant: self.constant.zip(other.constant).map(|(a, b)| value(a, b)) }
+    fn joined(self, other: Self, symmetry: Symmetry, value: impl Fn(f64, f64) -> f64) -> Self {
+        Self { symmetry, constant: self.constant.zip(other.constant).map(|(a, b)| value(a, b)) }
     }
 
-    fn of_product(self, other: Self) -> Kind {
-        match (self.kind, other.kind) {
-            (Kind::Neither, _) | (_, Kind::Neither) => Kind::Neither,
-            (a, b) if a == b => Kind::Even,
-            _ => Kind::Odd,
+    fn of_product(self, other: Self) -> Symmetry {
+        match (self.symmetry, other.symmetry) {
+            (Symmetry::Neither, _) | (_, Symmetry::Neither) => Symmetry::Neither,
+            (a, b) if a == b => Symmetry::Even,
+            _ => Symmetry::Odd,
         }
     }
 }
@@ -50,18 +50,18 @@ impl FromStr for Parity {
     type Err = ParseFloatError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Ok(Self { kind: Kind::Even, constant: Some(text.parse()?) })
+        Ok(Self { symmetry: Symmetry::Even, constant: Some(text.parse()?) })
     }
 }
 
 impl Arithmetic for Parity {
     fn plus(self, other: Self) -> Self {
-        let kind = if self.kind == other.kind { self.kind } else { Kind::Neither };
-        self.joined(other, kind, |a, b| a + b)
+        let symmetry = if self.symmetry == other.symmetry { self.symmetry } else { Symmetry::Neither };
+        self.joined(other, symmetry, |a, b| a + b)
     }
 
     fn negative(self) -> Self {
-        Self { kind: self.kind, constant: self.constant.map(|a| -a) }
+        Self { symmetry: self.symmetry, constant: self.constant.map(|a| -a) }
     }
 
     fn times(self, other: Self) -> Self {
@@ -74,31 +74,31 @@ impl Arithmetic for Parity {
 
     fn to_the(self, exponent: Self) -> Self {
         let whole = exponent.constant.filter(|n| n.fract() == 0.0);
-        let kind = match (self.kind, exponent.kind, whole) {
-            (Kind::Even, Kind::Even, _) => Kind::Even,
-            (Kind::Odd, _, Some(n)) if n % 2.0 == 0.0 => Kind::Even,
-            (Kind::Odd, _, Some(_)) => Kind::Odd,
-            _ => Kind::Neither,
+        let symmetry = match (self.symmetry, exponent.symmetry, whole) {
+            (Symmetry::Even, Symmetry::Even, _) => Symmetry::Even,
+            (Symmetry::Odd, _, Some(n)) if n % 2.0 == 0.0 => Symmetry::Even,
+            (Symmetry::Odd, _, Some(_)) => Symmetry::Odd,
+            _ => Symmetry::Neither,
         };
-        self.joined(exponent, kind, f64::powf)
+        self.joined(exponent, symmetry, f64::powf)
     }
 
     fn of(self, function: Function) -> Self {
-        let kind = match (self.kind, function) {
-            (Kind::Even, _) => Kind::Even,
-            (Kind::Odd, Function::Cos | Function::Cosh | Function::Abs) => Kind::Even,
+        let symmetry = match (self.symmetry, function) {
+            (Symmetry::Even, _) => Symmetry::Even,
+            (Symmetry::Odd, Function::Cos | Function::Cosh | Function::Abs) => Symmetry::Even,
             (
-                Kind::Odd,
+                Symmetry::Odd,
                 Function::Sin
                 | Function::Tan
                 | Function::Asin
                 | Function::Atan
                 | Function::Sinh
                 | Function::Tanh,
-            ) => Kind::Odd,
-            _ => Kind::Neither,
+            ) => Symmetry::Odd,
+            _ => Symmetry::Neither,
         };
         // No exponent is looked for among values of functions.
-        Self { kind, constant: None }
+        Self { symmetry, constant: None }
     }
 }

@@ -186,6 +186,15 @@ fn mean_damping_keeps_its_digits() {
     }
 }
 
+/// A force that turns between two plateaus, on which it has no slope: what counts is how far they are apart.
+#[test]
+fn mean_damping_sees_a_force_that_turns_quickly() {
+    for text in ["tanh(v/0.001)", "1e9*x + tanh(v/0.001)"] {
+        let found = formula(text).mean_damping(1.0, [1.0, -0.5]);
+        assert!((found + 2.0 / 1.5).abs() < 1e-6, "{text}: {found}");
+    }
+}
+
 #[test]
 fn formulas_of_the_same_text_and_constants_are_the_same() {
     let with = |k: f64| Formula::new("k*x", &[("k".to_owned(), k)]).unwrap();
@@ -275,7 +284,8 @@ fn length_and_depth_are_bounded() {
     assert!(error_of(&format!("{long}+x+x")).contains("more than 1000"));
     let functions = format!("{}x{}", "sin(".repeat(DEEPEST), ")".repeat(DEEPEST));
     assert!(Formula::new(&functions, &[]).is_ok());
-    assert!(error_of(&"µ".repeat(1000)).contains("more than 1000"));
+    assert!(error_of(&"µ".repeat(1001)).contains("1001 characters, more than 1000"));
+    assert!(error_of(&"µ".repeat(1000)).contains("`µ` at character 1"));
 }
 
 #[test]
