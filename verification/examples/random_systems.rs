@@ -52,8 +52,8 @@ fn answers(study: &toml::Table, units: Units, limits: &Limits) -> Result<Answers
     Answers::of(study, units, limits, folder.path())
 }
 
-/// Mass and length up to a thousand times larger or smaller, times up to thirty: accelerations stay within what
-/// a study file may have.
+/// Mass and length up to a thousand times larger or smaller, times up to thirty: accelerations stay within
+/// what a study file may have.
 fn random_units(seed: u64) -> Units {
     let mut random = Random::new(seed ^ 0x5EED);
     (0..8).for_each(|_| _ = random.part());

@@ -6,8 +6,8 @@
 //! repeated. Where there is little damping it has done neither at last: then Newton's method begins where it
 //! has come back most closely after each of the multiples. What that finds is kept if it is stable. A motion
 //! that will not settle, a chaotic one, comes back near unstable orbits: there Newton's method ends as soon
-//! as that is seen, which is before it has converged. Further motions that come to where it wanders end there:
-//! where they would go from there is what it was followed for.
+//! as that is seen, which is before it has converged. Further motions that come to where it wanders end
+//! there: where they would go from there is what it was followed for.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -35,8 +35,8 @@ const NEARLY: f64 = 1e-2;
 /// Distance, relative to the motion, from a state of a motion that has not settled, at which another one is
 /// where that was.
 const SAME_PLACE: f64 = 2e-2;
-/// States in such places, of those between two looks, by which a motion has come to where another wandered: one
-/// that passes by on its way to an orbit leaves again within a few periods.
+/// States in such places, of those between two looks, by which a motion has come to where another wandered:
+/// one that passes by on its way to an orbit leaves again within a few periods.
 const AMONG_WANDERED: usize = 6;
 
 /// How many motions begin where, and what is known before.

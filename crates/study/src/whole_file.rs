@@ -134,7 +134,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// Makes a file of these bytes where there is none, in the same way.
 ///
 /// # Errors
-/// [`WriteError`], with [`io::ErrorKind::AlreadyExists`] if there is something by now; that is as it was then.
+/// [`WriteError`], with [`io::ErrorKind::AlreadyExists`] if there is something by now; that is as it was
+/// then.
 pub fn create(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let fail = |source| WriteError { path: path.to_owned(), source };
     let mut file = WholeFile::begin(path)?;

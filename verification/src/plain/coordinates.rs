@@ -9,8 +9,8 @@ use super::equations::place;
 pub enum Coordinates {
     /// Displacements of the masses of these names.
     Masses(Vec<String>),
-    /// Amplitudes of the modes of a beam, and the displacement of each named point in them. Eigenfrequencies and
-    /// shapes are the library's: what an assembly is worth is tested by closed forms.
+    /// Amplitudes of the modes of a beam, and the displacement of each named point in them. Eigenfrequencies
+    /// and shapes are the library's: what an assembly is worth is tested by closed forms.
     Modes(Vec<(String, Vec<f64>)>),
 }
 

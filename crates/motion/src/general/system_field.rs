@@ -200,7 +200,8 @@ impl<'a> SystemField<'a> {
     }
 }
 
-/// Switching functions of an element: its contacts, and the pressure of a law that has one, beside one contact.
+/// Switching functions of an element: its contacts, and the pressure of a law that has one, beside one
+/// contact.
 pub(super) fn switches_of(element: &LocalElement) -> usize {
     element.law.contacts().len() + usize::from(element.law.has_pressure())
 }

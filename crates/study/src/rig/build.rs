@@ -66,7 +66,11 @@ mod tests {
         let free = r#"
             [structure]
             kind = "lumped"
-            mass = [{ name = "a", mass_kg = 1.0 }, { name = "m", mass_kg = 1.0 }, { name = "b", mass_kg = 1.0 }]
+            mass = [
+                { name = "a", mass_kg = 1.0 },
+                { name = "m", mass_kg = 1.0 },
+                { name = "b", mass_kg = 1.0 },
+            ]
             spring = [
                 { between = ["a", "m"], stiffness_n_m = 100.0 },
                 { between = ["m", "b"], stiffness_n_m = 100.0 },

@@ -35,8 +35,8 @@ impl Jet {
         self.slope == 0.0 && self.damping == 0.0
     }
 
-    /// `value`, whose derivative by this number is `factor`. Where that is infinite and the number stands still,
-    /// as in `sqrt(x^2)` at 0, there is no derivative, and what comes out is not a number.
+    /// `value`, whose derivative by this number is `factor`. Where that is infinite and the number stands
+    /// still, as in `sqrt(x^2)` at 0, there is no derivative, and what comes out is not a number.
     fn chained(self, value: f64, factor: f64) -> Self {
         Self { value, slope: factor * self.slope, damping: factor * self.damping }
     }

@@ -112,8 +112,8 @@ impl Formula {
 
     /// Mean of `df/dr'` between two velocities.
     ///
-    /// That is the difference of the forces over that of the velocities. Where rounding hides that difference,
-    /// as between velocities that are nearly the same, Simpson's rule has more digits.
+    /// That is the difference of the forces over that of the velocities. Where rounding hides that
+    /// difference, as between velocities that are nearly the same, Simpson's rule has more digits.
     pub(super) fn mean_damping(&self, displacement: f64, [first, last]: [f64; 2]) -> f64 {
         let middle = self.force(displacement, 0.5 * (first + last)).damping;
         let apart = last - first;
