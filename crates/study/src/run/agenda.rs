@@ -66,6 +66,8 @@ pub(super) struct WalkState {
     pub reason: Option<StoredReason>,
     /// A thread is at it; setting the flag tells it to leave.
     pub running: Option<Arc<AtomicBool>>,
+    /// Of so many rows it is known whether they lie on a branch that was lost there.
+    pub compared: usize,
 }
 
 impl WalkState {
@@ -168,7 +170,7 @@ impl Agenda {
             let walk = |side| -> Result<WalkState, StoreError> {
                 let reason = store.walk(record.key, side)?.reason;
                 let rows = store.walked(record.key, side)?.iter().map(Sketch::of_row).collect();
-                Ok(WalkState { rows, reason, running: None })
+                Ok(WalkState { rows, reason, ..WalkState::default() })
             };
             let start = Start {
                 key: record.key,

@@ -2,8 +2,8 @@
 
 use hammerbeam_orbit::Side;
 
-use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, known, none_stable};
-use crate::store::{Continuation, Store, StoreError, StoredReason};
+use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
+use crate::store::{Store, StoreError, StoredReason};
 
 /// What the decisions are taken on.
 pub(super) struct Decisions<'a> {
@@ -127,6 +127,13 @@ impl Decisions<'_> {
 
     /// Whether both sides of a new branch are followed; a closed one has but one side.
     fn follow(&mut self, agenda: &mut Agenda, index: usize, place: usize) -> Result<bool, StoreError> {
+        for side in [Side::Up, Side::Down] {
+            let end = joins::cut(self.store, self.solver, agenda, (index, place, side))?;
+            let branch = agenda.jobs[index].starts[place].branch;
+            if let (Some(branch), Some(reason)) = (branch, end) {
+                self.observer.walk_ended(branch, side, &reason);
+            }
+        }
         let start = &mut agenda.jobs[index].starts[place];
         if let Some(reason) = start.up.reason.clone().filter(StoredReason::is_closed)
             && !(start.down.is_closed() && start.down.rows.is_empty())
@@ -134,8 +141,7 @@ impl Decisions<'_> {
             start.down.cancel();
             start.down.rows.clear();
             start.down.reason = Some(reason.clone());
-            self.store.drop_walk(start.key, Side::Down)?;
-            self.store.append(start.key, Side::Down, &[], Continuation::Ended(&reason))?;
+            self.store.cut_walk(start.key, Side::Down, 0, &reason)?;
         }
         Ok(start.is_finished(self.plan))
     }

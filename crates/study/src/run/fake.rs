@@ -18,6 +18,8 @@ pub(crate) struct FakeSolver {
     pub panics: bool,
     /// Steps of a harmonic branch from one flip to the next, if it has any.
     pub flips: Option<i64>,
+    /// Frequency at which walks of two periods are lost, if they come from above [Hz].
+    pub lost_hz: Option<f64>,
     /// Walks that were taken up again.
     pub resumed: AtomicUsize,
 }
@@ -31,6 +33,7 @@ impl Default for FakeSolver {
             segments: 2,
             panics: false,
             flips: None,
+            lost_hz: None,
             resumed: AtomicUsize::new(0),
         }
     }
@@ -155,6 +158,14 @@ struct FakeWalk<'a> {
     walked: i64,
 }
 
+impl FakeWalk<'_> {
+    /// Whether the walk comes to this frequency from above.
+    fn is_lost(&self, frequency_hz: f64, lost_hz: f64) -> bool {
+        let before_hz = frequency_hz + self.solver.step;
+        self.multiple == 2 && self.direction < 0 && frequency_hz <= lost_hz && lost_hz < before_hz
+    }
+}
+
 impl Walk for FakeWalk<'_> {
     fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
         assert!(!(self.solver.panics && self.multiple == 2), "a panic that was asked for");
@@ -172,6 +183,10 @@ impl Walk for FakeWalk<'_> {
             located: None,
         });
         let [low, high] = self.solver.range_hz;
+        if self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
+            let doubt = "lost where it was to be".to_owned();
+            return Ok(Some(StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: 1.0, doubt }));
+        }
         Ok((frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz }))
     }
 

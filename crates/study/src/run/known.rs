@@ -33,7 +33,7 @@ const SAME_STATE: f64 = 5e-3;
 const OVERHANG: f64 = 1e-3;
 
 /// A row of a branch: where it is stored, and its sketch.
-type Placed<'a> = (i64, &'a Sketch);
+pub(super) type Placed<'a> = (i64, &'a Sketch);
 
 /// Whether the solution lies on the branch of a start, as far as that has been walked.
 pub(super) fn lies_on(
@@ -46,9 +46,10 @@ pub(super) fn lies_on(
         return Ok(false);
     }
     let rows: Vec<Placed<'_>> = rows_of(start).collect();
+    let at = (solution.frequency_hz, [solution.maxima.displacement, solution.maxima.acceleration]);
     let near: Vec<(Placed<'_>, Placed<'_>, f64)> = rows
         .windows(2)
-        .filter_map(|pair| Some((pair[0], pair[1], share(pair[0].1, pair[1].1, solution)?)))
+        .filter_map(|pair| Some((pair[0], pair[1], share(pair[0].1, pair[1].1, at)?)))
         .collect();
     if near.is_empty() {
         return Ok(false);
@@ -61,6 +62,32 @@ pub(super) fn lies_on(
         }
     }
     Ok(false)
+}
+
+/// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them.
+pub(super) fn first_before(
+    store: &Store,
+    solver: &dyn Solver,
+    rows: &[Placed<'_>],
+    (key, sketch): Placed<'_>,
+) -> Result<Option<usize>, StoreError> {
+    let at = (sketch.frequency_hz, [sketch.displacement, sketch.acceleration]);
+    let mut near = rows
+        .windows(2)
+        .enumerate()
+        .filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?)))
+        .peekable();
+    if near.peek().is_none() {
+        return Ok(None);
+    }
+    let solution = store.solution_of_key(key)?;
+    let Ok(matcher) = solver.matcher(&solution) else { return Ok(None) };
+    for (index, share) in near {
+        if is_between(store, matcher.as_ref(), (rows[index].0, rows[index + 1].0), share)? {
+            return Ok(Some(index));
+        }
+    }
+    Ok(None)
 }
 
 /// Whether the branch of a start begins, ends or is crossed at this branch point.
@@ -108,19 +135,22 @@ fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
 
 /// Rows end to end along the branch.
 fn rows_of(start: &Start) -> impl Iterator<Item = Placed<'_>> {
-    let placed = |side| {
-        let key = solution_key(start.key, side, 0);
-        start.walk(side).rows.iter().enumerate().map(move |(number, row)| (key + number as i64, row))
-    };
-    let down: Vec<Placed<'_>> = placed(Side::Down).collect();
-    down.into_iter().rev().chain(placed(Side::Up))
+    let down: Vec<Placed<'_>> = rows_of_side(start, Side::Down).collect();
+    down.into_iter().rev().chain(rows_of_side(start, Side::Up))
 }
 
-/// Where between two rows the solution lies by its frequency, if its maxima allow that.
-fn share(first: &Sketch, second: &Sketch, solution: &PeriodicSolution) -> Option<f64> {
+/// Rows of a side, from the start on.
+pub(super) fn rows_of_side(start: &Start, side: Side) -> impl Iterator<Item = Placed<'_>> {
+    let key = solution_key(start.key, side, 0);
+    start.walk(side).rows.iter().enumerate().map(move |(number, row)| (key + number as i64, row))
+}
+
+/// Where between two rows a solution lies by its frequency, if its maxima of displacement and acceleration
+/// allow that.
+fn share(first: &Sketch, second: &Sketch, (frequency_hz, maxima): (f64, [f64; 2])) -> Option<f64> {
     let width = second.frequency_hz - first.frequency_hz;
-    let share = if width == 0.0 { 0.5 } else { (solution.frequency_hz - first.frequency_hz) / width };
-    let reached = width != 0.0 || solution.frequency_hz == first.frequency_hz;
+    let share = if width == 0.0 { 0.5 } else { (frequency_hz - first.frequency_hz) / width };
+    let reached = width != 0.0 || frequency_hz == first.frequency_hz;
     if !reached || !(-OVERHANG..=1.0 + OVERHANG).contains(&share) {
         return None;
     }
@@ -128,9 +158,8 @@ fn share(first: &Sketch, second: &Sketch, solution: &PeriodicSolution) -> Option
         let margin = MARGIN * a.abs().max(b.abs()) + (a - b).abs();
         (a.min(b) - margin..=a.max(b) + margin).contains(&value)
     };
-    let maxima = &solution.maxima;
-    let agrees = within(first.displacement, second.displacement, maxima.displacement)
-        && within(first.acceleration, second.acceleration, maxima.acceleration);
+    let agrees = within(first.displacement, second.displacement, maxima[0])
+        && within(first.acceleration, second.acceleration, maxima[1]);
     agrees.then_some(share)
 }
 

@@ -5,7 +5,7 @@
 //! The *agenda* is a list of jobs: a search at a frequency, or a flip or branch point at which another branch
 //! leaves. Each gives *starts*. What a run computes is defined by doing the jobs one after the other: each
 //! start of a job that does not lie on a known branch is the start of a new one, which is followed to both
-//! ends before the next start is looked at; the flips and branch points of the new branches are added to the
+//! ends, or to where it comes upon an earlier branch that was lost there, before the next start is looked at; the flips and branch points of the new branches are added to the
 //! end of the agenda. When it is done, searches are added at frequencies at which no stable solution is known
 //! by then, and again, as long as they find branches (`none_stable.rs`). So branches, their numbers and every
 //! bit of them follow from the study alone.
@@ -26,6 +26,7 @@
 //! | `agenda.rs` | jobs, starts and walks, as they are in the store |
 //! | `decide.rs` | takes decisions in order, as far as the work is done |
 //! | `known.rs` | whether a start lies on a known branch |
+//! | `joins.rs` | where a branch comes upon the end of an earlier one |
 //! | `follow_ups.rs` | the jobs that the events of a branch give |
 //! | `none_stable.rs` | the jobs that all branches together give: where no stable solution is known |
 //! | `schedule.rs` | what an idle thread does next |
@@ -35,6 +36,7 @@
 mod agenda;
 mod decide;
 mod follow_ups;
+mod joins;
 mod known;
 mod none_stable;
 mod plan;

@@ -251,3 +251,42 @@ fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
     let first = jobs.iter().position(|job| job.kind == JobKind::NoneStable).unwrap();
     assert!(jobs[..first].iter().all(|job| job.kind != JobKind::NoneStable) && first > 24);
 }
+
+/// Walks from above are lost at 14 Hz; the rest of the curve is found by later searches, and followed from
+/// below up to there.
+#[test]
+fn a_branch_that_comes_upon_the_lost_end_of_another_is_cut_there() {
+    let study = study_with("[response]\nperiod_multiples = [2]\n");
+    let solver = FakeSolver { lost_hz: Some(14.0), ..FakeSolver::default() };
+    let of_threads = |threads: usize, patience: usize| {
+        let folder = tempdir().unwrap();
+        let mut observer = StopAfter(patience);
+        loop {
+            let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+            let outcome = run(&mut store, &solver, &Plan::of(&study.study), threads, &mut observer).unwrap();
+            store.finish().unwrap();
+            if outcome == RunOutcome::Done {
+                return (csv(folder.path()), folder);
+            }
+            observer = StopAfter(2 * patience);
+        }
+    };
+    let (expected, folder) = of_threads(1, usize::MAX);
+    let branches = Store::open(folder.path()).unwrap().branches().unwrap();
+    let kind = |walk: &crate::store::WalkRecord| walk.reason.as_ref().unwrap().kind.clone();
+    let kinds: Vec<_> = branches.iter().map(|branch| (kind(&branch.up), kind(&branch.down))).collect();
+    let of = |up: &str, down: &str| (up.to_owned(), down.to_owned());
+    assert_eq!(kinds, [of("range-end", "step-too-short"), of("joins", "range-end")]);
+    assert!(branches[1].up.reason.as_ref().unwrap().message.contains("it is branch 1"));
+    let frequencies = |text: &str| {
+        let lines = text.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().parse::<f64>().unwrap());
+        let mut sorted: Vec<f64> = lines.collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted
+    };
+    let steps = frequencies(&expected).windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+    assert!(steps.iter().all(|step| (0.005..0.015).contains(step)), "one row in each step");
+    for (threads, patience) in [(2, usize::MAX), (3, usize::MAX), (1, 3), (2, 5), (3, 8)] {
+        assert_eq!(of_threads(threads, patience).0, expected, "{threads} threads, patience {patience}");
+    }
+}

@@ -268,7 +268,7 @@ impl Store {
     pub fn drop_start(&mut self, key: u32) -> Result<(), StoreError> {
         let transaction = self.write()?;
         for side in [Side::Up, Side::Down] {
-            forget_walked(&transaction, walk_id(key, side))?;
+            forget_walked(&transaction, walk_id(key, side), 0)?;
         }
         transaction.execute("DELETE FROM walk WHERE start = ?1", [key])?;
         transaction.execute("DELETE FROM start WHERE id = ?1", [key])?;
@@ -276,16 +276,24 @@ impl Store {
         Ok(())
     }
 
-    /// Deletes what was walked on a side.
+    /// Ends a side after so many solutions; what was walked beyond is deleted.
     ///
     /// # Errors
     /// The database refuses.
-    pub fn drop_walk(&mut self, key: u32, side: Side) -> Result<(), StoreError> {
+    pub fn cut_walk(
+        &mut self,
+        key: u32,
+        side: Side,
+        solutions: u32,
+        reason: &StoredReason,
+    ) -> Result<(), StoreError> {
         let walk = walk_id(key, side);
         let transaction = self.write()?;
-        forget_walked(&transaction, walk)?;
-        let update = "UPDATE walk SET solutions = 0, checkpoint = NULL WHERE id = ?1";
-        transaction.execute(update, [walk])?;
+        forget_walked(&transaction, walk, solutions)?;
+        let update = "UPDATE walk SET solutions = ?2, checkpoint = NULL, stop_kind = ?3,
+            stop_frequency_hz = ?4, stop_message = ?5 WHERE id = ?1";
+        let values = params![walk, solutions, reason.kind, reason.frequency_hz, reason.message];
+        transaction.execute(update, values)?;
         transaction.commit()?;
         Ok(())
     }
@@ -333,8 +341,9 @@ impl Store {
     }
 }
 
-fn forget_walked(transaction: &Transaction<'_>, walk: i64) -> Result<(), StoreError> {
-    let (first, last) = (first_key(walk), first_key(walk + 1));
+/// Deletes what was walked beyond so many solutions, and what is needed to go on.
+fn forget_walked(transaction: &Transaction<'_>, walk: i64, solutions: u32) -> Result<(), StoreError> {
+    let (first, last) = (first_key(walk) + i64::from(solutions), first_key(walk + 1));
     transaction.execute("DELETE FROM event WHERE solution >= ?1 AND solution < ?2", [first, last])?;
     transaction.execute("DELETE FROM solution WHERE id >= ?1 AND id < ?2", [first, last])?;
     transaction.execute("DELETE FROM journal WHERE walk = ?1", [walk])?;

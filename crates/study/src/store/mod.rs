@@ -219,6 +219,16 @@ impl StoredReason {
         }
     }
 
+    /// A side that comes upon another branch where that one was lost.
+    #[must_use]
+    pub fn joins(branch: u32, frequency_hz: f64) -> Self {
+        Self {
+            kind: JOINS.to_owned(),
+            frequency_hz: Some(frequency_hz),
+            message: format!("beyond {frequency_hz:.6} Hz it is branch {branch}, which ended there"),
+        }
+    }
+
     /// The reason, as it is stored.
     #[must_use]
     pub fn of(reason: &StopReason) -> Self {
@@ -248,6 +258,9 @@ impl StoredReason {
 /// Kind of the end of a branch that goes to infinity.
 const UNBOUNDED: &str = "unbounded";
 
+/// Kind of the end of a branch that comes upon another one.
+const JOINS: &str = "joins";
+
 impl StoredReason {
     /// Whether the branch goes to infinity.
     #[must_use]
@@ -271,7 +284,7 @@ impl StoredReason {
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.is_closed()
-            || ["range-end", "shorter-period", "crossing", UNBOUNDED].contains(&self.kind.as_str())
+            || ["range-end", "shorter-period", "crossing", JOINS, UNBOUNDED].contains(&self.kind.as_str())
     }
 }
 
