@@ -1,9 +1,11 @@
 //! Loads that are hundreds of times as fast as the excitation: their ripple lies on every force and every
 //! boundary, and what it does to sensitivities is as large as its acceleration.
 
-use crate::common::{assert_agreement, damped, diagonal, element, force, hertz, model, settled};
+use crate::common::{assert_agreement, cubic, damped, diagonal, element, force, hertz, model, settled};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    general::{GeneralSettings, observe},
     law::{LinearStop, TwoSidedStop},
 };
 
@@ -44,6 +46,45 @@ fn sensitivities_agree_under_a_load_of_order_300() {
                 let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
                 let what = format!("{law:?}, order {order}, {frequency_hz} Hz");
                 assert!(assert_agreement(&system, &stretch, &state, 1e-9, &what) > 0);
+            }
+        }
+    }
+}
+
+/// A soft contact lasts for dozens of waves of the load, whose parts of the acceleration are as large as that
+/// of the contact: the largest of hundreds of tops is one that the general integrator finds, too.
+#[test]
+fn the_largest_acceleration_is_the_highest_of_all_waves_of_a_load() {
+    let laws = [
+        Law::Linear(LinearStop::with_gap(20.0, 0.5).unwrap()),
+        hertz(20.0, 0.5),
+        damped(20.0, 0.2, 0.5),
+        cubic(1.0),
+    ];
+    for (order, frequencies) in [(40, 4), (300, 3), (1000, 2)] {
+        for law in &laws {
+            for frequency_hz in [0.151_386, 0.113, 0.187, 0.131].into_iter().take(frequencies) {
+                let forces = vec![force(&[1.0], 1, 1.0, 0.0), force(&[1.0], order, 1.0, 0.0)];
+                let damping = diagonal(&[0.1]);
+                let load = Load { support: vec![], forces };
+                let stop = element(&[1.0], 0.0, law.clone());
+                let system = System::new(model(&[1.0], damping), &load, vec![stop]).unwrap();
+                let state = settled(&system, frequency_hz, 20, 0.0);
+                let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+                let response: (&[f64], &[f64]) = (&[1.0], &[0.0]);
+                let settings = GeneralSettings::with_tolerance(1e-12);
+                let expected = observe(&system, &stretch, &state, response, &settings).unwrap();
+                let mut exact =
+                    ExactIntegrator::watching(system, ExactSettings::default(), Some(response)).unwrap();
+                let found = exact.observe(&[(stretch, &state)]).unwrap();
+                let what = format!("{law:?}, order {order}, {frequency_hz} Hz");
+                for (found, expected) in [
+                    (found.acceleration, expected.acceleration),
+                    (found.displacement, expected.displacement),
+                    (found.contact_force, expected.contact_force),
+                ] {
+                    assert!((found - expected).abs() <= 1e-8 * expected, "{what}: {found} {expected}");
+                }
             }
         }
     }

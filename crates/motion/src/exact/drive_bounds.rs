@@ -61,6 +61,11 @@ impl Drive {
         self.secular.iter().map(|load| load.magnitude(output, until)).sum()
     }
 
+    /// Circular frequency of the highest order [rad/s].
+    pub fn fastest(&self) -> f64 {
+        self.orders.iter().map(|order| order.order).fold(0.0, f64::max) * self.circular_frequency
+    }
+
     /// Largest velocity that the steady part of output `index` can take.
     pub fn speed(&self, index: usize) -> f64 {
         let of_order =

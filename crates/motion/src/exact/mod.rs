@@ -29,7 +29,7 @@
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
 //! | `course.rs` | what a motion went through |
 //! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
-//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
+//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 //! | `tracing.rs` | what each piece of motion adds to that |
 
@@ -90,6 +90,7 @@ mod standstill;
 mod step_error;
 mod step_length;
 mod step_maximum;
+mod step_waves;
 mod stick;
 mod structure;
 mod touches;

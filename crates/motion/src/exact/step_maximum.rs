@@ -17,6 +17,9 @@
 //! h + B_2 h^2/2`
 //!
 //! from the state at its start. A step whose bound is below what was found elsewhere is passed.
+//!
+//! **Which are computed.** The largest by its polynomial is computed first; what the polynomials are off by
+//! there tells which of the others may be larger. Where a load of high order acts, that is many of them.
 
 use super::{
     ExactIntegrator,
@@ -33,19 +36,23 @@ pub(super) struct Peaks {
 
 /// A force step with a large value of an output, as far as its polynomial tells.
 #[derive(Debug, Clone, Copy)]
-struct Peak {
+pub(super) struct Peak {
     /// The stretch it is in.
-    piece: usize,
-    step: CourseStep,
-    output: usize,
-    /// The largest value, by the polynomial.
-    value: f64,
+    pub piece: usize,
+    pub step: CourseStep,
+    pub output: usize,
+    /// The largest value, by the polynomial; at most, where waves lie over it.
+    pub value: f64,
     /// Where in the variable of the step.
-    place: f64,
+    pub place: f64,
 }
 
-/// Relative difference of two values up to which their polynomials do not tell which is larger.
-const ALIKE: f64 = 1e-5;
+/// Relative difference of two values up to which their polynomials may not tell which is larger,
+const ALIKE: f64 = 1e-2;
+/// and up to which they never do.
+const EQUAL: f64 = 1e-5;
+/// In between, polynomials are taken to be off by so many times what those are that were computed.
+const DOUBTS: f64 = 4.0;
 /// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as
 /// smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
@@ -77,15 +84,35 @@ impl Peaks {
             return;
         }
         let (value, place) = step.grading.rule().extremum(values);
-        if value <= bar {
+        self.add(Peak { piece, step, output, value, place }, value);
+    }
+
+    /// Notes a value that may be the largest, and what it is at least.
+    pub fn add(&mut self, peak: Peak, least: f64) {
+        if peak.value <= self.bar() {
             return;
         }
-        if value > self.largest {
-            self.largest = value;
+        if least > self.largest {
+            self.largest = least;
             let bar = self.bar();
             self.peaks.retain(|peak| peak.value >= bar);
         }
-        self.peaks.push(Peak { piece, step, output, value, place });
+        self.peaks.push(peak);
+    }
+
+    /// Largest of the exact values, and of what there is elsewhere.
+    fn largest_exact(mut self, elsewhere: f64, mut exact: impl FnMut(&Peak) -> f64) -> f64 {
+        self.peaks.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let (mut largest, mut doubt) = (elsewhere, EQUAL);
+        for peak in &self.peaks {
+            if peak.value * (1.0 + doubt) < largest {
+                break;
+            }
+            let value = exact(peak);
+            doubt = doubt.max(DOUBTS * (value / peak.value - 1.0).abs());
+            largest = largest.max(value);
+        }
+        largest
     }
 }
 
@@ -99,9 +126,14 @@ impl ExactIntegrator {
             if self.acceleration_bound(state) <= peaks.bar() {
                 continue;
             }
-            peaks.note((piece, step), response, &self.response_nodes(state, 2));
+            let nodes = self.response_nodes(state, 2);
+            if self.has_waves() {
+                self.note_waves(&mut peaks, (piece, step), &nodes);
+            } else {
+                peaks.note((piece, step), response, &nodes);
+            }
         }
-        peaks.peaks.iter().fold(0.0, |largest, peak| largest.max(self.exact_acceleration(course, peak)))
+        peaks.largest_exact(0.0, |peak| self.exact_acceleration(course, peak))
     }
 
     /// Largest displacement of the response in force steps, or what it has `elsewhere` if that is larger.
@@ -120,23 +152,20 @@ impl ExactIntegrator {
             }
             peaks.note((piece, step), response, &self.response_nodes(state, 0));
         }
-        let peaks = peaks.peaks.iter();
-        peaks.fold(elsewhere, |largest, peak| largest.max(self.exact_extremum(course, peak, f64::abs)))
+        peaks.largest_exact(elsewhere, |peak| self.exact_extremum(course, peak, f64::abs))
     }
 
     /// Largest of the forces that were noted: at the extremum of the displacement, or where the law depends
     /// on the velocity, of the force itself.
     pub(super) fn largest_force(&mut self, course: &Course, peaks: Peaks) -> f64 {
-        let mut largest = 0.0_f64;
-        for peak in &peaks.peaks {
+        peaks.largest_exact(0.0, |peak| {
             let law = self.laws[peak.output].clone();
-            largest = largest.max(if law.depends_on_velocity() {
+            if law.depends_on_velocity() {
                 self.exact_damped_force(course, peak)
             } else {
                 self.exact_extremum(course, peak, |displacement| law.force(displacement, 0.0).value.abs())
-            });
-        }
-        largest
+            }
+        })
     }
 
     /// The largest that held stops press with in force steps, or `best` if that is larger.
@@ -232,7 +261,8 @@ impl ExactIntegrator {
     fn exact_damped_force(&mut self, course: &Course, peak: &Peak) -> f64 {
         let (output, state) = (peak.output, course.numbers(peak.step.state));
         let time = self.recall_peak(course, peak);
-        largest_near(time, peak.step.length, |time| {
+        let length = peak.step.length;
+        largest_near(time, (length, BETWEEN_POINTS * length), |time| {
             let jet = self.refined_jet(state, output, time);
             self.laws[output].pressing_force(jet.value, jet.slope).value.abs()
         })
@@ -244,7 +274,9 @@ impl ExactIntegrator {
         let (response, state) = (self.laws.len(), course.numbers(peak.step.state));
         let (time, grading) = (self.recall_peak(course, peak), peak.step.grading);
         let length = peak.step.length;
-        largest_near(time, length, |time| {
+        // As near to one another as a wave of a load is long, see `step_waves.rs`.
+        let between = BETWEEN_POINTS * length.min(self.shown_length());
+        largest_near(time, (length, between), |time| {
             let mut exact = self.jet_in_step(state, response, time).curvature;
             let place = grading.inverse(time / length);
             for (a, &element) in self.step.active.iter().enumerate() {
@@ -287,9 +319,8 @@ impl ExactIntegrator {
 }
 
 /// Largest value of a function in a step of that length, near a time: the vertices of parabolas through three
-/// values close to one another, as long as they move, or an end of the step.
-fn largest_near(time: f64, length: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let (mut time, between) = (time, BETWEEN_POINTS * length);
+/// values so close to one another, as long as they move, or an end of the step.
+fn largest_near(mut time: f64, (length, between): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
     let mut largest = value(time);
     for _ in 0..POLISHES {
         let middle = time.clamp(between, length - between);
