@@ -58,3 +58,34 @@ fn a_series_may_be_of_one_frequency_and_the_help_says_so() {
         assert_eq!(rows[0]["frequency_hz"], 0.1);
     }
 }
+
+/// The examples with published exponents (Sprott 2003, appendix A), averaged over a fiftieth of what their
+/// first lines ask for.
+#[test]
+fn exponents_of_the_chaotic_examples_are_the_published_ones() {
+    let examples = [
+        (include_str!("../../../../studies/ueda.toml"), [0.1034, -0.1534]),
+        (include_str!("../../../../studies/two-wells.toml"), [0.1572, -0.4072]),
+    ];
+    for (study, published) in examples {
+        let workshop = Workshop::with(study);
+        let words = [
+            "lyapunov",
+            "study.toml",
+            "--frequency",
+            "1 rad/s",
+            "--periods",
+            "2000",
+            "--json",
+            "--out",
+            "out",
+        ];
+        let document = document(&workshop, &words);
+        for (index, published) in published.into_iter().enumerate() {
+            let value = document["exponents_per_s"][index].as_f64().unwrap();
+            let half_width = document["half_widths_per_s"][index].as_f64().unwrap();
+            assert!((value - published).abs() < 2.0 * half_width, "{value} +- {half_width}, {published}");
+            assert!(half_width < 0.02, "{half_width}");
+        }
+    }
+}

@@ -84,7 +84,7 @@ impl ExactIntegrator {
                 }
             }
         }
-        Err(MotionError::StepTooShort { time: run.time, step: aim.length })
+        Err(self.given_up(run, aim.length, remaining))
     }
 
     /// Opens contacts that have left the stop within rounding; true if no force acts any more.

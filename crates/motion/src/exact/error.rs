@@ -35,6 +35,19 @@ pub enum MotionError {
         in steps of {step:.2e} s: its stiffness may be far beyond what the masses beside it allow"
     )]
     StepTooShort { time: f64, step: f64 },
+    /// A force that always acts pushes away from rest, and ever harder: the motion is infinite after a finite
+    /// time.
+    #[error(
+        "the motion escapes {time:.6e} s after the start of the stretch: at a displacement of \
+        {displacement:.3e} m {element} pushes it away, the harder the farther it is"
+    )]
+    Escapes { element: String, displacement: f64, time: f64 },
+    /// A formula has no value where the motion goes.
+    #[error(
+        "{element} has no force at displacements just beyond {displacement:.6e} m, where the motion goes \
+        {time:.6e} s after the start of the stretch: its formula has no value there"
+    )]
+    NoForce { element: String, displacement: f64, time: f64 },
     /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or
     /// forces far beyond those of the system.
     #[error(

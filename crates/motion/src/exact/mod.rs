@@ -28,6 +28,7 @@
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
 //! | `course.rs` | what a motion went through |
+//! | `given_up.rs` | why no force step was good enough |
 //! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
@@ -62,6 +63,7 @@ mod flow;
 mod force_bound;
 mod force_step;
 mod forecast;
+mod given_up;
 mod held;
 mod hidden_turn;
 mod hold;
