@@ -60,7 +60,7 @@ const UEDA: Field<2> = Field {
 };
 
 fn longer() -> u64 {
-    if std::env::var_os("HAMMERBEAM_EXTENSIVE").is_some() { 400 } else { 1 }
+    if crate::common::extensive() { 400 } else { 1 }
 }
 
 fn spectrum<const N: usize>(field: Field<N>, duration: f64, parts: u64, averaged: u64) -> Spectrum {

@@ -1,7 +1,9 @@
 //! Bad input: exit code 2, a message with line and key, and nothing written.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{
+    BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run, stderr, stdout,
+};
 
 /// Every command that reads a study refuses it in the same words, and the folder stays as it was.
 #[track_caller]
@@ -121,16 +123,9 @@ fn study_that_is_not_there() {
     );
 }
 
-/// Makes a small results folder of the two masses: the run is short because the range is.
-fn with_results() -> Workshop {
-    let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    workshop
-}
-
 #[test]
 fn results_folder_of_another_study() {
-    let workshop = with_results();
+    let workshop = short_run();
     let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
     std::fs::write(workshop.path("study.toml"), study.replace("mass_kg = 0.5", "mass_kg = 0.6")).unwrap();
     let before = workshop.listing();
@@ -144,11 +139,13 @@ fn results_folder_of_another_study() {
 
 #[test]
 fn results_folder_stays_valid_with_another_title_and_budget() {
-    let workshop = with_results();
+    let workshop = short_run();
     let rows = workshop.csv("results");
     let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
-    let study =
-        study.replace("title = \"Two", "title = \"2") + "\n[continuation]\nbudget_solutions = 100000\n";
+    let study = study
+        .replace("title = \"Two", "title = \"2")
+        .replace("[continuation]", "[continuation]\nbudget_solutions = 100000");
+    assert!(study.contains("\"2") && study.contains("budget_solutions"));
     std::fs::write(workshop.path("study.toml"), study).unwrap();
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     assert_eq!(workshop.csv("results"), rows);
@@ -179,7 +176,7 @@ fn export_of_a_folder_without_results() {
 
 #[test]
 fn export_into_a_place_that_is_a_file_says_why_once() {
-    let workshop = with_results();
+    let workshop = short_run();
     let output = workshop.hammerbeam(&["export", "results", "--format", "csv", "--out", "study.toml"]);
     assert_bad_input(&output, &["cannot write study.toml"]);
     let message = stderr(&output);
@@ -252,7 +249,7 @@ fn folders_that_cannot_be_made_are_bad_input() {
 
 #[test]
 fn results_folder_of_another_version() {
-    let workshop = with_results();
+    let workshop = short_run();
     let connection = crate::common::database(workshop.path("results/results.db"));
     connection.execute("UPDATE about SET value = '0' WHERE key = 'data_version'", []).unwrap();
     connection.close().unwrap();
@@ -324,7 +321,7 @@ fn a_file_without_end_is_refused() {
 /// Every command that makes a folder says the same of one that cannot be made, with the same exit code.
 #[test]
 fn a_folder_that_cannot_be_written_is_exit_code_2_everywhere() {
-    let workshop = with_results();
+    let workshop = short_run();
     std::fs::write(workshop.path("file"), "").unwrap();
     for arguments in [
         &["run", "study.toml", "--out", "file/results"][..],

@@ -1,7 +1,7 @@
 //! The table of events, held against the table of solutions.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::fs;
+use std::{fs, sync::LazyLock};
 
 use crate::common::{Workshop, assert_success};
 
@@ -41,9 +41,25 @@ side = "above"
 [search]
 frequencies = 0
 
+[continuation]
+max_step_hz = 0.0005
+
 [response]
 period_multiples = [1, 2]
 "#;
+
+/// Its results, exported.
+static RESULTS: LazyLock<Workshop> = LazyLock::new(|| {
+    let workshop = Workshop::with(BILINEAR);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    workshop.csv("results");
+    workshop
+});
+
+/// The table of branches.
+fn branches() -> String {
+    fs::read_to_string(RESULTS.path("exported/branches.csv")).unwrap()
+}
 
 /// One event as both tables tell it: branch, event without start and end, frequency.
 fn of_solutions(csv: &str) -> Vec<(String, String, f64)> {
@@ -60,10 +76,8 @@ fn of_solutions(csv: &str) -> Vec<(String, String, f64)> {
 
 #[test]
 fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of_it() {
-    let workshop = Workshop::with(BILINEAR);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    let expected = of_solutions(&workshop.csv("results"));
-    let text = fs::read_to_string(workshop.path("exported/events.csv")).unwrap();
+    let expected = of_solutions(&branches());
+    let text = fs::read_to_string(RESULTS.path("exported/events.csv")).unwrap();
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     let place = |name: &str| header.iter().position(|column| *column == name).unwrap();
@@ -94,10 +108,8 @@ fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of
 /// both sides of where the branch began.
 #[test]
 fn contacts_appear_and_vanish_in_the_order_of_the_rows() {
-    let workshop = Workshop::with(BILINEAR);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    let branches = workshop.csv("results");
-    let events = fs::read_to_string(workshop.path("exported/events.csv")).unwrap();
+    let branches = branches();
+    let events = fs::read_to_string(RESULTS.path("exported/events.csv")).unwrap();
     let rows = |text: &str, names: &[&str]| -> Vec<Vec<String>> {
         let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
         let header = lines.next().unwrap();
@@ -124,9 +136,7 @@ fn contacts_appear_and_vanish_in_the_order_of_the_rows() {
 /// The motion from the state at an end of a branch comes back to it after its periods.
 #[test]
 fn the_states_at_ends_of_branches_repeat() {
-    let workshop = Workshop::with(BILINEAR);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    workshop.csv("results");
+    let workshop = &*RESULTS;
     let text = fs::read_to_string(workshop.path("exported/ends.csv")).unwrap();
     let mut repeated = 0;
     for line in text.lines().skip(1) {

@@ -4,7 +4,7 @@
 
 use std::{collections::HashMap, f64::consts::TAU, fs};
 
-use crate::common::{Workshop, assert_success, mass_against_a_stop, stdout};
+use crate::common::{Workshop, assert_success, extensive, mass_against_a_stop, stdout};
 use serde_json::{Value, json};
 
 /// Of the study: the mass is 1 kg.
@@ -50,7 +50,7 @@ fn laws_that_lose_energy_are_followed_and_verified() {
 
 #[test]
 fn laws_that_remember_their_impact_are_followed_and_verified() {
-    for law in [
+    let laws = [
         "hunt-crossley",
         "herbert-mcwhannell",
         "lee-wang",
@@ -58,7 +58,10 @@ fn laws_that_remember_their_impact_are_followed_and_verified() {
         "gonthier",
         "flores",
         "hu-guo",
-    ] {
+    ];
+    // They are one law with one number of their own, which `energy_loss` holds against each formula.
+    let sample = if extensive() { &laws[..] } else { &laws[3..6] };
+    for law in sample {
         let restitution = format!("{HERTZ}\nrestitution = 0.7");
         followed_and_verified(law, &with(law, &restitution), true);
     }

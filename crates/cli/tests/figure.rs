@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::common::{
-    RUN, Workshop, assert_bad_input, assert_success, files, short_run, stderr, stdout, told,
+    RUN, Workshop, assert_bad_input, assert_success, files, short_run, short_run_with, stderr, stdout, told,
 };
 use serde_json::Value;
 
@@ -118,7 +118,7 @@ fn an_orbit_is_drawn_with_the_force_of_its_stop() {
 #[test]
 fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";
-    let workshop = short_run(orbit);
+    let workshop = short_run_with(orbit);
     let drawn = files(&workshop, &["--out", "again", "--jobs", "1"]);
     for name in [
         "structure.svg",
@@ -159,7 +159,7 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
 /// computed again.
 #[test]
 fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let study = fs::read_to_string(workshop.path("study.toml")).unwrap();
     fs::write(workshop.path("study.toml"), format!("{study}\n[[figures.orbit]]\nfrequency_hz = 13.6\n"))
         .unwrap();
@@ -169,7 +169,7 @@ fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
 
 #[test]
 fn an_orbit_that_no_branch_has_is_bad_input() {
-    let workshop = short_run("");
+    let workshop = short_run();
     for (orbit, sentence) in [
         ("20", "no stored branch of 1 excitation period(s) crosses 20 Hz; they lie between 13.5 and 14 Hz"),
         ("13.7:3", "no stored branch of 3 excitation period(s) crosses 13.7 Hz; there is no such branch"),
@@ -186,8 +186,10 @@ fn an_orbit_that_no_branch_has_is_bad_input() {
 
 #[test]
 fn branches_over_another_parameter_are_drawn_over_it() {
-    let study = include_str!("../../../studies/duffing-in-two-parameters.toml");
-    let workshop = Workshop::with(study);
+    let study = include_str!("../../../studies/duffing-in-two-parameters.toml")
+        .replace("frequency_hz = 0.25\n\n", "frequency_hz = 0.25\nsteps = 200\n\n");
+    let quick = "[search]\nfrequencies = 4\ntrials = 0\n[continuation]\nmax_step_hz = 0.0005\n";
+    let workshop = Workshop::with(&format!("{study}{quick}"));
     assert_success(&workshop.hammerbeam(&RUN));
     let svg = fs::read_to_string(workshop.path("results/vary_1_excitation_amplitude_n_displacement.svg"));
     let svg = svg.unwrap();
@@ -236,7 +238,7 @@ fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
 fn ctrl_c_while_drawing_leaves_whole_files_and_exits_with_130() {
     // Large figures, so that there is time to interrupt.
     const LARGE: [&str; 4] = ["--resolution", "1200", "--jobs", "2"];
-    let workshop = short_run("");
+    let workshop = short_run();
     let complete = files(&workshop, &[&["--out", "complete"][..], &LARGE].concat());
     fs::create_dir(workshop.path("cut")).unwrap();
     for name in &complete {

@@ -4,13 +4,13 @@
 
 use std::fs;
 
-use crate::common::{RUN, Workshop, assert_success, files, short_run, stderr, stdout};
+use crate::common::{RUN, Workshop, assert_success, files, short_run, short_study, stderr, stdout};
 use serde_json::Value;
 
 /// Solutions whose multipliers are cut: what needs them is named with the solution, everything else is drawn.
 #[test]
 fn a_damaged_solution_costs_only_the_figures_that_need_it() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let whole = files(&workshop, &["--out", "whole"]);
     let database = crate::common::database(workshop.path("results/results.db"));
     let of_branch =
@@ -34,7 +34,7 @@ fn a_damaged_solution_costs_only_the_figures_that_need_it() {
 /// Rows of solutions that are gone: what needs them is named with their numbers, everything else is drawn.
 #[test]
 fn missing_solutions_are_named_and_cost_only_the_figures_that_need_them() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let database = crate::common::database(workshop.path("results/results.db"));
     // Keys hold the start above bit 33, the side in bit 32, and the number on that side.
     let of =
@@ -70,7 +70,7 @@ fn missing_solutions_are_named_and_cost_only_the_figures_that_need_them() {
 /// Two commands that draw into one folder at once both come to their end.
 #[test]
 fn one_folder_may_be_drawn_into_by_two_commands_at_once() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let draw = || {
         std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(["figure", "results", "--out", "drawn"])
@@ -91,7 +91,7 @@ fn one_folder_may_be_drawn_into_by_two_commands_at_once() {
 /// What the font lacks is told, on the terminal and in the document.
 #[test]
 fn characters_that_the_font_lacks_are_told() {
-    let workshop = Workshop::changed(crate::common::TWO_MASSES, "title = \"", "title = \"振動 Größe: ");
+    let workshop = Workshop::changed(&short_study(), "title = \"", "title = \"振動 Größe: ");
     assert_success(&workshop.hammerbeam(&RUN));
     let output =
         workshop.hammerbeam(&["figure", "results", "--kind", "structure", "--out", "drawn", "--json"]);
@@ -108,7 +108,8 @@ fn characters_that_the_font_lacks_are_told() {
 /// Of a long branch not every solution is drawn. One that is not drawn and is damaged is told as well.
 #[test]
 fn a_damaged_solution_between_those_that_are_drawn_is_told() {
-    let workshop = short_run("[continuation]\nmax_step_hz = 0.0001\n");
+    let workshop = Workshop::with(&short_study().replace("max_step_hz = 0.005", "max_step_hz = 0.0001"));
+    assert_success(&workshop.hammerbeam(&RUN));
     let database = crate::common::database(workshop.path("results/results.db"));
     let one = |query: &str| database.query_row(query, [], |row| row.get::<_, i64>(0)).unwrap();
     // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes

@@ -1,7 +1,7 @@
 //! `--json`: one document on standard output with the keys that scripts rely on, and nothing else.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::common::{BEAM, TWO_MASSES, Workshop, assert_success, stdout};
+use crate::common::{BEAM, TWO_MASSES, Workshop, assert_success, short_study, stdout};
 use serde_json::Value;
 
 #[track_caller]
@@ -83,7 +83,7 @@ fn faults_of_a_study_have_line_column_and_key() {
 
 #[test]
 fn run_and_export_say_what_they_made() {
-    let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
+    let workshop = Workshop::with(&short_study());
     let run = document(&workshop, &["run", "study.toml", "--out", "results", "--json"]);
     let branch = &run["branches"][0];
     assert_eq!(branch["up"]["stop_reason"], "range-end");

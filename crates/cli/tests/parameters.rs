@@ -122,7 +122,9 @@ fn written((_, line, _): Case<'_>, value: &str) -> String {
 /// each, from the state that it has there: it repeats.
 fn meet_the_studies_at_their_ends(study: &str, cases: &[Case<'_>], hz: &str) {
     let vary = |&(parameter, _, [low, high]): &Case<'_>| {
-        format!("[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\nfrequency_hz = {hz}\n")
+        format!(
+            "[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\nfrequency_hz = {hz}\nsteps = 50\n"
+        )
     };
     let workshop = Workshop::exported(&format!("{study}{}", cases.iter().map(vary).collect::<String>()));
     let table = |name: &str| workshop.table(&format!("results/export/{name}"));

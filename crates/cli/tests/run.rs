@@ -8,7 +8,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{Random, TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout, told};
+use crate::common::{
+    Random, TWO_MASSES, Workshop, assert_success, extensive, short_run, short_study, stderr, stdout, told,
+};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
@@ -16,9 +18,11 @@ const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 const FIXED: &str = "branch,period_multiple,frequency_hz,max_abs_displacement_m,max_abs_acceleration_m_s2,\
     max_contact_force_n,max_impact_velocity_m_s,contacts,leading_multiplier_re,leading_multiplier_im,stable,event";
 
-/// The two masses in steps so small that a run takes some seconds and commits many times.
+/// The two masses around their resonances in steps so small that a run takes a second and commits many times.
 fn long_study() -> String {
-    format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.0005\n")
+    assert!(TWO_MASSES.contains("[3.0, 14.0]"));
+    let study = TWO_MASSES.replace("[3.0, 14.0]", "[4.0, 11.0]");
+    format!("{study}\n[continuation]\nmax_step_hz = 0.002\n[search]\nfrequencies = 2\ntrials = 0\n")
 }
 
 /// Exported rows of an undisturbed run, and how long it took.
@@ -29,18 +33,16 @@ fn undisturbed(study: &str) -> (String, Duration) {
     (workshop.csv("results"), begun.elapsed())
 }
 
-/// Ten numbers from 0 to 1, always the same ones.
-fn random_parts() -> Vec<f64> {
-    let mut random = Random(20);
-    (0..10).map(|_| random.next()).collect()
-}
-
-/// Each of the ten runs is killed somewhere from its beginning to its very end and taken up again once.
+/// Each of the runs is killed somewhere from its beginning to its very end and taken up again once: three by
+/// default, ten of the whole range with `HAMMERBEAM_EXTENSIVE=1`.
 #[test]
-fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
-    let study = format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.002\n");
+fn killed_at_random_instants_and_resumed_it_ends_with_the_same_bytes() {
+    let whole = format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.002\n");
+    let (study, kills) = if extensive() { (whole, 10) } else { (long_study(), 3) };
     let (expected, duration) = undisturbed(&study);
-    for part in random_parts() {
+    let mut random = Random(20);
+    for _ in 0..kills {
+        let part = random.next();
         let workshop = killed(&study, duration.mul_f64(0.98 * part));
         assert_success(&workshop.hammerbeam(&RUN));
         assert!(workshop.csv("results") == expected, "the rows differ after a kill at {part}");
@@ -113,7 +115,7 @@ fn ctrl_c_keeps_what_is_finished_and_exits_with_130() {
 
 #[test]
 fn exported_rows_have_the_fixed_columns_and_run_end_to_end() {
-    let (csv, _) = undisturbed(TWO_MASSES);
+    let (csv, _) = undisturbed(&format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.01\n"));
     let mut lines = csv.lines();
     assert!(lines.next().unwrap().starts_with(FIXED));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
@@ -138,7 +140,7 @@ fn exported_rows_have_the_fixed_columns_and_run_end_to_end() {
 
 #[test]
 fn without_a_terminal_a_run_says_only_its_summary() {
-    let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
+    let workshop = Workshop::with(&short_study());
     let output = workshop.hammerbeam(&RUN);
     assert_success(&output);
     assert_eq!(told(&output), "");
@@ -178,7 +180,7 @@ fn the_starter_study_checks_and_runs() {
 /// `n`.
 #[test]
 fn exported_states_and_multipliers_belong_to_the_rows() {
-    let workshop = short_run("");
+    let workshop = short_run();
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv", "--states", "--out", "x"]));
     let read = |name: &str| fs::read_to_string(workshop.path(name)).unwrap();
     let (branches, states) = (read("x/branches.csv"), read("x/states.csv"));

@@ -1,12 +1,30 @@
 //! Branches in other parameters and curves of bifurcations, with the real command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::fs;
+use std::{fs, sync::LazyLock};
 
 use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// The example with longer steps and a shorter search: some hundred rows of each piece.
+static EXAMPLE: LazyLock<String> = LazyLock::new(|| {
+    let quick = "[search]\nfrequencies = 4\ntrials = 0\n[continuation]\nmax_step_hz = 0.0005\n\n";
+    STUDY
+        .replacen("[[vary]]", &format!("{quick}[[vary]]"), 1)
+        .replace("frequency_hz = 0.25\n\n", "frequency_hz = 0.25\nsteps = 200\n\n")
+});
+
+/// Results of it from one thread, exported, and what was told.
+static ONE_THREAD: LazyLock<(Workshop, String)> = LazyLock::new(|| {
+    assert_eq!(EXAMPLE.matches("steps = 200").count(), 2);
+    let workshop = Workshop::with(&EXAMPLE);
+    let run = workshop.hammerbeam(&[&RUN[..], &["--jobs", "1"]].concat());
+    assert_success(&run);
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    (workshop, stdout(&run))
+});
 
 /// Two masses, three stops of different laws.
 const THREE_STOPS: &str = r#"
@@ -79,18 +97,15 @@ fn places(rows: &[Row], key: &str, filter: impl Fn(&Row) -> bool) -> Vec<f64> {
 /// passes both folds of the response and has one cusp.
 #[test]
 fn branches_and_curves_of_the_example_meet() {
-    let workshop = Workshop::with(STUDY);
-    let run = workshop.hammerbeam(&RUN);
-    assert_success(&run);
-    assert!(stdout(&run).contains("fold curve over excitation.amplitude_n"), "{}", stdout(&run));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let (branches, curves) = (table(&workshop, "parameter_branches.csv"), table(&workshop, "curves.csv"));
+    let (workshop, told) = &*ONE_THREAD;
+    assert!(told.contains("fold curve over excitation.amplitude_n"), "{told}");
+    let (branches, curves) = (table(workshop, "parameter_branches.csv"), table(workshop, "curves.csv"));
     let force = |row: &Row| row["parameter_name"] == "excitation.amplitude_n";
     let folds = places(&branches, "parameter", |row| force(row) && row["event"].contains("fold"));
     assert_eq!(folds.len(), 2, "{folds:?}");
     let ends = places(&branches, "parameter", |row| force(row) && row["event"].contains("end"));
     assert!(ends.iter().all(|end| [0.02, 0.8].contains(end)), "{ends:?}");
-    let events = table(&workshop, "parameter_events.csv");
+    let events = table(workshop, "parameter_events.csv");
     let of_force: Vec<_> = events.iter().filter(|row| force(row)).collect();
     assert_eq!(of_force.iter().map(|row| number(row, "parameter")).collect::<Vec<_>>(), folds);
     for fold in of_force {
@@ -172,7 +187,7 @@ fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
 /// they are.
 #[test]
 fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
-    let (without, pieces) = STUDY.split_once("[[vary]]").unwrap();
+    let (without, pieces) = EXAMPLE.split_once("[[vary]]").unwrap();
     let workshop = Workshop::with(without);
     assert_success(&workshop.hammerbeam(&RUN));
     let branches = workshop.csv("results");
@@ -186,7 +201,7 @@ fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
         pieces.iter().map(|piece| piece["piece"].as_u64().unwrap()).collect::<Vec<_>>()
     };
     assert_eq!(pieces_of(format!("{without}[[vary]]{first}")), [1, 2]);
-    assert_eq!(pieces_of(STUDY.to_owned()), [1, 2, 3]);
+    assert_eq!(pieces_of(EXAMPLE.clone()), [1, 2, 3]);
     assert_eq!(workshop.csv("results"), branches);
     assert_eq!(pieces_of(without.to_owned()), [0; 0]);
 }
@@ -194,32 +209,30 @@ fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
 /// A piece has the number of its place in the study, whenever it was computed.
 #[test]
 fn pieces_lie_in_the_order_of_the_study() {
-    let exported = |workshop: &Workshop| {
-        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let tables = |workshop: &Workshop| {
         ["parameter_branches.csv", "curves.csv", "parameter_ends.csv"]
             .map(|name| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap())
     };
-    let at_once = Workshop::with(STUDY);
-    assert_success(&at_once.hammerbeam(&RUN));
-    let (without, _) = STUDY.split_once("[[vary]]").unwrap();
-    let (_, later) = STUDY.rsplit_once("[[vary]]").unwrap();
+    let exported = |workshop: &Workshop| {
+        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+        tables(workshop)
+    };
+    let (without, _) = EXAMPLE.split_once("[[vary]]").unwrap();
+    let (_, later) = EXAMPLE.rsplit_once("[[vary]]").unwrap();
     let workshop = Workshop::with(&format!("{without}[[vary]]{later}"));
     assert_success(&workshop.hammerbeam(&RUN));
     let first = exported(&workshop);
-    fs::write(workshop.path("study.toml"), STUDY).unwrap();
+    fs::write(workshop.path("study.toml"), &*EXAMPLE).unwrap();
     assert_success(&workshop.hammerbeam(&RUN));
     let both = exported(&workshop);
     assert_ne!(first, both);
-    assert!(both == exported(&at_once), "the first piece, computed last, does not come first");
+    assert!(both == tables(&ONE_THREAD.0), "the first piece, computed last, does not come first");
 }
 
 /// The pieces of the example are computed by as many threads, and stored as if by one.
 #[test]
 fn pieces_are_the_same_for_any_number_of_threads() {
-    let exported = |jobs: &str| {
-        let workshop = Workshop::with(STUDY);
-        assert_success(&workshop.hammerbeam(&[&RUN[..], &["--jobs", jobs]].concat()));
-        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let tables = |workshop: &Workshop| {
         [
             "parameter_branches.csv",
             "parameter_events.csv",
@@ -229,11 +242,14 @@ fn pieces_are_the_same_for_any_number_of_threads() {
         ]
         .map(|name| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap())
     };
-    let one = exported("1");
+    let one = tables(&ONE_THREAD.0);
     let lines = one.each_ref().map(|text| text.lines().count());
     assert!(lines[0] > 50 && lines[1] > 2 && lines[2] > 50, "{lines:?}");
     assert!(lines[3] > 2 && lines[4] > 2, "{lines:?}");
-    assert!(one == exported("3"), "three threads give other rows");
+    let workshop = Workshop::with(&EXAMPLE);
+    assert_success(&workshop.hammerbeam(&[&RUN[..], &["--jobs", "3"]].concat()));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert!(one == tables(&workshop), "three threads give other rows");
 }
 
 #[test]
@@ -258,6 +274,8 @@ fn wrong_parameters_and_ranges_are_refused_with_what_is_allowed() {
     refused("range = [0.02, 0.8]", "range = [0.4, 0.8]", &["`range` is [0.4, 0.8]", "0.3"]);
     refused("range = [0.02, 0.8]", "range = [0.0, 0.8]", &["allowed"]);
     refused("range = [0.1, 2.0]", "range = [-0.1, 2.0]", &["holds zero"]);
+    let place = "frequency_hz = 0.25\n\n[[curve]]";
+    refused(place, "frequency_hz = 0.25\nsteps = 0\n[[curve]]", &["`steps` is 0", "from 1 to 1000000"]);
     refused("of = \"fold\"", "of = \"folds\"", &["did you mean \"fold\"?"]);
     refused("near_hz = 0.25", "near = 0.25", &["unknown key `near`", "`near_hz` is missing"]);
 }

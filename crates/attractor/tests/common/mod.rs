@@ -10,6 +10,11 @@ pub use motion::{beam_with, element, hertz, model, paper_beam};
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Load, LocalElement, System};
 
+/// Whether whole sets are asked for instead of samples.
+pub fn extensive() -> bool {
+    std::env::var("HAMMERBEAM_EXTENSIVE").is_ok_and(|value| value == "1")
+}
+
 /// A mass of 1 kg on a spring of `stiffness` with damping `damping`, driven by `force cos(W t)`, with
 /// elements that act on it.
 pub fn oscillator(stiffness: f64, damping: f64, force: f64, elements: Vec<LocalElement>) -> System {

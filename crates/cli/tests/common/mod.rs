@@ -10,6 +10,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{self, Child, Output, Stdio},
+    sync::LazyLock,
 };
 
 use assert_cmd::Command;
@@ -93,6 +94,7 @@ max_step_hz = 0.01
 parameter = "stop.wall.gap_m"
 range = [0.015, 0.022]
 frequency_hz = 5.9
+steps = 100
 "#
     )
 }
@@ -131,6 +133,16 @@ impl Workshop {
 
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
+    }
+
+    /// Another folder with the same files.
+    pub fn copied(&self) -> Self {
+        let copy = Self { folder: tempfile::tempdir().unwrap() };
+        for (path, bytes) in self.listing() {
+            let target = copy.path("").join(path.strip_prefix(self.path("")).unwrap());
+            if path.is_dir() { fs::create_dir(target) } else { fs::write(target, bytes) }.unwrap();
+        }
+        copy
     }
 
     /// Runs the command in the folder.
@@ -262,10 +274,22 @@ pub fn assert_bad_input(output: &Output, parts: &[&str]) {
 /// Computes the study.
 pub const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
-/// A run of one short branch.
-pub fn short_run(added: &str) -> Workshop {
+/// The two masses above their resonances, where there is one branch, in a hundred steps, after a short search.
+pub fn short_study() -> String {
+    assert!(TWO_MASSES.contains("[3.0, 14.0]"));
     let study = TWO_MASSES.replacen("[3.0, 14.0]", "[13.5, 14.0]", 1);
-    let workshop = Workshop::with(&format!("{study}\n{added}"));
+    format!("{study}\n[search]\nfrequencies = 2\ntrials = 0\n[continuation]\nmax_step_hz = 0.005\n")
+}
+
+/// A run of one short branch, which is done once: each test has a copy.
+pub fn short_run() -> Workshop {
+    static DONE: LazyLock<Workshop> = LazyLock::new(|| short_run_with(""));
+    DONE.copied()
+}
+
+/// A run of one short branch with more in its study.
+pub fn short_run_with(added: &str) -> Workshop {
+    let workshop = Workshop::with(&format!("{}{added}", short_study()));
     assert_success(&workshop.hammerbeam(&RUN));
     workshop
 }

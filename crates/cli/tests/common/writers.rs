@@ -42,6 +42,7 @@ trials = 0
 parameter = "excitation.amplitude_n"
 range = [0.08, 0.12]
 frequency_hz = 0.5
+steps = 100
 [[curve]]
 of = "grazing"
 near_hz = 0.5

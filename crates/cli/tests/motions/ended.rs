@@ -143,7 +143,7 @@ fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {
     let study = remembering();
     let whole = Workshop::with(&study);
     let sweep =
-        ["sweep", "study.toml", "--from", "0.3", "--to", "0.5", "--step", "0.001", "--initial", "-0.1,0"];
+        ["sweep", "study.toml", "--from", "0.3", "--to", "0.5", "--step", "0.004", "--initial", "-0.1,0"];
     let sweep = [&sweep[..], &["--down", "--out", "out"]].concat();
     let begun = Instant::now();
     assert_success(&whole.hammerbeam(&sweep));

@@ -23,7 +23,7 @@ const COMMANDS: [&[&str]; 5] = [
 /// The results are those of a study with another damping; they stay what they are.
 #[test]
 fn results_of_another_study_are_refused_whatever_they_are_wanted_for() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let study = fs::read_to_string(workshop.path("study.toml")).unwrap();
     let changed = study.replacen("modal_ratio = 0.02", "modal_ratio = 0.03", 1);
     assert_ne!(changed, study);

@@ -30,7 +30,7 @@ fn lyapunov_and_sweep_refuse_states_in_which_no_motion_begins() {
 /// The run has one branch, which ends at 14 Hz.
 #[test]
 fn branches_that_are_not_there_are_refused_by_every_command() {
-    let workshop = short_run("");
+    let workshop = short_run();
     let before = workshop.listing();
     for command in [
         &["simulate", "study.toml", "--frequency", "15"][..],

@@ -26,6 +26,9 @@ const STUDY: &str = r#"
 
     [search]
     frequencies = 0
+
+    [continuation]
+    max_step_hz = 0.0005
 "#;
 
 fn basins(workshop: &Workshop) -> Vec<Value> {

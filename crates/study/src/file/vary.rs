@@ -19,6 +19,18 @@ pub struct Vary {
     pub frequency_hz: f64,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
+    /// The largest step of the parameter is this part of its range; left out of the identity where it is that
+    /// of all branches before it could be chosen.
+    #[serde(skip_serializing_if = "is_default")]
+    pub steps: u32,
+}
+
+/// Steps over the range of a parameter by default.
+const DEFAULT_STEPS: u32 = 1000;
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_default(steps: &u32) -> bool {
+    *steps == DEFAULT_STEPS
 }
 
 /// A curve of bifurcations in the frequency and a parameter.
@@ -90,8 +102,9 @@ fn read_vary(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Vary> {
     let parameter = parameter::read(&table, study);
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let multiple = read_multiple(&table);
+    let steps = table.optional("steps").map_or(Some(DEFAULT_STEPS), |value| value.whole(1, 1_000_000));
     table.finish();
-    Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple? })
+    Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple?, steps: steps? })
 }
 
 fn read_curve(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Curve> {

@@ -18,9 +18,6 @@ use crate::{
     store::{VariedBranch, VariedRow},
 };
 
-/// Steps over the range of a parameter.
-const STEPS: f64 = 1000.0;
-
 /// All branches of the orbits at the frequency.
 pub(super) fn follow(model: &Model, study: &Study, vary: &Vary, watch: &Watch<'_>) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &vary.parameter).map_err(Failed::Message)?;
@@ -64,7 +61,7 @@ fn both_sides(
 ) -> Result<VariedBranch, Failed> {
     let range = (parameter.in_system(vary.parameter.range[0]), parameter.in_system(vary.parameter.range[1]));
     let settings = OrbitSettings {
-        max_step_hz: (range.1 - range.0) / STEPS,
+        max_step_hz: (range.1 - range.0) / f64::from(vary.steps),
         max_solutions: study.continuation.budget_solutions,
         ..settings(&study.continuation)
     };
