@@ -1,6 +1,6 @@
 //! Random systems in two systems of units: `random_systems FIRST COUNT [SOLUTIONS]`. One line for each
 //! system, and one for each difference between its answers in the one and in the other units, or with the
-//! independent integrator.
+//! independent integrator. `random_systems SEED` prints the study of a seed.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, time::Instant};
@@ -15,7 +15,10 @@ use hammerbeam_verification::{
 fn main() -> Result<(), Failure> {
     let mut numbers = env::args().skip(1).map(|text| text.parse::<u64>());
     let first = numbers.next().ok_or("the first seed and how many")??;
-    let count = numbers.next().transpose()?.unwrap_or(1);
+    let Some(count) = numbers.next().transpose()? else {
+        print!("{}", random_study(first));
+        return Ok(());
+    };
     let solutions = numbers.next().transpose()?.unwrap_or(20_000);
     let limits = Limits { solutions, ..Limits::default() };
     let (mut same, mut different, mut left) = (0, 0, 0);

@@ -43,7 +43,7 @@ const BEAM: &[(&str, &str)] = studies! { "weakly-damped-beam" };
 #[test]
 fn no_attractor_of_an_independent_survey_is_on_no_branch() {
     if !extensive() {
-        STUDIES[..2].iter().for_each(|study| survey(*study, (4, 6)));
+        STUDIES[..3].iter().for_each(|study| survey(*study, (4, 6)));
         return;
     }
     STUDIES.iter().for_each(|study| survey(*study, (12, 12)));
