@@ -333,6 +333,44 @@ fn a_folder_that_cannot_be_written_is_exit_code_2_everywhere() {
     }
 }
 
+/// Neither a database, nor what stands beside it, nor a folder that a command makes by itself may be a link;
+/// what it leads to stays as it was. Tables take the place of links.
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_through_links() {
+    use std::{fs, os::unix::fs::symlink};
+    let workshop = with_results();
+    let at = |name: &str| workshop.path(name);
+    for (k, name) in ["results.db", "results.db-wal", "results.db-journal", "run.lock"].into_iter().enumerate() {
+        fs::create_dir(at(&format!("{k}"))).unwrap();
+        // Once to what is not there yet, once to a database.
+        let led_to = if k == 0 { at("results/results.db") } else { at("new") };
+        symlink(led_to, at(&format!("{k}/{name}"))).unwrap();
+    }
+    fs::create_dir_all(at("elsewhere")).unwrap();
+    symlink(at("elsewhere"), at("results/export")).unwrap();
+    symlink(at("elsewhere"), at("results/compare")).unwrap();
+    fs::write(at("points.csv"), "frequency [Hz],tip [mm]\n13.6,1\n13.8,1\n").unwrap();
+    let before = workshop.listing();
+    for (arguments, name) in [
+        (&["run", "study.toml", "--out", "0"][..], "0/results.db"),
+        (&["run", "study.toml", "--out", "1"], "1/results.db-wal"),
+        (&["run", "study.toml", "--out", "2"], "2/results.db-journal"),
+        (&["run", "study.toml", "--out", "3"], "3/run.lock"),
+        (&["sweep", "study.toml", "--step", "0.1", "--out", "0"], "0/results.db"),
+        (&["export", "results", "--format", "csv"], "results/export"),
+        (&["compare", "results", "points.csv"], "results/compare"),
+    ] {
+        let sentence = format!("cannot write to {name}: it is a link, and nothing is written through links");
+        let sentence = if name.contains('.') { sentence } else { sentence.replace("write to", "write") };
+        assert_bad_input(&workshop.hammerbeam(arguments), &[&sentence]);
+    }
+    assert!(!at("new").exists());
+    assert_eq!(workshop.listing(), before, "something was written");
+    // What one reads may be a link.
+    assert_success(&workshop.hammerbeam(&["export", "0", "--format", "csv", "--out", "tables"]));
+}
+
 /// A disk without room is an error, a reader that has gone away is none.
 #[cfg(target_os = "linux")]
 #[test]
