@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::failure::Failure;
 
 /// Where results go.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Output {
     /// One JSON document instead of text.
     pub json: bool,
@@ -35,14 +35,11 @@ impl Output {
     /// # Errors
     /// Standard output does not take it: a full disk, say.
     pub fn give(self, document: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
-        let written = if self.json {
-            let document =
-                serde_json::to_string_pretty(document).expect("results are plain data with text keys");
-            print(&document)
+        if self.json {
+            give_text(&serde_json::to_string_pretty(document).expect("results are plain data with text keys"))
         } else {
-            print(&printable(text().trim_end()))
-        };
-        written.map_err(|error| Failure::NoResult(format!("cannot write to standard output: {error}")))
+            give_text(&printable(text().trim_end()))
+        }
     }
 
     /// Tells a failure on standard error, and in JSON as the one document.
@@ -60,6 +57,15 @@ impl Output {
             let _ = print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }
+}
+
+/// Gives a text as it is, the help of a command, say.
+///
+/// # Errors
+/// Standard output does not take it.
+pub fn give_text(text: &str) -> Result<(), Failure> {
+    let written = print(text.trim_end());
+    written.map_err(|error| Failure::NoResult(format!("cannot write to standard output: {error}")))
 }
 
 /// Prints a text; a reader that has gone away (`| head`) is no failure.

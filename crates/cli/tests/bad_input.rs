@@ -376,7 +376,15 @@ fn nothing_is_written_through_links() {
 #[test]
 fn standard_output_that_takes_nothing_is_an_error_and_a_closed_pipe_is_none() {
     let workshop = Workshop::with(TWO_MASSES);
-    for arguments in [&["check", "study.toml"][..], &["check", "study.toml", "--json"]] {
+    for arguments in [
+        &["check", "study.toml"][..],
+        &["check", "study.toml", "--json"],
+        &["--help"],
+        &["--version"],
+        &["help", "run"],
+        &["check", "-h"],
+        &["signal", "--help"],
+    ] {
         let run = |stdout: std::process::Stdio| {
             let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"));
             command.args(arguments).current_dir(workshop.path("")).stdout(stdout);
