@@ -295,15 +295,22 @@ fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_sho
 /// Texts that a terminal would obey, or that would end a row of a table.
 #[test]
 fn titles_and_names_with_control_characters_are_refused() {
-    for (text, code) in
-        [("\\u001b[31mred", "U+001B"), ("a\\rb", "U+000D"), ("a\\nb", "U+000A"), ("\\u202eb", "U+202E")]
-    {
+    for (text, code) in [
+        ("\\u001b[31mred", "U+001B"),
+        ("a\\rb", "U+000D"),
+        ("a\\nb", "U+000A"),
+        ("\u{202e}b", "U+202E"),
+        ("a\u{200b}b", "U+200B"),
+        ("a\u{feff}b", "U+FEFF"),
+        ("\u{e0041}b", "U+E0041"),
+    ] {
         let workshop = Workshop::changed(TWO_MASSES, "title = \"", &format!("title = \"{text}"));
         let sentence = format!("`title` has the control character {code}");
         let output = workshop.hammerbeam(&["check", "study.toml"]);
         assert_bad_input(&output, &[&sentence]);
         let text = String::from_utf8(output.stderr).unwrap();
-        assert!(!text.contains(['\u{1b}', '\r', '\u{202e}']), "{text:?}");
+        let unseen = ['\u{1b}', '\r', '\u{202e}', '\u{200b}', '\u{feff}', '\u{e0041}'];
+        assert!(!text.contains(unseen), "{text:?}");
     }
 }
 
