@@ -448,6 +448,26 @@ fn what_was_probably_meant_is_suggested() {
     );
 }
 
+/// Whatever is wrong with the section as a whole, what it may be is told in full.
+#[test]
+fn every_form_of_a_section_is_told_where_it_is_in_none() {
+    let section = "section = { width_m = 0.0298, height_m = 0.0020 }";
+    for (form, fault) in [
+        ("", "`section` is missing in [structure]"),
+        ("section = \"30 mm x 2 mm\"", "`section` must be a table, found the string"),
+        ("section = { width = \"30 mm\", area_m2 = 6e-5 }", "`section` is a mix of the accepted forms"),
+        ("section = { diameter = \"10 mm\" }", "`section` has none of the accepted forms"),
+        ("section = { width = \"30 mm\" }", "`height_m` is missing in [structure.section]"),
+    ] {
+        let output = Workshop::changed(BEAM, section, form).hammerbeam(&["check", "study.toml"]);
+        let forms = "allowed: { width_m, height_m } of a rectangle, or { area_m2, second_moment_m4 }";
+        let with_units = "{ width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", second_moment = \"20 mm^4\" }";
+        assert_bad_input(&output, &[fault, forms, with_units]);
+        let message = stderr(&output);
+        assert!(!message.contains("unknown key `width"), "{message}");
+    }
+}
+
 /// A cantilever of a tenth of a millimetre: `E b h^3/12` is 2.67e-13 N m^2.
 #[test]
 fn check_shows_damping_and_small_numbers_with_their_digits() {

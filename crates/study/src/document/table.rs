@@ -75,9 +75,14 @@ impl<'a> Table<'a> {
 
     /// The value of a key that has to be there.
     pub(crate) fn required(&self, key: &'static str) -> Option<Value<'a>> {
+        self.required_with_help(key, Vec::new())
+    }
+
+    /// The same; `help` says what is allowed where it is missing.
+    pub(crate) fn required_with_help(&self, key: &'static str, help: Vec<String>) -> Option<Value<'a>> {
         let value = self.optional(key);
         if value.is_none() {
-            self.problem(key, format!("`{key}` is missing{}", self.place_name()), Vec::new());
+            self.problem(key, format!("`{key}` is missing{}", self.place_name()), help);
         }
         value
     }

@@ -65,7 +65,11 @@ impl<'a> Value<'a> {
     }
 
     fn wrong_type<T>(&self, expected: &str) -> Option<T> {
-        self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), Vec::new());
+        self.wrong_type_with_help(expected, Vec::new())
+    }
+
+    fn wrong_type_with_help<T>(&self, expected: &str, help: Vec<String>) -> Option<T> {
+        self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), help);
         None
     }
 
@@ -179,11 +183,16 @@ impl<'a> Value<'a> {
 
     /// A table.
     pub(crate) fn table(&self) -> Option<Table<'a>> {
+        self.table_with_help(Vec::new())
+    }
+
+    /// The same; `help` says what is allowed where it is something else.
+    pub(crate) fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
                 Some(Table::new(self.reading, self.path.clone(), self.span.clone(), entries))
             }
-            _ => self.wrong_type("a table"),
+            _ => self.wrong_type_with_help("a table", help),
         }
     }
 
