@@ -278,17 +278,17 @@ fn large_study(masses: usize, stops: usize) -> String {
 #[test]
 fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_shown() {
     for (text, expected) in [
-        (large_study(20_000, 0), "`mass` has 20000 entries"),
-        (large_study(1, 20_000), "`stop` has 20000 entries"),
-        (large_study(1, 900), "more"),
-        (format!("title = \"{}\"\n", "x".repeat(100_000)), "`title` is 100000 bytes long"),
+        (large_study(20_000, 0), ["`mass` has 20000 entries", "at most 1000 tables"]),
+        (large_study(1, 20_000), ["`stop` has 20000 entries", "at most 1000 tables"]),
+        (large_study(1, 900), ["and", "more"]),
+        (format!("title = \"{}\"\n", "x".repeat(100_000)), ["`title` is 100000 bytes long", "at most 1000 bytes"]),
     ] {
         let workshop = Workshop::with(&text);
         let begun = std::time::Instant::now();
         let output = workshop.hammerbeam(&["check", "study.toml"]);
-        assert_bad_input(&output, &[expected]);
+        assert_bad_input(&output, &expected);
         assert!(output.stderr.len() < 300_000, "{} bytes", output.stderr.len());
-        assert!(begun.elapsed().as_secs() < 20, "{expected}: {:?}", begun.elapsed());
+        assert!(begun.elapsed().as_secs() < 20, "{expected:?}: {:?}", begun.elapsed());
     }
 }
 

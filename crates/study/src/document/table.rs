@@ -9,8 +9,6 @@ use super::{
     unit::{measured, without_unit},
 };
 
-/// Elements of an array of tables: masses, springs, stops.
-const MOST_TABLES: usize = 1000;
 /// Entries of a table of names that the file chooses.
 const MOST_NAMES: usize = 100;
 
@@ -95,15 +93,8 @@ impl<'a> Table<'a> {
     /// The elements of an array of tables such as `[[stop]]`; none if the key is not there.
     pub(crate) fn tables(&self, key: &'static str) -> Vec<Table<'a>> {
         let Some(value) = self.optional(key) else { return Vec::new() };
-        let Some(elements) = value.array_of(&format!("tables, written [[{}]]", self.path_of(key))) else {
-            return Vec::new();
-        };
-        if elements.len() > MOST_TABLES {
-            let found = format!("`{key}` has {} entries", elements.len());
-            self.problem(key, found, vec![format!("allowed: at most {MOST_TABLES} tables")]);
-            return Vec::new();
-        }
-        elements.iter().filter_map(Value::table).collect()
+        let elements = value.tables(&format!("tables, written [[{}]]", self.path_of(key)));
+        elements.unwrap_or_default().iter().filter_map(Value::table).collect()
     }
 
     /// All entries of a table whose keys are names that the file chooses, as numbers; `None` where one is

@@ -11,7 +11,9 @@ use super::{
     unit::{Dimension, measured, without_unit},
 };
 
-/// Entries of a list.
+/// Elements of an array of tables: masses, springs, stops.
+const MOST_TABLES: usize = 1000;
+/// Entries of another list.
 const LONGEST_LIST: usize = 10_000;
 /// Bytes of a text.
 const LONGEST_TEXT: usize = 1000;
@@ -198,12 +200,21 @@ impl<'a> Value<'a> {
 
     /// A list; `what` says of what, for the message.
     pub(crate) fn array_of(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        self.at_most(LONGEST_LIST, "entries", what)
+    }
+
+    /// The elements of an array of tables.
+    pub(crate) fn tables(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        self.at_most(MOST_TABLES, "tables", what)
+    }
+
+    fn at_most(&self, most: usize, name: &str, what: &str) -> Option<Vec<Value<'a>>> {
         let DeValue::Array(elements) = self.value else {
             return self.wrong_type(&format!("a list of {what}"));
         };
-        if elements.len() > LONGEST_LIST {
+        if elements.len() > most {
             let found = format!("`{}` has {} entries", self.key(), elements.len());
-            self.problem(found, vec![format!("allowed: at most {LONGEST_LIST} entries")]);
+            self.problem(found, vec![format!("allowed: at most {most} {name}")]);
             return None;
         }
         let element = |(index, element): (usize, &'a toml::Spanned<DeValue<'a>>)| {
