@@ -26,7 +26,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         .varied_paths
         .iter()
         .chain(&exported.motion_paths)
-        .chain(&states)
+        .chain(states.iter().flatten())
         .map(|path| path.display().to_string())
         .collect();
     let mut files = vec![path.clone(), events_path.clone(), ends_path.clone()];
