@@ -21,11 +21,12 @@ pub struct Output {
     pub frequency_unit: FrequencyUnit,
 }
 
-/// A frequency with its unit: all digits of one in hertz, nine of another.
-pub fn frequency(unit: FrequencyUnit, frequency_hz: f64) -> String {
-    match unit {
-        FrequencyUnit::Hertz => format!("{frequency_hz} Hz"),
-        other => other.words(frequency_hz),
+/// A number to six decimals; what is rounded to nothing has no sign.
+pub fn six_decimals(value: f64) -> String {
+    let text = format!("{value:.6}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
     }
 }
 
@@ -113,6 +114,12 @@ fn document(failure: &Failure) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign() {
+        let shown = [-0.0, -4.9e-7, -5.1e-7, 1.5].map(six_decimals);
+        assert_eq!(shown, ["0.000000", "0.000000", "-0.000001", "1.500000"]);
+    }
 
     #[test]
     fn a_terminal_gets_nothing_to_obey() {

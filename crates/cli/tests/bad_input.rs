@@ -281,7 +281,10 @@ fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_sho
         (large_study(20_000, 0), ["`mass` has 20000 entries", "at most 1000 tables"]),
         (large_study(1, 20_000), ["`stop` has 20000 entries", "at most 1000 tables"]),
         (large_study(1, 900), ["and", "more"]),
-        (format!("title = \"{}\"\n", "x".repeat(100_000)), ["`title` is 100000 bytes long", "at most 1000 bytes"]),
+        (
+            format!("title = \"{}\"\n", "x".repeat(100_000)),
+            ["`title` is 100000 bytes long", "at most 1000 bytes"],
+        ),
     ] {
         let workshop = Workshop::with(&text);
         let begun = std::time::Instant::now();
@@ -348,7 +351,9 @@ fn nothing_is_written_through_links() {
     use std::{fs, os::unix::fs::symlink};
     let workshop = with_results();
     let at = |name: &str| workshop.path(name);
-    for (k, name) in ["results.db", "results.db-wal", "results.db-journal", "run.lock"].into_iter().enumerate() {
+    for (k, name) in
+        ["results.db", "results.db-wal", "results.db-journal", "run.lock"].into_iter().enumerate()
+    {
         fs::create_dir(at(&format!("{k}"))).unwrap();
         // Once to what is not there yet, once to a database.
         let led_to = if k == 0 { at("results/results.db") } else { at("new") };
@@ -465,6 +470,19 @@ fn every_form_of_a_section_is_told_where_it_is_in_none() {
         assert_bad_input(&output, &[fault, forms, with_units]);
         let message = stderr(&output);
         assert!(!message.contains("unknown key `width"), "{message}");
+    }
+}
+
+/// One of a thing, and a gap that someone wrote with a sign.
+#[test]
+fn check_counts_one_as_one_and_gives_nothing_no_sign() {
+    let workshop = Workshop::driven_mass(
+        "frequency_hz = [0.1, 0.2]\n[[stop]]\nname = \"wall\"\nat = \"m\"\nlaw = \"linear\"\nside = \"above\"\n\
+         stiffness_n_m = 1.0\ngap_m = -0.0\n",
+    );
+    let shown = stdout(&workshop.hammerbeam(&["check", "study.toml"]));
+    for part in ["1 spring, 1 damper\n", "none, 1 mode\n", "gap 0 m"] {
+        assert!(shown.contains(part), "\"{part}\" is missing in\n{shown}");
     }
 }
 

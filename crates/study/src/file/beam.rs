@@ -184,7 +184,8 @@ fn read_section(value: &Value<'_>, length_m: Option<f64>) -> Option<Section> {
             for key in RECTANGLE.into_iter().chain(GENERAL) {
                 table.optional(key);
             }
-            let found = if mixed { "is a mix of the accepted forms" } else { "has none of the accepted forms" };
+            let found =
+                if mixed { "is a mix of the accepted forms" } else { "has none of the accepted forms" };
             value.problem(format!("`section` {found}"), forms());
             None
         }
@@ -203,7 +204,8 @@ fn read_general_section(table: &Table<'_>) -> Option<Section> {
 
 fn read_rectangle(table: &Table<'_>, length_m: Option<f64>) -> Option<Section> {
     let width = table.required_with_help("width_m", forms()).and_then(|value| value.number(&quantity::WIDTH));
-    let height = table.required_with_help("height_m", forms()).and_then(|value| value.number(&quantity::HEIGHT));
+    let height =
+        table.required_with_help("height_m", forms()).and_then(|value| value.number(&quantity::HEIGHT));
     let (width, height, length) = (width?, height?, length_m?);
     if 2.0 * height > length {
         let help = format!("allowed: at most half of the length, {length} m; beam theory needs slenderness");
