@@ -349,7 +349,7 @@ fn a_folder_that_cannot_be_written_is_exit_code_2_everywhere() {
 #[test]
 fn nothing_is_written_through_links() {
     use std::{fs, os::unix::fs::symlink};
-    let workshop = with_results();
+    let workshop = short_run();
     let at = |name: &str| workshop.path(name);
     for (k, name) in
         ["results.db", "results.db-wal", "results.db-journal", "run.lock"].into_iter().enumerate()
@@ -466,7 +466,8 @@ fn every_form_of_a_section_is_told_where_it_is_in_none() {
     ] {
         let output = Workshop::changed(BEAM, section, form).hammerbeam(&["check", "study.toml"]);
         let forms = "allowed: { width_m, height_m } of a rectangle, or { area_m2, second_moment_m4 }";
-        let with_units = "{ width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", second_moment = \"20 mm^4\" }";
+        let with_units = "{ width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", \
+            second_moment = \"20 mm^4\" }";
         assert_bad_input(&output, &[fault, forms, with_units]);
         let message = stderr(&output);
         assert!(!message.contains("unknown key `width"), "{message}");
@@ -477,8 +478,8 @@ fn every_form_of_a_section_is_told_where_it_is_in_none() {
 #[test]
 fn check_counts_one_as_one_and_gives_nothing_no_sign() {
     let workshop = Workshop::driven_mass(
-        "frequency_hz = [0.1, 0.2]\n[[stop]]\nname = \"wall\"\nat = \"m\"\nlaw = \"linear\"\nside = \"above\"\n\
-         stiffness_n_m = 1.0\ngap_m = -0.0\n",
+        "frequency_hz = [0.1, 0.2]\n[[stop]]\nname = \"wall\"\nat = \"m\"\nlaw = \"linear\"\n\
+         side = \"above\"\nstiffness_n_m = 1.0\ngap_m = -0.0\n",
     );
     let shown = stdout(&workshop.hammerbeam(&["check", "study.toml"]));
     for part in ["1 spring, 1 damper\n", "none, 1 mode\n", "gap 0 m"] {

@@ -22,7 +22,7 @@ static ONE_THREAD: LazyLock<(Workshop, String)> = LazyLock::new(|| {
     let workshop = Workshop::with(&EXAMPLE);
     let run = workshop.hammerbeam(&[&RUN[..], &["--jobs", "1"]].concat());
     assert_success(&run);
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv", "--states"]));
     (workshop, stdout(&run))
 });
 
@@ -93,8 +93,8 @@ fn places(rows: &[Row], key: &str, filter: impl Fn(&Row) -> bool) -> Vec<f64> {
     rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
 }
 
-/// The states are those of the rows, one to one, with the leading multiplier first, and those of the ends among
-/// them.
+/// The states are those of the rows, one to one, with the leading multiplier first, and those of the ends
+/// among them.
 fn assert_states_belong(rows: &[Row], states: &[Row], ends: &[Row]) {
     assert_eq!(rows.len(), states.len());
     let mut next = BTreeMap::new();

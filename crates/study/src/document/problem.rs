@@ -104,8 +104,8 @@ impl Report {
     }
 }
 
-/// A text with a stand-in for every character that a terminal would obey or not show; those of ASCII are left to
-/// the renderer, which has a picture for each.
+/// A text with a stand-in for every character that a terminal would obey or not show; those of ASCII are left
+/// to the renderer, which has a picture for each.
 fn visible(text: &str) -> String {
     text.replace(|character: char| !character.is_ascii() && is_control(character), "\u{fffd}")
 }

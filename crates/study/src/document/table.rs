@@ -86,7 +86,8 @@ impl<'a> Table<'a> {
         value
     }
 
-    /// Refuses a text that stands under the key without its unit and is no quantity at all; whether there is one.
+    /// Refuses a text that stands under the key without its unit and is no quantity at all; whether there is
+    /// one.
     fn refuse_without_quantity(&self, key: &'static str) -> bool {
         let Some((stem, dimension)) = without_unit(key) else { return false };
         let text = self.entries.get(stem).and_then(|value| text_of(value.get_ref()));

@@ -101,8 +101,9 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     Ok(Exported { path, rows, events_path, ends_path, varied_paths, motion_paths })
 }
 
-/// Writes `states.csv` into a folder, and `parameter_states.csv` and `curve_states.csv` where the study asks for
-/// such: the state and all multipliers of every solution, which take several times the room of the rest.
+/// Writes `states.csv` into a folder, and `parameter_states.csv` and `curve_states.csv` where there are such
+/// branches and curves: the state and all multipliers of every solution, which take several times the room of
+/// the rest.
 ///
 /// # Returns
 /// The files.

@@ -328,8 +328,8 @@ impl Store {
         place: u32,
     ) -> Result<StoredVariedOrbit, StoreError> {
         let select =
-            "SELECT parameter, frequency_hz, phase_cycles, segments * state_length, state_length, nodes, multipliers
-            FROM piece_row WHERE piece = ?1 AND branch = ?2 AND place = ?3";
+            "SELECT parameter, frequency_hz, phase_cycles, segments * state_length, state_length, nodes,
+            multipliers FROM piece_row WHERE piece = ?1 AND branch = ?2 AND place = ?3";
         let (orbit, entries, length, nodes, multipliers) =
             self.connection.prepare_cached(select)?.query_row([piece, branch, place], |row| {
                 let orbit = StoredVariedOrbit {
