@@ -72,9 +72,8 @@ const RIG_CHANGES: [(&str, &str); 4] = [
 ];
 
 /// Commands, those that need the results of `run` in `out` marked, and those that take seconds.
-const COMMANDS: [(&str, Needs, Cost); 18] = [
+const COMMANDS: [(&str, Needs, Cost); 17] = [
     ("run study.toml --out out --jobs 2", Needs::Study, Cost::Small),
-    ("run study.toml --from swept --out out", Needs::Study, Cost::Small),
     ("modes study.toml --out drawn", Needs::Study, Cost::Small),
     ("orbit study.toml --frequency 0.5 --out drawn", Needs::Study, Cost::Small),
     ("simulate study.toml --frequency 0.5 --periods 400 --out out", Needs::Study, Cost::Small),
@@ -147,9 +146,6 @@ pub fn writers(most: Cost) -> Vec<Writer> {
     ] {
         fs::write(study.path(name), text).unwrap();
     }
-    // Motions of their own for `run --from`.
-    let sweep = ["sweep", "study.toml", "--step", "0.02", "--starts", "3", "--out", "swept"];
-    assert_success(&study.hammerbeam(&sweep));
     let alone = files(&study);
     assert_success(&study.hammerbeam(&["run", "study.toml", "--out", "out"]));
     let with_results = files(&study);
