@@ -175,7 +175,8 @@ pub struct ExportOptions {
     #[arg(long, value_enum)]
     pub format: Format,
 
-    /// Write states.csv as well: the state and all multipliers of every solution
+    /// Write states.csv as well, and parameter_states.csv and curve_states.csv where there are such branches
+    /// and curves: the state and all multipliers of every solution
     #[arg(long)]
     pub states: bool,
 

@@ -82,6 +82,11 @@ fn of_points(text: &str, frequency_hz: f64, model: &Model) -> Result<Vec<f64>, F
             _ => return Err(refused(part)),
         };
         let value = value.ok_or_else(|| refused(part))?;
+        let is_same = |start: &PointStart| start.point == point && start.kind == kind;
+        if starts.iter().any(is_same) {
+            let name = name.trim();
+            return Err(Failure::BadInput(format!("--initial: {name} is given twice; allowed: once")));
+        }
         starts.push(PointStart { point: point.to_owned(), kind, value });
     }
     let state = model.state_of_points(frequency_hz, &starts);

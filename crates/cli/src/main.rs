@@ -28,10 +28,15 @@ use clap::Parser;
 use hammerbeam_figure::FrequencyUnit;
 
 use args::{Arguments, Command};
+use failure::Failure;
 use output::Output;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(refused) if refused.use_stderr() => refused.exit(),
+        Err(help) => return ended(Output::default(), output::give_text(&help.render().ansi().to_string())),
+    };
     let frequency_unit = if arguments.angular { FrequencyUnit::RadPerSecond } else { FrequencyUnit::Hertz };
     let output = Output { json: arguments.json, frequency_unit };
     let result = match &arguments.command {
@@ -53,6 +58,11 @@ fn main() -> ExitCode {
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),
     };
+    ended(output, result)
+}
+
+/// Tells a failure; exit code of the process.
+fn ended(output: Output, result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

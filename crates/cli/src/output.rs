@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::failure::Failure;
 
 /// Where results go.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Output {
     /// One JSON document instead of text.
     pub json: bool,
@@ -21,11 +21,12 @@ pub struct Output {
     pub frequency_unit: FrequencyUnit,
 }
 
-/// A frequency with its unit: all digits of one in hertz, nine of another.
-pub fn frequency(unit: FrequencyUnit, frequency_hz: f64) -> String {
-    match unit {
-        FrequencyUnit::Hertz => format!("{frequency_hz} Hz"),
-        other => other.words(frequency_hz),
+/// A number to six decimals; what is rounded to nothing has no sign.
+pub fn six_decimals(value: f64) -> String {
+    let text = format!("{value:.6}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
     }
 }
 
@@ -35,14 +36,11 @@ impl Output {
     /// # Errors
     /// Standard output does not take it: a full disk, say.
     pub fn give(self, document: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
-        let written = if self.json {
-            let document =
-                serde_json::to_string_pretty(document).expect("results are plain data with text keys");
-            print(&document)
+        if self.json {
+            give_text(&serde_json::to_string_pretty(document).expect("results are plain data with text keys"))
         } else {
-            print(&printable(text().trim_end()))
-        };
-        written.map_err(|error| Failure::NoResult(format!("cannot write to standard output: {error}")))
+            give_text(&printable(text().trim_end()))
+        }
     }
 
     /// Tells a failure on standard error, and in JSON as the one document.
@@ -60,6 +58,15 @@ impl Output {
             let _ = print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }
+}
+
+/// Gives a text as it is, the help of a command, say.
+///
+/// # Errors
+/// Standard output does not take it.
+pub fn give_text(text: &str) -> Result<(), Failure> {
+    let written = print(text.trim_end());
+    written.map_err(|error| Failure::NoResult(format!("cannot write to standard output: {error}")))
 }
 
 /// Prints a text; a reader that has gone away (`| head`) is no failure.
@@ -107,6 +114,12 @@ fn document(failure: &Failure) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign() {
+        let shown = [-0.0, -4.9e-7, -5.1e-7, 1.5].map(six_decimals);
+        assert_eq!(shown, ["0.000000", "0.000000", "-0.000001", "1.500000"]);
+    }
 
     #[test]
     fn a_terminal_gets_nothing_to_obey() {

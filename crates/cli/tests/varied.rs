@@ -1,7 +1,7 @@
 //! Branches in other parameters and curves of bifurcations, with the real command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::{fs, sync::LazyLock};
+use std::{collections::BTreeMap, fs, sync::LazyLock};
 
 use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
@@ -22,7 +22,7 @@ static ONE_THREAD: LazyLock<(Workshop, String)> = LazyLock::new(|| {
     let workshop = Workshop::with(&EXAMPLE);
     let run = workshop.hammerbeam(&[&RUN[..], &["--jobs", "1"]].concat());
     assert_success(&run);
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv", "--states"]));
     (workshop, stdout(&run))
 });
 
@@ -93,6 +93,29 @@ fn places(rows: &[Row], key: &str, filter: impl Fn(&Row) -> bool) -> Vec<f64> {
     rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
 }
 
+/// The states are those of the rows, one to one, with the leading multiplier first, and those of the ends
+/// among them.
+fn assert_states_belong(rows: &[Row], states: &[Row], ends: &[Row]) {
+    assert_eq!(rows.len(), states.len());
+    let mut next = BTreeMap::new();
+    for (row, state) in rows.iter().zip(states) {
+        for (key, value) in state.iter().filter(|(key, _)| row.contains_key(*key)) {
+            assert_eq!(&row[key], value, "{key}");
+        }
+        let number = next.entry((&row["piece"], &row["branch"])).or_insert(0);
+        assert_eq!(state["row"], number.to_string());
+        *number += 1;
+        let leading = &row["leading_multiplier_re"];
+        assert!(state["multipliers"].starts_with(leading), "{leading} leads, not {}", state["multipliers"]);
+        assert_eq!(state["state"].split(' ').count(), state["multipliers"].split(' ').count());
+    }
+    for end in ends {
+        let is_there =
+            |state: &&Row| state.iter().all(|(key, value)| end.get(key).is_none_or(|one| one == value));
+        assert_eq!(states.iter().filter(is_there).count(), 1, "{end:?}");
+    }
+}
+
 /// The folds of the branch over the force at 0.25 Hz lie on the curve of folds, found another way; the curve
 /// passes both folds of the response and has one cusp.
 #[test]
@@ -100,6 +123,9 @@ fn branches_and_curves_of_the_example_meet() {
     let (workshop, told) = &*ONE_THREAD;
     assert!(told.contains("fold curve over excitation.amplitude_n"), "{told}");
     let (branches, curves) = (table(workshop, "parameter_branches.csv"), table(workshop, "curves.csv"));
+    let of = |name: &str| table(workshop, name);
+    assert_states_belong(&branches, &of("parameter_states.csv"), &of("parameter_ends.csv"));
+    assert_states_belong(&curves, &of("curve_states.csv"), &of("curve_ends.csv"));
     let force = |row: &Row| row["parameter_name"] == "excitation.amplitude_n";
     let folds = places(&branches, "parameter", |row| force(row) && row["event"].contains("fold"));
     assert_eq!(folds.len(), 2, "{folds:?}");

@@ -100,7 +100,9 @@ fn grouped(whole: &str) -> String {
 /// A number as a reader would write it, without the last digits, which are rounding: up to nine of them.
 #[must_use]
 pub fn plain_number(value: f64) -> String {
-    format!("{value:.8e}").parse::<f64>().map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
+    let rounded = format!("{value:.8e}").parse::<f64>().unwrap_or(value);
+    // Nothing has no sign.
+    (rounded + 0.0).to_string()
 }
 
 /// `mantissa × 10^exponent`, without a mantissa of one.

@@ -52,12 +52,20 @@ pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read_bytes(path, most)?).map_err(no_text)
 }
 
-/// Whether a character is none that is seen: what a terminal obeys, ends a line, or turns the direction of
-/// writing.
+/// Whether a character is none that is seen: what a terminal obeys, ends a line, turns the direction of
+/// writing, has no width, or is a tag.
 #[must_use]
 pub fn is_control(character: char) -> bool {
     character.is_control()
-        || matches!(character, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')
+        || matches!(
+            character,
+            '\u{61c}'
+                | '\u{200b}'..='\u{200f}'
+                | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}'
+                | '\u{feff}'
+                | '\u{e0000}'..='\u{e007f}'
+        )
 }
 
 /// Refuses to make a record of so many samples.

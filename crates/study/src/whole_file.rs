@@ -55,6 +55,27 @@ pub(crate) fn is_wrong_place(error: &io::Error) -> bool {
     )
 }
 
+/// Refuses a path that is a link: what is written there would be somewhere else.
+pub(crate) fn refuse_link(path: &Path) -> io::Result<()> {
+    if path.is_symlink() {
+        let message = "it is a link, and nothing is written through links";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    }
+    Ok(())
+}
+
+/// A folder of its own within a results folder, for what is written when no other folder is named.
+///
+/// # Errors
+/// [`WriteError`]: it is a link.
+pub fn subfolder(results: &Path, name: &str) -> Result<PathBuf, WriteError> {
+    let path = results.join(name);
+    match refuse_link(&path) {
+        Ok(()) => Ok(path),
+        Err(source) => Err(WriteError { path, source }),
+    }
+}
+
 /// A file that is being written.
 #[derive(Debug)]
 pub struct WholeFile {

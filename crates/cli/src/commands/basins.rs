@@ -12,7 +12,7 @@ use crate::{
     interrupt::Interrupt,
     kept::{Kept, branches},
     motion_args::{AxisOption, BasinsOptions},
-    output::{Output, frequency},
+    output::Output,
     ticker::Ticker,
 };
 
@@ -214,8 +214,7 @@ impl Outcome<'_> {
     }
 
     fn text(&self, unit: FrequencyUnit) -> String {
-        let mut lines =
-            vec![format!("{} cells at {}", self.cells.len(), frequency(unit, self.options.frequency))];
+        let mut lines = vec![format!("{} cells at {}", self.cells.len(), unit.words(self.options.frequency))];
         for (index, attractor, fraction, branch) in self.attractors() {
             let class = attractor.class;
             let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));

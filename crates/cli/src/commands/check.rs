@@ -12,12 +12,7 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{
-    args::StudyOptions,
-    drift,
-    failure::Failure,
-    output::{Output, frequency},
-};
+use crate::{args::StudyOptions, drift, failure::Failure, kept::counted, output::Output};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
@@ -175,19 +170,20 @@ fn lumped_text(lumped: &Lumped) -> String {
     let masses: Vec<String> =
         lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
     format!(
-        "structure    masses {}; {} springs, {} dampers",
+        "structure    masses {}; {}, {}",
         masses.join(", "),
-        lumped.springs.len(),
-        lumped.dampers.len()
+        counted(lumped.springs.len() as u64, "spring"),
+        counted(lumped.dampers.len() as u64, "damper")
     )
 }
 
 fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> String {
+    let modes = counted(dof as u64, "mode");
     match reduction.method {
-        ReductionMethod::None => format!("none, {dof} modes"),
+        ReductionMethod::None => format!("none, {modes}"),
         _ => {
-            let cut_off = frequency(unit, reduction.cut_off_hz);
-            format!("{}, cut-off {cut_off}, {dof} modes left", word(&reduction.method))
+            let cut_off = unit.words(reduction.cut_off_hz);
+            format!("{}, cut-off {cut_off}, {modes} left", word(&reduction.method))
         }
     }
 }
@@ -365,7 +361,10 @@ fn rest(approach: Approach) -> String {
 /// A number to nine digits, with an exponent where it is very small or large.
 fn digits(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse().unwrap_or(value);
-    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) {
+    if rounded == 0.0 {
+        // Without a sign.
+        "0".to_owned()
+    } else if (1e-4..1e6).contains(&rounded.abs()) {
         format!("{rounded}")
     } else {
         format!("{rounded:e}")

@@ -1,6 +1,6 @@
 //! `hammerbeam export`: stored results for other programs.
 
-use hammerbeam_study::{Store, export_csv, export_states};
+use hammerbeam_study::{Store, export_csv, export_states, whole_file::subfolder};
 use serde_json::json;
 
 use crate::{
@@ -11,7 +11,10 @@ use crate::{
 
 pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
-    let folder = options.out.clone().unwrap_or_else(|| options.results.join("export"));
+    let folder = match &options.out {
+        Some(folder) => folder.clone(),
+        None => subfolder(&options.results, "export")?,
+    };
     let exported = match options.format {
         Format::Csv => export_csv(&store, &folder)?,
     };
@@ -23,7 +26,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         .varied_paths
         .iter()
         .chain(&exported.motion_paths)
-        .chain(&states)
+        .chain(states.iter().flatten())
         .map(|path| path.display().to_string())
         .collect();
     let mut files = vec![path.clone(), events_path.clone(), ends_path.clone()];

@@ -17,7 +17,7 @@ use crate::{
     interrupt::Interrupt,
     kept::{Kept, state_words},
     motion_args::LyapunovOptions,
-    output::{Output, frequency},
+    output::Output,
     series::series,
     ticker::Ticker,
 };
@@ -243,7 +243,7 @@ impl Outcome<'_> {
         let spectrum = &self.record.spectrum;
         let mut lines = vec![format!(
             "exponents at {} over {:.6} s, {} section(s) in a period, with intervals of 95 %",
-            frequency(unit, self.record.frequency_hz),
+            unit.words(self.record.frequency_hz),
             spectrum.time,
             self.record.sections_per_period
         )];

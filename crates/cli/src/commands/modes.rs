@@ -8,7 +8,7 @@ use crate::{
     args::ModesOptions,
     failure::Failure,
     figures::{self, Drawn},
-    output::Output,
+    output::{Output, six_decimals},
 };
 
 /// Rows of the table that are always shown, when there are so many.
@@ -61,8 +61,8 @@ fn shapes_text(model: &Model) -> Vec<String> {
             .map(|point| point.shape[mode])
             .fold(0.0, |largest: f64, entry| if entry.abs() > largest.abs() { entry } else { largest });
         let size = if largest == 0.0 { 1.0 } else { largest.abs() };
-        let entries: String =
-            points.iter().map(|point| format!(" {:>12.6}", point.shape[mode] / size)).collect();
+        let entry = |shape: &[f64]| format!(" {:>12}", six_decimals(shape[mode] / size));
+        let entries: String = points.iter().map(|point| entry(&point.shape)).collect();
         lines.push(format!("{:>4}{entries}", mode + 1));
     }
     lines
@@ -84,7 +84,7 @@ fn text(model: &Model, unit: FrequencyUnit) -> String {
     ];
     let rows = tables.reduced_hz.len().max(interface.1.len()).max(SHOWN).min(tables.clamped_hz.len());
     let cell = |values: &[f64], row: usize| {
-        values.get(row).map_or(String::new(), |value| format!("{:.6}", unit.factor() * value))
+        values.get(row).map_or(String::new(), |value| six_decimals(unit.factor() * value))
     };
     for row in 0..rows {
         let error =

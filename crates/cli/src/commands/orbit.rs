@@ -11,7 +11,7 @@ use crate::{
     failure::Failure,
     figures::{self, Drawn},
     interrupt::Interrupt,
-    output::{Output, frequency},
+    output::{Output, six_decimals},
 };
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
@@ -31,7 +31,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let Some((first, others)) = orbits.split_first() else {
         let nothing = format!(
             "no periodic solution of {multiple} excitation period(s) was found at {}",
-            frequency(output.frequency_unit, frequency_hz)
+            output.frequency_unit.words(frequency_hz)
         );
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
     };
@@ -96,7 +96,7 @@ fn solution_text(solution: &PeriodicSolution, (point, unit): (&str, FrequencyUni
     [
         format!(
             "{}, period {} excitation period(s), {}",
-            frequency(unit, solution.frequency_hz),
+            unit.words(solution.frequency_hz),
             solution.period_multiple,
             solution.stability().word()
         ),
@@ -113,5 +113,6 @@ fn solution_text(solution: &PeriodicSolution, (point, unit): (&str, FrequencyUni
 }
 
 fn complex([re, im]: [f64; 2]) -> String {
-    if im == 0.0 { format!("{re:.6}") } else { format!("{re:.6}{im:+.6}i") }
+    let real = six_decimals(re);
+    if im == 0.0 { real } else { format!("{real}{im:+.6}i") }
 }

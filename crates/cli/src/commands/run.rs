@@ -26,7 +26,7 @@ use crate::{
     failure::Failure,
     figures::{self, Drawn, Wishes},
     interrupt::Interrupt,
-    output::{Output, frequency},
+    output::Output,
     progress::Terminal,
 };
 
@@ -138,7 +138,7 @@ impl Summary<'_> {
 
     fn nothing(&self) -> String {
         let [low, high] = self.study.excitation.range_hz();
-        let (low, high) = (frequency(self.unit, low), frequency(self.unit, high));
+        let (low, high) = (self.unit.words(low), self.unit.words(high));
         let mut lines = vec![format!("no periodic solution was found between {low} and {high}")];
         lines.extend(self.failed_text());
         if self.left() > 0 {

@@ -74,7 +74,8 @@ fn a_motion_starts_from_displacements_and_velocities_of_points() {
     for (initial, part) in [
         ("balls.y=1", "\"balls\" is not a point of this structure; there are ball, ground"),
         ("ball.x=1", "allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND"),
-        ("ball.y=1,ball.y=2", "point \"ball\" cannot move by 2 there"),
+        ("ball.y=1,ball.v=1,ball.y=1", "--initial: ball.y is given twice; allowed: once"),
+        ("ground.y=1e-3", "point \"ground\" cannot move by 0.001 there: the others leave it 0"),
     ] {
         let output =
             workshop.hammerbeam(&["simulate", "study.toml", "--frequency", "1", "--initial", initial]);

@@ -3,6 +3,7 @@
 use std::{fmt, ops::Range};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use hammerbeam_signal::limits::is_control;
 
 /// One fault of a document.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,24 +63,26 @@ impl Report {
         shown.join("\n\n")
     }
 
-    fn group<'a>(&'a self, problem: &'a Problem) -> Group<'a> {
-        let title = Level::ERROR.primary_title(&problem.message);
+    fn group(&self, problem: &Problem) -> Group<'static> {
+        let title = Level::ERROR.primary_title(visible(&problem.message));
         let mut group = match &problem.span {
             Some(span) => {
                 let (span, line) = (self.clip(span), self.line(span.start));
                 let number = self.text[..line.start].matches('\n').count() + 1;
-                let span = span.start - line.start..span.end - line.start;
+                // Stand-ins take other numbers of bytes than what they stand for.
+                let before = |place: usize| visible(&self.text[line.start..place]).len();
+                let span = before(span.start)..before(span.end);
                 title.element(
-                    Snippet::source(&self.text[line])
+                    Snippet::source(visible(&self.text[line]))
                         .line_start(number)
-                        .path(&self.name)
-                        .annotation(AnnotationKind::Primary.span(span).label(&problem.key)),
+                        .path(visible(&self.name))
+                        .annotation(AnnotationKind::Primary.span(span).label(visible(&problem.key))),
                 )
             }
             None => Group::with_title(title),
         };
         for help in &problem.help {
-            group = group.element(Level::HELP.message(help));
+            group = group.element(Level::HELP.message(visible(help)));
         }
         group
     }
@@ -99,6 +102,12 @@ impl Report {
         let line_end = self.text[start..end].find('\n').map_or(end, |newline| start + newline);
         start..line_end
     }
+}
+
+/// A text with a stand-in for every character that a terminal would obey or not show; those of ASCII are left
+/// to the renderer, which has a picture for each.
+fn visible(text: &str) -> String {
+    text.replace(|character: char| !character.is_ascii() && is_control(character), "\u{fffd}")
 }
 
 /// The last place in the text, up to `index`, where a character starts.
@@ -139,6 +148,27 @@ mod tests {
         for part in ["study.toml:2:12", "length_m = -1.0", "`length_m` is -1 m", "allowed: more than 0 m"] {
             assert!(shown.contains(part), "{part} is missing in\n{shown}");
         }
+    }
+
+    #[test]
+    fn what_a_terminal_would_obey_is_seen_and_the_mark_stays_in_its_place() {
+        let key = "a\u{9b}31m\u{202e}\u{2028}\u{200b}\u{e0041}b";
+        let text = format!("\"\u{feff}\" = {{ \"{key}\" = 1 }}");
+        let start = text.find("\"a").unwrap();
+        let problem = Problem {
+            key: key.into(),
+            span: Some(start..start + key.len() + 2),
+            message: format!("unknown key `{key}`"),
+            help: vec![key.into()],
+        };
+        let shown = Report::new("b\u{85}.toml", &text, vec![problem]).render(false);
+        assert!(!shown.contains(|one: char| one != '\n' && is_control(one)), "{shown:?}");
+        let column = |part: &str| {
+            let line = shown.lines().find(|line| line.contains(part)).unwrap();
+            line[..line.find(part).unwrap()].chars().count()
+        };
+        assert_eq!(column("\"a"), column("^"), "{shown}");
+        assert_eq!(shown.matches('^').count(), key.chars().count() + 2, "{shown}");
     }
 
     #[test]

@@ -6,11 +6,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::{
     Quantity, Reading, Value, closest,
-    unit::{measured, without_unit},
+    unit::{Dimension, measured, without_unit},
 };
 
-/// Elements of an array of tables: masses, springs, stops.
-const MOST_TABLES: usize = 1000;
 /// Entries of a table of names that the file chooses.
 const MOST_NAMES: usize = 100;
 
@@ -75,11 +73,30 @@ impl<'a> Table<'a> {
 
     /// The value of a key that has to be there.
     pub(crate) fn required(&self, key: &'static str) -> Option<Value<'a>> {
+        self.required_with_help(key, Vec::new())
+    }
+
+    /// The same; `help` says what is allowed where it is missing.
+    pub(crate) fn required_with_help(&self, key: &'static str, help: Vec<String>) -> Option<Value<'a>> {
         let value = self.optional(key);
-        if value.is_none() {
-            self.problem(key, format!("`{key}` is missing{}", self.place_name()), Vec::new());
+        // What is given, but wrongly, is told as that and not as missing.
+        if value.is_none() && !self.entries.contains_key(key) && !self.refuse_without_quantity(key) {
+            self.problem(key, format!("`{key}` is missing{}", self.place_name()), help);
         }
         value
+    }
+
+    /// Refuses a text that stands under the key without its unit and is no quantity at all; whether there is
+    /// one.
+    fn refuse_without_quantity(&self, key: &'static str) -> bool {
+        let Some((stem, dimension)) = without_unit(key) else { return false };
+        let text = self.entries.get(stem).and_then(|value| text_of(value.get_ref()));
+        let is_wrong = text.is_some_and(|text| measured(text).is_none());
+        if is_wrong && !self.refused.borrow().contains(&stem) {
+            self.refused.borrow_mut().push(stem);
+            self.other_unit(stem, key, dimension);
+        }
+        is_wrong
     }
 
     /// Whether the key is there.
@@ -90,15 +107,8 @@ impl<'a> Table<'a> {
     /// The elements of an array of tables such as `[[stop]]`; none if the key is not there.
     pub(crate) fn tables(&self, key: &'static str) -> Vec<Table<'a>> {
         let Some(value) = self.optional(key) else { return Vec::new() };
-        let Some(elements) = value.array_of(&format!("tables, written [[{}]]", self.path_of(key))) else {
-            return Vec::new();
-        };
-        if elements.len() > MOST_TABLES {
-            let found = format!("`{key}` has {} entries", elements.len());
-            self.problem(key, found, vec![format!("allowed: at most {MOST_TABLES} tables")]);
-            return Vec::new();
-        }
-        elements.iter().filter_map(Value::table).collect()
+        let elements = value.tables(&format!("tables, written [[{}]]", self.path_of(key)));
+        elements.unwrap_or_default().iter().filter_map(Value::table).collect()
     }
 
     /// All entries of a table whose keys are names that the file chooses, as numbers; `None` where one is
@@ -159,10 +169,17 @@ impl<'a> Table<'a> {
         let is_form = |key: &&&'static str| without_unit(key).is_some_and(|(stem, _)| stem == name);
         let is_text = self.entries.get(name).is_some_and(|value| text_of(value.get_ref()).is_some());
         let Some(key) = asked.iter().find(is_form).filter(|_| is_text) else { return false };
-        let unit = without_unit(key).and_then(|(_, dimension)| dimension.unit()).unwrap_or_default();
+        if let Some((_, dimension)) = without_unit(key) {
+            self.other_unit(name, key, dimension);
+        }
+        true
+    }
+
+    /// Notes that a name, a key without its unit, has no value of its dimension.
+    fn other_unit(&self, name: &str, key: &str, dimension: Dimension) {
+        let unit = dimension.unit().unwrap_or_default();
         let help = vec![format!("allowed: a text such as `{name} = \"1 {unit}\"`, or a number as `{key}`")];
         self.problem(name, format!("`{name}` has to be a number with a unit that fits {unit}"), help);
-        true
     }
 
     fn place_name(&self) -> String {

@@ -11,7 +11,9 @@ use super::{
     unit::{Dimension, measured, without_unit},
 };
 
-/// Entries of a list.
+/// Elements of an array of tables: masses, springs, stops.
+const MOST_TABLES: usize = 1000;
+/// Entries of another list.
 const LONGEST_LIST: usize = 10_000;
 /// Bytes of a text.
 const LONGEST_TEXT: usize = 1000;
@@ -65,7 +67,11 @@ impl<'a> Value<'a> {
     }
 
     fn wrong_type<T>(&self, expected: &str) -> Option<T> {
-        self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), Vec::new());
+        self.wrong_type_with_help(expected, Vec::new())
+    }
+
+    fn wrong_type_with_help<T>(&self, expected: &str, help: Vec<String>) -> Option<T> {
+        self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), help);
         None
     }
 
@@ -179,22 +185,36 @@ impl<'a> Value<'a> {
 
     /// A table.
     pub(crate) fn table(&self) -> Option<Table<'a>> {
+        self.table_with_help(Vec::new())
+    }
+
+    /// The same; `help` says what is allowed where it is something else.
+    pub(crate) fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
                 Some(Table::new(self.reading, self.path.clone(), self.span.clone(), entries))
             }
-            _ => self.wrong_type("a table"),
+            _ => self.wrong_type_with_help("a table", help),
         }
     }
 
     /// A list; `what` says of what, for the message.
     pub(crate) fn array_of(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        self.at_most(LONGEST_LIST, "entries", what)
+    }
+
+    /// The elements of an array of tables.
+    pub(crate) fn tables(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        self.at_most(MOST_TABLES, "tables", what)
+    }
+
+    fn at_most(&self, most: usize, name: &str, what: &str) -> Option<Vec<Value<'a>>> {
         let DeValue::Array(elements) = self.value else {
             return self.wrong_type(&format!("a list of {what}"));
         };
-        if elements.len() > LONGEST_LIST {
+        if elements.len() > most {
             let found = format!("`{}` has {} entries", self.key(), elements.len());
-            self.problem(found, vec![format!("allowed: at most {LONGEST_LIST} entries")]);
+            self.problem(found, vec![format!("allowed: at most {most} {name}")]);
             return None;
         }
         let element = |(index, element): (usize, &'a toml::Spanned<DeValue<'a>>)| {

@@ -17,14 +17,14 @@ pub use ends::{END_COLUMNS, PARAMETER_END_COLUMNS};
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
 pub use simulation::SimulationTables;
-pub use states::STATE_COLUMNS;
+pub use states::{PARAMETER_STATE_COLUMNS, STATE_COLUMNS};
 pub use table::{Table, header, number, word};
 
 use ends::write_ends;
 use events::write_events;
 use motions::export_motions;
 use states::write_states;
-use varied::export_varied;
+use varied::{export_varied, export_varied_states};
 
 use crate::{
     store::{BranchRecord, Row, Store, StoreError},
@@ -101,19 +101,22 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     Ok(Exported { path, rows, events_path, ends_path, varied_paths, motion_paths })
 }
 
-/// Writes `states.csv` into a folder: the state and all multipliers of every solution, which take several
-/// times the room of the rest.
+/// Writes `states.csv` into a folder, and `parameter_states.csv` and `curve_states.csv` where there are such
+/// branches and curves: the state and all multipliers of every solution, which take several times the room of
+/// the rest.
 ///
 /// # Returns
-/// The file.
+/// The files.
 /// # Errors
 /// [`ExportError`].
-pub fn export_states(store: &Store, folder: &Path) -> Result<PathBuf, ExportError> {
+pub fn export_states(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
     let snapshot = store.snapshot()?;
     let path = folder.join("states.csv");
     write_whole(&path, |writer| write_states(store, writer, &path))?;
+    let mut paths = vec![path];
+    paths.extend(export_varied_states(store, folder)?);
     drop(snapshot);
-    Ok(path)
+    Ok(paths)
 }
 
 /// Writes a file that appears complete or not at all.

@@ -4,15 +4,35 @@ use std::{io::Write, path::Path};
 
 use hammerbeam_orbit::Side;
 
-use super::{ExportError, ends::entries, events::complex_numbers};
+use super::{
+    ExportError,
+    ends::entries,
+    events::complex_numbers,
+    varied::{header, start_of_row},
+};
 use crate::{
-    store::{BranchRecord, Store},
+    store::{BranchRecord, PieceRecord, Store},
     whole_file::WriteError,
 };
 
 /// Columns of `states.csv`; `row` counts from 0 along the branch, as in `events.csv`.
 pub const STATE_COLUMNS: [&str; 7] =
     ["branch", "period_multiple", "row", "frequency_hz", "phase_cycles", "state", "multipliers"];
+
+/// Columns of `parameter_states.csv`, and of `curve_states.csv` behind `of`; `row` counts from 0 along the
+/// branch, as in `parameter_events.csv`.
+pub const PARAMETER_STATE_COLUMNS: [&str; 10] = [
+    "piece",
+    "branch",
+    "period_multiple",
+    "parameter_name",
+    "row",
+    "parameter",
+    "frequency_hz",
+    "phase_cycles",
+    "state",
+    "multipliers",
+];
 
 /// One row per solution: the state `[q; q']` at the phase at which its orbit begins, and its multipliers.
 pub(super) fn write_states(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
@@ -32,6 +52,36 @@ pub(super) fn write_states(store: &Store, writer: &mut impl Write, path: &Path) 
                 complex_numbers(&solution.floquet_multipliers)
             )
             .map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// The same for the rows of branches in parameters, or of curves.
+pub(super) fn write_varied_states(
+    store: &Store,
+    pieces: &[&PieceRecord],
+    writer: &mut impl Write,
+    path: &Path,
+) -> Result<(), ExportError> {
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
+    writeln!(writer, "{}", header(pieces, &PARAMETER_STATE_COLUMNS)).map_err(failed)?;
+    for piece in pieces {
+        for branch in &piece.branches {
+            let start = start_of_row(piece, branch);
+            for row in 0..branch.rows {
+                let orbit = store.varied_orbit((piece.id, branch.branch), row)?;
+                writeln!(
+                    writer,
+                    "{start},{row},{:?},{:?},{:?},{},{}",
+                    orbit.parameter,
+                    orbit.frequency_hz,
+                    orbit.phase,
+                    entries(&orbit.state),
+                    complex_numbers(&orbit.floquet_multipliers)
+                )
+                .map_err(failed)?;
+            }
         }
     }
     Ok(())

@@ -6,7 +6,8 @@ use std::{
 };
 
 use super::{
-    ExportError, ends::write_varied_ends, events::write_parameter_events, table::quoted, write_whole,
+    ExportError, ends::write_varied_ends, events::write_parameter_events, states::write_varied_states,
+    table::quoted, write_whole,
 };
 use crate::{
     store::{PieceBranchRecord, PieceRecord, Store},
@@ -40,27 +41,50 @@ pub const PARAMETER_COLUMNS: [&str; 18] = [
 ///
 /// Tables of curves have a further column `of` in front, which says what the curve is of.
 pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-    let pieces = store.pieces()?;
-    let of_kind = |curves: bool| -> Vec<&PieceRecord> {
-        pieces.iter().filter(|piece| piece.is_curve == curves && !piece.branches.is_empty()).collect()
-    };
-    let (branches, curves) = (of_kind(false), of_kind(true));
-    let tables: [(&str, &[&PieceRecord], TableWriter); 5] = [
-        ("parameter_branches.csv", &branches, write_rows),
-        ("parameter_events.csv", &branches, write_parameter_events),
-        ("parameter_ends.csv", &branches, write_varied_ends),
-        ("curves.csv", &curves, write_rows),
-        ("curve_ends.csv", &curves, write_varied_ends),
+    let tables: [(&str, Kind, TableWriter); 5] = [
+        ("parameter_branches.csv", Kind::Branches, write_rows),
+        ("parameter_events.csv", Kind::Branches, write_parameter_events),
+        ("parameter_ends.csv", Kind::Branches, write_varied_ends),
+        ("curves.csv", Kind::Curves, write_rows),
+        ("curve_ends.csv", Kind::Curves, write_varied_ends),
     ];
+    write_tables(store, folder, &tables)
+}
+
+/// Writes `parameter_states.csv` and `curve_states.csv` into a folder, each only if there is something in it.
+pub(crate) fn export_varied_states(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
+    let tables: [(&str, Kind, TableWriter); 2] = [
+        ("parameter_states.csv", Kind::Branches, write_varied_states),
+        ("curve_states.csv", Kind::Curves, write_varied_states),
+    ];
+    write_tables(store, folder, &tables)
+}
+
+/// What a table of pieces is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Branches,
+    Curves,
+}
+
+fn write_tables(
+    store: &Store,
+    folder: &Path,
+    tables: &[(&str, Kind, TableWriter)],
+) -> Result<Vec<PathBuf>, ExportError> {
+    let stored = store.pieces()?;
     let mut files = Vec::new();
-    for (name, pieces, write) in tables {
+    for (name, kind, write) in tables {
+        let is_of_kind = |piece: &&PieceRecord| piece.is_curve == (*kind == Kind::Curves);
+        let pieces: Vec<&PieceRecord> =
+            stored.iter().filter(is_of_kind).filter(|piece| !piece.branches.is_empty()).collect();
         let path = folder.join(name);
         if pieces.is_empty() {
             // A table of an earlier export would be taken for this one's.
             let _ = std::fs::remove_file(&path);
             continue;
         }
-        write_whole(&path, |writer| write(store, pieces, writer, &path))?;
+        write_whole(&path, |writer| write(store, &pieces, writer, &path))?;
         files.push(path);
     }
     Ok(files)

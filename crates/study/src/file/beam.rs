@@ -124,7 +124,8 @@ const ENDS: [(&str, End); 4] =
 pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Beam> {
     let length_m = table.required("length_m").and_then(|value| value.number(&quantity::LENGTH));
     let elements = table.required("elements").and_then(|value| value.whole(1, 1000));
-    let section = table.required("section").and_then(|value| read_section(&value, length_m));
+    let section =
+        table.required_with_help("section", forms()).and_then(|value| read_section(&value, length_m));
     let youngs_modulus_pa =
         table.required("youngs_modulus_pa").and_then(|value| value.number(&quantity::MODULUS));
     let density_kg_m3 = table.required("density_kg_m3").and_then(|value| value.number(&quantity::DENSITY));
@@ -161,36 +162,50 @@ fn key_to_blame(error: &StructureError) -> &'static str {
 const RECTANGLE: [&str; 2] = ["width_m", "height_m"];
 const GENERAL: [&str; 2] = ["area_m2", "second_moment_m4"];
 
+/// The accepted forms of a section, in words.
+fn forms() -> Vec<String> {
+    let form = |keys: [&str; 2]| format!("{{ {} }}", keys.join(", "));
+    vec![
+        format!("allowed: {} of a rectangle, or {}", form(RECTANGLE), form(GENERAL)),
+        "with units: { width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", second_moment = \
+         \"20 mm^4\" }"
+            .to_owned(),
+    ]
+}
+
 /// `{ width_m, height_m }` of a rectangle, or `{ area_m2, second_moment_m4 }`.
 fn read_section(value: &Value<'_>, length_m: Option<f64>) -> Option<Section> {
-    let table = value.table()?;
+    let table = value.table_with_help(forms())?;
     let has = |keys: [&'static str; 2]| keys.iter().any(|key| table.has(key));
-    let section = if has(GENERAL) {
-        read_general_section(&table)
-    } else if has(RECTANGLE) {
-        read_rectangle(&table, length_m)
-    } else {
-        for key in RECTANGLE.into_iter().chain(GENERAL) {
-            table.optional(key);
+    let section = match (has(RECTANGLE), has(GENERAL)) {
+        (true, false) => read_rectangle(&table, length_m),
+        (false, true) => read_general_section(&table),
+        (mixed, _) => {
+            for key in RECTANGLE.into_iter().chain(GENERAL) {
+                table.optional(key);
+            }
+            let found =
+                if mixed { "is a mix of the accepted forms" } else { "has none of the accepted forms" };
+            value.problem(format!("`section` {found}"), forms());
+            None
         }
-        let form = |keys: [&str; 2]| format!("{{ {} }}", keys.join(", "));
-        let help = format!("allowed: {} of a rectangle, or {}", form(RECTANGLE), form(GENERAL));
-        value.problem("`section` has none of the accepted forms".to_owned(), vec![help]);
-        None
     };
     table.finish();
     section
 }
 
 fn read_general_section(table: &Table<'_>) -> Option<Section> {
-    let area = table.required("area_m2").and_then(|value| value.number(&quantity::AREA));
-    let moment = table.required("second_moment_m4").and_then(|value| value.number(&quantity::SECOND_MOMENT));
+    let area = table.required_with_help("area_m2", forms()).and_then(|value| value.number(&quantity::AREA));
+    let moment = table
+        .required_with_help("second_moment_m4", forms())
+        .and_then(|value| value.number(&quantity::SECOND_MOMENT));
     Some(Section { area_m2: area?, second_moment_m4: moment? })
 }
 
 fn read_rectangle(table: &Table<'_>, length_m: Option<f64>) -> Option<Section> {
-    let width = table.required("width_m").and_then(|value| value.number(&quantity::WIDTH));
-    let height = table.required("height_m").and_then(|value| value.number(&quantity::HEIGHT));
+    let width = table.required_with_help("width_m", forms()).and_then(|value| value.number(&quantity::WIDTH));
+    let height =
+        table.required_with_help("height_m", forms()).and_then(|value| value.number(&quantity::HEIGHT));
     let (width, height, length) = (width?, height?, length_m?);
     if 2.0 * height > length {
         let help = format!("allowed: at most half of the length, {length} m; beam theory needs slenderness");

@@ -492,6 +492,18 @@ fn a_quantity_of_another_dimension_is_refused_with_the_unit_that_fits() {
     assert_refused(frequency("frequency_hz = [\"1 Hz\", 2.0]"), &["must be a number, found"]);
 }
 
+#[test]
+fn a_text_that_is_no_quantity_is_one_fault() {
+    for text in ["nan mm", "inf mm", "5 furlongs", "mm"] {
+        let changed = PAPER.replacen("amplitude_m = 0.5015e-3", &format!("amplitude = \"{text}\""), 1);
+        let Err(StudyError::Invalid(report)) = StudyFile::parse("study.toml", changed) else {
+            panic!("{text} is taken")
+        };
+        let messages: Vec<&str> = report.problems.iter().map(|problem| &problem.message[..]).collect();
+        assert_eq!(messages, ["`amplitude` has to be a number with a unit that fits m"], "{text}");
+    }
+}
+
 /// A number that is written with its unit varies by the name of its key, and is written with its unit again.
 #[test]
 fn a_quantity_with_its_unit_is_a_parameter() {

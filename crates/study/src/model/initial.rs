@@ -42,8 +42,13 @@ pub enum PointStartError {
     #[error("\"{point}\" is not a point of this structure; there are {}", known.join(", "))]
     UnknownPoint { point: String, known: Vec<String> },
     /// Other points, or a support, already say how this one moves.
-    #[error("point \"{point}\" cannot move by {value} there: the others leave it {left}")]
+    #[error("point \"{point}\" cannot move by {value} there: the others leave it {}", digits(*left))]
     Contradiction { point: String, value: f64, left: f64 },
+}
+
+/// A number to nine digits.
+fn digits(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
 }
 
 impl Model {

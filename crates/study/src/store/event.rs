@@ -86,7 +86,7 @@ fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
 }
 
 /// Multipliers end to end, as pairs.
-fn pairs(bytes: &[u8]) -> Result<Vec<[f64; 2]>, StoreError> {
+pub(super) fn pairs(bytes: &[u8]) -> Result<Vec<[f64; 2]>, StoreError> {
     let numbers = blob::unpack("multipliers", bytes, bytes.len() / 8)?;
     Ok(numbers.as_chunks::<2>().0.to_vec())
 }

@@ -54,7 +54,7 @@ pub use varied::{
 };
 pub(crate) use write::{Continuation, Memory};
 
-use crate::{file::StudyFile, reason};
+use crate::{file::StudyFile, reason, whole_file::refuse_link};
 use lock::Lock;
 use place::Place;
 
@@ -99,10 +99,12 @@ impl Store {
     /// Opens the results folder of a study for a run, and makes it if it is not there.
     ///
     /// # Errors
-    /// [`StoreError`]: the folder belongs to another study or version, another run is writing it, or the disk refuses.
+    /// [`StoreError`]: the folder belongs to another study or version, another run is writing it, a file of it
+    /// is a link, or the disk refuses.
     /// Nothing is written then.
     pub fn open_for_run(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
         let database = folder.join(DATABASE);
+        refuse_links(&database)?;
         roll_back(&database)?;
         if database.exists() {
             schema::check_study(&open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?, folder, file)?;
@@ -308,11 +310,21 @@ fn first_key(walk: i64) -> i64 {
     walk << 32
 }
 
+/// Refuses to write a database that is a link, or has one beside it for a log of its own.
+fn refuse_links(database: &Path) -> Result<(), StoreError> {
+    for suffix in ["", "-wal", "-shm", "-journal"] {
+        let path = database.with_file_name(format!("{DATABASE}{suffix}"));
+        refuse_link(&path).map_err(|source| StoreError::Folder { folder: path, source })?;
+    }
+    Ok(())
+}
+
 /// Undoes what was half written when a run was killed while it left one plain file behind; only a connection
 /// that may write can do so.
 fn roll_back(database: &Path) -> Result<(), StoreError> {
     let journal = database.with_file_name(format!("{DATABASE}-journal"));
     if database.is_file() && journal.is_file() {
+        refuse_links(database)?;
         let connection = open(database, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
         connection.query_row("SELECT count(*) FROM sqlite_master", [], |_| Ok(()))?;
     }

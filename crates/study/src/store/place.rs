@@ -37,12 +37,12 @@ impl Place {
 #[cfg(unix)]
 fn number(path: &Path) -> io::Result<FileNumber> {
     use std::os::unix::fs::MetadataExt;
-    let metadata = fs::metadata(path)?;
+    let metadata = fs::symlink_metadata(path)?;
     Ok([metadata.dev(), metadata.ino()])
 }
 
 /// Only whether there is a file.
 #[cfg(not(unix))]
 fn number(path: &Path) -> io::Result<FileNumber> {
-    fs::metadata(path).map(|_| [0, 0])
+    fs::symlink_metadata(path).map(|_| [0, 0])
 }

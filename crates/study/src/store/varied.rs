@@ -10,7 +10,11 @@ use std::collections::BTreeMap;
 use hammerbeam_orbit::{LocatedEvent, PeriodicSolution, Stability};
 use rusqlite::params;
 
-use super::{Store, StoreError, blob, event::insert_event, stability};
+use super::{
+    Store, StoreError, blob,
+    event::{insert_event, pairs},
+    stability,
+};
 
 pub(super) const TABLES_OF_PIECES: &str = "
 CREATE TABLE piece (
@@ -154,7 +158,7 @@ pub struct StoredVariedRow {
     pub event: String,
 }
 
-/// Where the orbit of a stored row begins.
+/// Where the orbit of a stored row begins, and where it leads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredVariedOrbit {
     /// Value of the parameter.
@@ -165,6 +169,8 @@ pub struct StoredVariedOrbit {
     pub phase: f64,
     /// The state there, `[q; q']`.
     pub state: Vec<f64>,
+    /// Its Floquet multipliers, the largest first.
+    pub floquet_multipliers: Vec<[f64; 2]>,
 }
 
 impl Store {
@@ -322,21 +328,23 @@ impl Store {
         place: u32,
     ) -> Result<StoredVariedOrbit, StoreError> {
         let select =
-            "SELECT parameter, frequency_hz, phase_cycles, segments * state_length, state_length, nodes
-            FROM piece_row WHERE piece = ?1 AND branch = ?2 AND place = ?3";
-        let (orbit, entries, length, nodes) =
-            self.connection.query_row(select, [piece, branch, place], |row| {
+            "SELECT parameter, frequency_hz, phase_cycles, segments * state_length, state_length, nodes,
+            multipliers FROM piece_row WHERE piece = ?1 AND branch = ?2 AND place = ?3";
+        let (orbit, entries, length, nodes, multipliers) =
+            self.connection.prepare_cached(select)?.query_row([piece, branch, place], |row| {
                 let orbit = StoredVariedOrbit {
                     parameter: row.get(0)?,
                     frequency_hz: row.get(1)?,
                     phase: row.get(2)?,
                     state: Vec::new(),
+                    floquet_multipliers: Vec::new(),
                 };
-                Ok((orbit, row.get::<_, u32>(3)?, row.get::<_, u32>(4)?, row.get::<_, Vec<u8>>(5)?))
+                let bytes = |column| row.get::<_, Vec<u8>>(column);
+                Ok((orbit, row.get::<_, u32>(3)?, row.get::<_, u32>(4)?, bytes(5)?, bytes(6)?))
             })?;
         let mut state = blob::unpack("nodes", &nodes, entries as usize)?;
         state.truncate(length as usize);
-        Ok(StoredVariedOrbit { state, ..orbit })
+        Ok(StoredVariedOrbit { state, floquet_multipliers: pairs(&multipliers)?, ..orbit })
     }
 
     /// Hands over the rows of a branch of a piece.

@@ -13,6 +13,7 @@ use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 use hammerbeam_study::{
     Model, Store, StoredBranches, StudyFile,
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
+    whole_file::subfolder,
 };
 
 pub use document::comparison_document;
@@ -117,7 +118,7 @@ pub fn observed(file: &StudyFile, point: Option<&str>) -> Result<(Model, String)
 
 /// Where to write: not into the results folder itself, whose tables of points are those of `rig`.
 fn folder(options: &CompareOptions) -> Result<PathBuf, Failure> {
-    let Some(folder) = &options.out else { return Ok(options.results.join("compare")) };
+    let Some(folder) = &options.out else { return Ok(subfolder(&options.results, "compare")?) };
     let same = match (folder.canonicalize(), options.results.canonicalize()) {
         (Ok(folder), Ok(results)) => folder == results,
         _ => false,

@@ -6,8 +6,6 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
 use serde_json::{Value, json};
 
-use crate::output::frequency;
-
 use super::{folder, time::Pieces, told::Told};
 
 /// Contacts that a document lists; all of them are in `contacts.csv`.
@@ -100,7 +98,7 @@ impl Summary {
         let mut lines = vec![
             match told.pieces {
                 Pieces::Periods => {
-                    let at = frequency(unit, layout.frequency_hz);
+                    let at = unit.words(layout.frequency_hz);
                     format!("{} periods at {at}, {seconds:.6} s", layout.periods)
                 }
                 Pieces::Intervals => {

@@ -195,7 +195,8 @@ pub fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     let size = rounded.abs();
     if size == 0.0 || (1e-3..1e5).contains(&size) {
-        return format!("{rounded}").replace('-', "−");
+        // Nothing has no sign.
+        return format!("{}", rounded + 0.0).replace('-', "−");
     }
     let written = format!("{rounded:e}");
     let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
@@ -219,6 +220,6 @@ mod tests {
         assert_eq!(number(1.59e-8), "1.59\u{2009}×\u{2009}10⁻⁸");
         assert_eq!(number(-9.81), "−9.81");
         assert_eq!(number(243.215_7), "243.22");
-        assert_eq!(number(0.0), "0");
+        assert_eq!([number(0.0), number(-0.0)], ["0", "0"]);
     }
 }
