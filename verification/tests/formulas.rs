@@ -114,8 +114,20 @@ fn a_motion_ends_where_its_force_is_not_finite() {
     let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 10.0 };
     let error = integrator.advance(&stretch, &[1.0, 0.0]).unwrap_err();
     // cos t = -1/2 at 2.09 s, a little later with a weak force that pulls back.
-    let MotionError::StepTooShort { time, .. } = error else { panic!("{error}") };
-    assert!((2.05..2.15).contains(&time), "{error}");
+    let MotionError::NoForce { time, displacement, .. } = error else { panic!("{error}") };
+    assert!((2.05..2.15).contains(&time) && (displacement + 0.5).abs() < 1e-6, "{error}");
+}
+
+/// `x'' = -x + x^3` from rest at `a = 3/2` is infinite after `int dx / sqrt((x^4 - a^4)/2 - x^2 + a^2)` from a
+/// to infinity.
+#[test]
+fn a_motion_over_a_spring_that_softens_escapes_when_its_integral_says() {
+    let mut integrator = oscillator(1.0, "formula = \"-x^3\"");
+    let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 10.0 };
+    let error = integrator.advance(&stretch, &[1.5, 0.0]).unwrap_err();
+    let MotionError::Escapes { time, displacement, .. } = error else { panic!("{error}") };
+    assert!(displacement.abs() > 1e6, "{error}");
+    assert!((time - 1.442_211_386_4).abs() < 1e-6, "{error}");
 }
 
 /// A motion that turns close to where its force ends goes on: what a trial step finds beyond is no motion.
