@@ -118,8 +118,8 @@ fn a_motion_ends_where_its_force_is_not_finite() {
     assert!((2.05..2.15).contains(&time) && (displacement + 0.5).abs() < 1e-6, "{error}");
 }
 
-/// `x'' = -x + x^3` from rest at `a = 3/2` is infinite after `int dx / sqrt((x^4 - a^4)/2 - x^2 + a^2)` from a
-/// to infinity.
+/// `x'' = -x + x^3` from rest at `a = 3/2` is infinite after `int dx / sqrt((x^4 - a^4)/2 - x^2 + a^2)` from
+/// a to infinity.
 #[test]
 fn a_motion_over_a_spring_that_softens_escapes_when_its_integral_says() {
     let mut integrator = oscillator(1.0, "formula = \"-x^3\"");

@@ -145,7 +145,8 @@ fn what_both_sides_share_varies_for_both() {
         stiffness_n_m = 2e4\ndamping_n_s_m = 15.0\ngap_m = 0.02\n";
     let vary = |parameter: &str| {
         format!(
-            "[[vary]]\nparameter = \"{parameter}\"\nrange = [0.0195, 0.0205]\nfrequency_hz = 5.8\nsteps = 100\n"
+            "[[vary]]\nparameter = \"{parameter}\"\nrange = [0.0195, 0.0205]\n\
+             frequency_hz = 5.8\nsteps = 100\n"
         )
     };
     let reached = |parameter: &str| {

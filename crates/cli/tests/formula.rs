@@ -33,7 +33,8 @@ fn document(workshop: &Workshop, arguments: &[&str]) -> Value {
 /// same bytes from one and two threads, and no solution on which the general integrator disagrees.
 #[test]
 fn the_example_is_followed_and_verified() {
-    let vary = "[[vary]]\nparameter = \"stop.damper.constants.mu\"\nrange = [0.25, 0.35]\nfrequency_hz = 0.16\nsteps = 50\n";
+    let vary = "[[vary]]\nparameter = \"stop.damper.constants.mu\"\nrange = [0.25, 0.35]\n\
+        frequency_hz = 0.16\nsteps = 50\n";
     let tables = ["1", "2"].map(|jobs| {
         let workshop = Workshop::with(&format!("{}\n{vary}", quick()));
         let run = document(&workshop, &["run", "study.toml", "--out", "results", "--jobs", jobs, "--json"]);

@@ -123,7 +123,8 @@ fn written((_, line, _): Case<'_>, value: &str) -> String {
 fn meet_the_studies_at_their_ends(study: &str, cases: &[Case<'_>], hz: &str) {
     let vary = |&(parameter, _, [low, high]): &Case<'_>| {
         format!(
-            "[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\nfrequency_hz = {hz}\nsteps = 50\n"
+            "[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\n\
+             frequency_hz = {hz}\nsteps = 50\n"
         )
     };
     let workshop = Workshop::exported(&format!("{study}{}", cases.iter().map(vary).collect::<String>()));

@@ -274,7 +274,8 @@ pub fn assert_bad_input(output: &Output, parts: &[&str]) {
 /// Computes the study.
 pub const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
-/// The two masses above their resonances, where there is one branch, in a hundred steps, after a short search.
+/// The two masses above their resonances, where there is one branch, in a hundred steps, after a short
+/// search.
 pub fn short_study() -> String {
     assert!(TWO_MASSES.contains("[3.0, 14.0]"));
     let study = TWO_MASSES.replacen("[3.0, 14.0]", "[13.5, 14.0]", 1);

@@ -8,8 +8,8 @@
 //!
 //! So the sum is looked at [`PLACES_PER_RADIAN`] times for each radian through which the fastest load turns,
 //! and every top of it is noted, with the most that it can be. With the distance `d` between places [rad] and
-//! the amplitude `A` of the load's part, that is `A d^2/8` above the higher one of two places; the vertex of a
-//! parabola through three of them differs from a top by less than `A d^4/50`.
+//! the amplitude `A` of the load's part, that is `A d^2/8` above the higher one of two places; the vertex of
+//! a parabola through three of them differs from a top by less than `A d^4/50`.
 
 use super::{
     ExactIntegrator,

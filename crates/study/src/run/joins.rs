@@ -1,14 +1,14 @@
 //! Where a branch comes upon an earlier one that was lost there.
 //!
-//! A walk that ends early (its corrector fails, its budget is used up) leaves the rest of its curve to be found
-//! by a later search. The branch that begins there comes, at the lost end, upon solutions that are stored
-//! already. It is cut there, so that no solution is stored twice.
+//! A walk that ends early (its corrector fails, its budget is used up) leaves the rest of its curve to be
+//! found by a later search. The branch that begins there comes, at the lost end, upon solutions that are
+//! stored already. It is cut there, so that no solution is stored twice.
 //!
 //! A start on an earlier branch makes no branch, so a later branch can come upon an earlier one only over one
-//! of its early ends. Each pair of neighbouring rows of the later branch is compared with the last solution of
-//! each such end, and with a few before it: the last ones may lie where a curve is so crowded that the step
-//! between two rows hides them. The cut follows from the rows alone, so it is the same whether the walk is
-//! compared while it is under way or when all of it is there.
+//! of its early ends. Each pair of neighbouring rows of the later branch is compared with the last solution
+//! of each such end, and with a few before it: the last ones may lie where a curve is so crowded that the
+//! step between two rows hides them. The cut follows from the rows alone, so it is the same whether the walk
+//! is compared while it is under way or when all of it is there.
 
 use hammerbeam_orbit::Side;
 
@@ -27,8 +27,8 @@ struct LostEnd<'a> {
     rows: Vec<Placed<'a>>,
 }
 
-/// Cuts the side of a new branch where it comes upon an earlier one, as far as it is walked; the end that this
-/// makes.
+/// Cuts the side of a new branch where it comes upon an earlier one, as far as it is walked; the end that
+/// this makes.
 ///
 /// * `(job, place, side)`: the job of the start, its place there, and the side of it.
 pub(super) fn cut(

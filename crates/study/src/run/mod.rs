@@ -5,10 +5,11 @@
 //! The *agenda* is a list of jobs: a search at a frequency, or a flip or branch point at which another branch
 //! leaves. Each gives *starts*. What a run computes is defined by doing the jobs one after the other: each
 //! start of a job that does not lie on a known branch is the start of a new one, which is followed to both
-//! ends, or to where it comes upon an earlier branch that was lost there, before the next start is looked at; the flips and branch points of the new branches are added to the
-//! end of the agenda. When it is done, searches are added at frequencies at which no stable solution is known
-//! by then, and again, as long as they find branches (`none_stable.rs`). So branches, their numbers and every
-//! bit of them follow from the study alone.
+//! ends, or to where it comes upon an earlier branch that was lost there, before the next start is looked at;
+//! the flips and branch points of the new branches are added to the end of the agenda. When it is done,
+//! searches are added at frequencies at which no stable solution is known by then, and again, as long as they
+//! find branches (`none_stable.rs`). So branches, their numbers and every bit of them follow from the study
+//! alone.
 //!
 //! # All cores
 //! Searching and walking are pure functions of their input, so they may be done ahead of their turn: threads
