@@ -16,14 +16,15 @@ impl ExactIntegrator {
         for &element in always {
             let law = &self.laws[element];
             let jet = self.output_jet(&run.state, element, run.time);
-            let here = law.force(jet.value, jet.slope);
-            let ahead = law.force(jet.value + AHEAD * remaining * jet.slope, jet.slope);
+            let way = AHEAD * remaining * jet.slope;
+            let (here, ahead) = (law.force(jet.value, jet.slope), law.force(jet.value + way, jet.slope));
             let (name, displacement, time) = (self.names(&[element]), jet.value, run.time);
+            // Far from where it began, in next to no time: not on its way over the top between two wells.
+            if here.slope > 0.0 && way * jet.value > jet.value * jet.value {
+                return MotionError::Escapes { element: name, displacement, time };
+            }
             if !here.value.is_finite() || !ahead.value.is_finite() {
                 return MotionError::NoForce { element: name, displacement, time };
-            }
-            if here.slope > 0.0 {
-                return MotionError::Escapes { element: name, displacement, time };
             }
         }
         MotionError::StepTooShort { time: run.time, step }

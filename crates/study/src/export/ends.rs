@@ -7,7 +7,7 @@ use hammerbeam_orbit::Side;
 use super::{
     ExportError,
     table::quoted,
-    varied::{header, start_of_row},
+    varied::{branches, header},
 };
 use crate::{
     store::{PieceRecord, Store},
@@ -75,19 +75,16 @@ pub(super) fn write_varied_ends(
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", header(pieces, &PARAMETER_END_COLUMNS)).map_err(failed)?;
-    for piece in pieces {
-        for branch in &piece.branches {
-            let start = start_of_row(piece, branch);
-            // A closed curve was walked down, and ends with its first row, at its start.
-            let up = if is_closed(&branch.down) { 0 } else { branch.rows - 1 };
-            for (name, end, place) in [("down", &branch.down, 0), ("up", &branch.up, up)] {
-                let last = store.varied_orbit((piece.id, branch.branch), place)?;
-                let message = quoted(end);
-                let (value, frequency_hz, phase) = (last.parameter, last.frequency_hz, last.phase);
-                let state = entries(&last.state);
-                writeln!(writer, "{start},{name},{value:?},{frequency_hz:?},{message},{phase:?},{state}")
-                    .map_err(failed)?;
-            }
+    for (piece, branch, start) in branches(pieces) {
+        // A closed curve was walked down, and ends with its first row, at its start.
+        let up = if is_closed(&branch.down) { 0 } else { branch.rows - 1 };
+        for (name, end, place) in [("down", &branch.down, 0), ("up", &branch.up, up)] {
+            let last = store.varied_orbit((piece.id, branch.branch), place)?;
+            let message = quoted(end);
+            let (value, frequency_hz, phase) = (last.parameter, last.frequency_hz, last.phase);
+            let state = entries(&last.state);
+            writeln!(writer, "{start},{name},{value:?},{frequency_hz:?},{message},{phase:?},{state}")
+                .map_err(failed)?;
         }
     }
     Ok(())

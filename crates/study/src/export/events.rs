@@ -7,7 +7,7 @@ use std::{
 
 use hammerbeam_orbit::{ContactChange, EventStatus, Events, LocatedEvent, Side};
 
-use super::{ExportError, varied::start_of_row};
+use super::{ExportError, varied::branches};
 use crate::{
     store::{PieceRecord, Store, solution_key},
     whole_file::WriteError,
@@ -84,15 +84,11 @@ pub(super) fn write_parameter_events(
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", PARAMETER_EVENT_COLUMNS.join(",")).map_err(failed)?;
-    for piece in pieces {
-        for branch in &piece.branches {
-            let start = start_of_row(piece, branch);
-            for found in store.varied_events((piece.id, branch.branch))? {
-                let (row, value, frequency_hz) = (found.row, found.parameter, found.frequency_hz);
-                write!(writer, "{start},{row},{},{value:?},{frequency_hz:?},", found.event)
-                    .map_err(failed)?;
-                write_event(writer, &found.located, &found.multipliers).map_err(failed)?;
-            }
+    for (piece, branch, start) in branches(pieces) {
+        for found in store.varied_events((piece.id, branch.branch))? {
+            let (row, value, frequency_hz) = (found.row, found.parameter, found.frequency_hz);
+            write!(writer, "{start},{row},{},{value:?},{frequency_hz:?},", found.event).map_err(failed)?;
+            write_event(writer, &found.located, &found.multipliers).map_err(failed)?;
         }
     }
     Ok(())

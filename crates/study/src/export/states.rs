@@ -8,7 +8,7 @@ use super::{
     ExportError,
     ends::entries,
     events::complex_numbers,
-    varied::{header, start_of_row},
+    varied::{branches, header},
 };
 use crate::{
     store::{BranchRecord, PieceRecord, Store},
@@ -66,22 +66,19 @@ pub(super) fn write_varied_states(
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", header(pieces, &PARAMETER_STATE_COLUMNS)).map_err(failed)?;
-    for piece in pieces {
-        for branch in &piece.branches {
-            let start = start_of_row(piece, branch);
-            for row in 0..branch.rows {
-                let orbit = store.varied_orbit((piece.id, branch.branch), row)?;
-                writeln!(
-                    writer,
-                    "{start},{row},{:?},{:?},{:?},{},{}",
-                    orbit.parameter,
-                    orbit.frequency_hz,
-                    orbit.phase,
-                    entries(&orbit.state),
-                    complex_numbers(&orbit.floquet_multipliers)
-                )
-                .map_err(failed)?;
-            }
+    for (piece, branch, start) in branches(pieces) {
+        for row in 0..branch.rows {
+            let orbit = store.varied_orbit((piece.id, branch.branch), row)?;
+            writeln!(
+                writer,
+                "{start},{row},{:?},{:?},{:?},{},{}",
+                orbit.parameter,
+                orbit.frequency_hz,
+                orbit.phase,
+                entries(&orbit.state),
+                complex_numbers(&orbit.floquet_multipliers)
+            )
+            .map_err(failed)?;
         }
     }
     Ok(())

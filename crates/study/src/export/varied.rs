@@ -101,24 +101,21 @@ fn write_rows(
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", header(pieces, &PARAMETER_COLUMNS)).map_err(failed)?;
-    for piece in pieces {
-        for branch in &piece.branches {
-            let start = start_of_row(piece, branch);
-            store.each_varied_row::<ExportError>((piece.id, branch.branch), |row| {
-                let numbers: Vec<String> = row.numbers.iter().map(|number| format!("{number:?}")).collect();
-                writeln!(
-                    writer,
-                    "{start},{:?},{:?},{},{},{},{}",
-                    row.parameter,
-                    row.frequency_hz,
-                    numbers.join(","),
-                    row.contacts,
-                    row.stability.column(),
-                    row.event
-                )
-                .map_err(failed)
-            })?;
-        }
+    for (piece, branch, start) in branches(pieces) {
+        store.each_varied_row::<ExportError>((piece.id, branch.branch), |row| {
+            let numbers: Vec<String> = row.numbers.iter().map(|number| format!("{number:?}")).collect();
+            writeln!(
+                writer,
+                "{start},{:?},{:?},{},{},{},{}",
+                row.parameter,
+                row.frequency_hz,
+                numbers.join(","),
+                row.contacts,
+                row.stability.column(),
+                row.event
+            )
+            .map_err(failed)
+        })?;
     }
     Ok(())
 }
@@ -129,8 +126,18 @@ pub(super) fn header(pieces: &[&PieceRecord], columns: &[&str]) -> String {
     format!("{front}{}", columns.join(","))
 }
 
+/// Every branch of the pieces, and what its rows begin with.
+pub(super) fn branches<'a>(
+    pieces: &'a [&PieceRecord],
+) -> impl Iterator<Item = (&'a PieceRecord, &'a PieceBranchRecord, String)> {
+    let of_piece = |piece: &'a PieceRecord| {
+        piece.branches.iter().map(move |branch| (piece, branch, start_of_row(piece, branch)))
+    };
+    pieces.iter().copied().flat_map(of_piece)
+}
+
 /// Piece, branch, period multiple and name of the parameter; what a curve is of in front.
-pub(super) fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
+fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
     let front = if piece.is_curve { format!("{},", branch.kind) } else { String::new() };
     let name = quoted(&piece.parameter);
     format!("{front}{},{},{},{name}", piece.id, branch.branch, branch.period_multiple)

@@ -72,7 +72,7 @@ fn first_join(
     for end in ends {
         for &row in &end.rows {
             let upto = first.map_or(rows.len(), |(index, _)| index + 1);
-            if let Some(index) = known::first_before(store, solver, &rows[..upto], row)? {
+            if let Some(index) = known::passes(store, solver, &rows[..upto], row)? {
                 first = Some((index, end));
             }
         }
@@ -96,5 +96,7 @@ fn lost_end((start, side): (&Start, Side)) -> Option<LostEnd<'_>> {
     let last: &Sketch = rows.last()?.1;
     let back = [0, 4, 16, 64, 256].into_iter();
     let compared = back.filter_map(|back| rows.len().checked_sub(1 + back).map(|index| rows[index]));
+    // At a branch point another branch has the same solution and is another one all the same.
+    let compared = compared.filter(|(_, row)| !row.branch_point);
     Some(LostEnd { branch, frequency_hz: last.frequency_hz, rows: compared.collect() })
 }

@@ -47,40 +47,36 @@ pub(super) fn lies_on(
     }
     let rows: Vec<Placed<'_>> = rows_of(start).collect();
     let at = (solution.frequency_hz, [solution.maxima.displacement, solution.maxima.acceleration]);
-    let near: Vec<(Placed<'_>, Placed<'_>, f64)> = rows
-        .windows(2)
-        .filter_map(|pair| Some((pair[0], pair[1], share(pair[0].1, pair[1].1, at)?)))
-        .collect();
-    if near.is_empty() {
-        return Ok(false);
-    }
-    // A solution that cannot be compared is taken for a new one, and its walk will say why.
-    let Ok(matcher) = solver.matcher(solution) else { return Ok(false) };
-    for (first, second, share) in near {
-        if is_between(store, matcher.as_ref(), (first.0, second.0), share)? {
-            return Ok(true);
-        }
-    }
-    Ok(false)
+    Ok(first_before(store, solver, &rows, (at, || Ok(solution.clone())))?.is_some())
 }
 
 /// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them.
-pub(super) fn first_before(
+pub(super) fn passes(
     store: &Store,
     solver: &dyn Solver,
     rows: &[Placed<'_>],
     (key, sketch): Placed<'_>,
 ) -> Result<Option<usize>, StoreError> {
     let at = (sketch.frequency_hz, [sketch.displacement, sketch.acceleration]);
-    let mut near = rows
-        .windows(2)
-        .enumerate()
-        .filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?)))
-        .peekable();
+    first_before(store, solver, rows, (at, || store.solution_of_key(key)))
+}
+
+/// The same for a solution of which frequency and maxima are known, and which is fetched where they allow that
+/// it lies there.
+fn first_before(
+    store: &Store,
+    solver: &dyn Solver,
+    rows: &[Placed<'_>],
+    (at, solution): ((f64, [f64; 2]), impl FnOnce() -> Result<PeriodicSolution, StoreError>),
+) -> Result<Option<usize>, StoreError> {
+    let pairs = rows.windows(2).enumerate();
+    let mut near =
+        pairs.filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?))).peekable();
     if near.peek().is_none() {
         return Ok(None);
     }
-    let solution = store.solution_of_key(key)?;
+    let solution = solution()?;
+    // A solution that cannot be compared is taken for a new one, and its walk will say why.
     let Ok(matcher) = solver.matcher(&solution) else { return Ok(None) };
     for (index, share) in near {
         if is_between(store, matcher.as_ref(), (rows[index].0, rows[index + 1].0), share)? {
