@@ -32,6 +32,7 @@ mod run;
 mod same_bytes;
 mod signal;
 mod unbounded;
+mod unwritable;
 mod update;
 mod varied;
 mod verify;
