@@ -348,6 +348,39 @@ fn all_faults_are_reported_in_one_pass() {
     );
 }
 
+/// What varies is looked for in the tables that could be read; in the others nothing is said of it.
+#[test]
+fn names_of_parameters_are_judged_beside_faults_of_other_tables() {
+    let study = BEAM.replacen("modal_ratio = 0.015", "modal_ratio = -1", 1);
+    let vary = |parameter: &str| {
+        format!("[[vary]]\nparameter = \"{parameter}\"\nrange = [2, 1]\nfrequency_hz = 20\n")
+    };
+    let workshop = Workshop::with(&format!(
+        "{study}\n{}{}{}",
+        vary("stop.1.gap_mm"),
+        vary("damping.rayleigh.stiffness_s"),
+        vary("nonsense")
+    ));
+    let parts = [
+        "`modal_ratio` is -1",
+        "`parameter` is \"stop.1.gap_mm\"",
+        "did you mean \"stop.1.gap_m\"?",
+        "`parameter` is \"nonsense\"",
+        "which is reversed",
+    ];
+    assert_refused(&workshop, &parts);
+    let told = stderr(&workshop.hammerbeam(&["check", "study.toml"]));
+    assert!(!told.contains("`parameter` is \"damping"), "{told}");
+}
+
+/// A rig is a study of its own, and `check` looks at it as well.
+#[test]
+fn check_tells_what_is_wrong_with_a_rig() {
+    let rig = "[rig]\nsweep_hz = [20, 70]\n[rig.changes.damping]\nmodal_ratio = -1.0\n";
+    let workshop = Workshop::with(&format!("{BEAM}\n{rig}"));
+    assert_bad_input(&workshop.hammerbeam(&["check", "study.toml"]), &["[rig.changes]", "modal_ratio"]);
+}
+
 /// The words of other programs, keys without their unit, and a section in no form that is known.
 #[test]
 fn what_was_probably_meant_is_suggested() {

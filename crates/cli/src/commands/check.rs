@@ -1,4 +1,4 @@
-//! `hammerbeam check`: what the program understood of a study.
+//! `hammerbeam check`: what the program understood of a study, and whether its rig makes one too.
 
 use std::f64::consts::TAU;
 
@@ -9,6 +9,7 @@ use hammerbeam_study::{
         Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
         MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
     },
+    rig::changed_study,
 };
 use serde_json::{Value, json};
 
@@ -17,6 +18,9 @@ use crate::{args::StudyOptions, drift, failure::Failure, kept::counted, output::
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
+    if file.study.rig.is_some() {
+        Model::build(&changed_study(&file)?)?;
+    }
     drift::warn(&model.drifts());
     drift::heed_range(&model, &file.study)?;
     output.give(&document(&file.study, &model), || text(&file.study, &model, output.frequency_unit))?;

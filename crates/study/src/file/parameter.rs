@@ -87,16 +87,16 @@ pub enum DampingKey {
     },
 }
 
-/// What of a study can vary.
+/// What of a study can vary. Tables that could not be read are `None`: names in them are not judged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Variable<'a> {
     /// The text of the file.
     pub text: &'a str,
-    pub structure: &'a Structure,
-    pub excitation: &'a Excitation,
-    pub damping: &'a Damping,
-    pub loads: &'a [Load],
-    pub stops: &'a [Stop],
+    pub structure: Option<&'a Structure>,
+    pub excitation: Option<&'a Excitation>,
+    pub damping: Option<&'a Damping>,
+    pub loads: Option<&'a [Load]>,
+    pub stops: Option<&'a [Stop]>,
 }
 
 /// A name with what it means and which values it can have.
@@ -106,7 +106,8 @@ impl Variable<'_> {
     /// Every parameter by its name; stops also by their number, from 1. What both sides of a stop have in
     /// common is a number of the model as any other, so a side has no number.
     fn known(self) -> Vec<Known> {
-        let amplitude = self.excitation.harmonic().and_then(|harmonic| match harmonic.kind {
+        let harmonic = self.excitation.and_then(Excitation::harmonic);
+        let amplitude = harmonic.and_then(|harmonic| match harmonic.kind {
             ExcitationKind::SupportMotion { .. } => Some(("excitation.amplitude_m", quantity::AMPLITUDE)),
             // Each has a number of its own, as any other of the model.
             ExcitationKind::SupportMotions { .. } => None,
@@ -115,9 +116,9 @@ impl Variable<'_> {
         let of_amplitude =
             |(key, quantity): (&str, Quantity)| (key.to_owned(), ParameterKind::Amplitude, quantity);
         let mut known: Vec<Known> = amplitude.map(of_amplitude).into_iter().collect();
-        known.extend(of_damping(self.damping));
-        known.extend(of_dampers(self.structure));
-        for (number, stop) in self.stops.iter().enumerate() {
+        known.extend(self.damping.into_iter().flat_map(of_damping));
+        known.extend(self.structure.into_iter().flat_map(of_dampers));
+        for (number, stop) in self.stops.unwrap_or_default().iter().enumerate() {
             let mut names = vec![stop.name.clone()];
             if let StopEntry::Whole(entry) = stop.entry {
                 names.push(format!("{}", entry + 1));
@@ -130,10 +131,22 @@ impl Variable<'_> {
     }
 
     fn has_further_harmonics(self) -> bool {
-        self.loads.iter().any(|load| match load {
+        self.loads.unwrap_or_default().iter().any(|load| match load {
             Load::Gravity { .. } => false,
             Load::Force { order, .. } | Load::SupportMotion { order, .. } => *order > 0,
         })
+    }
+
+    /// Whether the table that a name begins with was read, so that all its names are known.
+    fn knows_table_of(self, name: &str) -> bool {
+        match name.split('.').next() {
+            Some("structure") => self.structure.is_some(),
+            Some("excitation") => self.excitation.is_some(),
+            Some("damping") => self.damping.is_some(),
+            Some("load") => self.loads.is_some(),
+            Some("stop") => self.stops.is_some(),
+            _ => true,
+        }
     }
 }
 
@@ -226,17 +239,16 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
     known
 }
 
-/// Reads `parameter` and `range`; without the rest of the study names are not judged.
-pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<VariedParameter> {
+/// Reads `parameter` and `range`; the range in any case, so that all faults of both are told at once.
+pub(super) fn read(table: &Table<'_>, study: Variable<'_>) -> Option<VariedParameter> {
     let name = table.required("parameter");
     let range = table.required("range");
-    let (name, range) = (name?, range?);
-    let text = name.text()?;
-    let Some(study) = study else {
-        read_range(&range, &quantity::ANY)?;
+    let meant = name.as_ref().and_then(|name| Some((name, meaning(name, name.text()?, study)?)));
+    let Some((name, (kind, quantity))) = meant else {
+        read_range(&range?, &quantity::ANY)?;
         return None;
     };
-    let (kind, quantity) = meaning(&name, text, study)?;
+    let (text, range) = (name.text()?, range?);
     if kind == ParameterKind::Amplitude && study.has_further_harmonics() {
         let help = vec!["allowed: only where the excitation is the only harmonic load".into()];
         name.problem(format!("`parameter` is \"{text}\", but further loads are harmonic"), help);
@@ -246,7 +258,8 @@ pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<Var
     Some(VariedParameter { name: text.to_owned(), kind, range })
 }
 
-/// What a name means and which values it can have; told if that is nothing, or more than one thing.
+/// What a name means and which values it can have; told if that is nothing, or more than one thing. Nothing is
+/// told of names in a table that is faulty itself.
 fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(ParameterKind, Quantity)> {
     let known = study.known();
     let mut kinds: Vec<(ParameterKind, Quantity)> = Vec::new();
@@ -267,7 +280,7 @@ fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(Paramet
     }
     let of_model = matches!(number, Ok(Some(_))).then_some((ParameterKind::Number, quantity::ANY));
     let found = kinds.pop().or(of_model);
-    if found.is_none() {
+    if found.is_none() && study.knows_table_of(text) {
         let others = numbers(study.text).into_iter().map(|mut number| number.keys.swap_remove(0));
         let mut names: Vec<String> = known.into_iter().map(|(name, ..)| name).collect();
         for other in others {

@@ -183,11 +183,14 @@ fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) 
     let response = response::read(root, &names, stops.as_deref());
     let search = search::read(root);
     let continuation = continuation::read(root, excitation.as_ref());
-    let variable = (|| {
-        let (excitation, damping) = (excitation.as_ref()?, damping.as_ref()?);
-        let (structure, loads, stops) = (structure.as_ref()?, loads.as_deref()?, stops.as_deref()?);
-        Some(Variable { text, structure, excitation, damping, loads, stops })
-    })();
+    let variable = Variable {
+        text,
+        structure: structure.as_ref(),
+        excitation: excitation.as_ref(),
+        damping: damping.as_ref(),
+        loads: loads.as_deref(),
+        stops: stops.as_deref(),
+    };
     let varied = if pieces { vary::read(root, reading, variable) } else { Some(vary::passed_over(root)) };
     let figures = figures::read(root, reading);
     let rig = rig::read(root, excitation.as_ref());

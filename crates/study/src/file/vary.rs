@@ -78,10 +78,10 @@ const KINDS: [(&str, CurveOf); 4] = [
 pub(super) fn read(
     root: &Table<'_>,
     reading: &Reading,
-    study: Option<Variable<'_>>,
+    study: Variable<'_>,
 ) -> Option<(Vec<Vary>, Vec<Curve>)> {
     let before = reading.count();
-    if study.is_some_and(|study| *study.excitation == Excitation::None) {
+    if study.excitation == Some(&Excitation::None) {
         for key in ["vary", "curve"].into_iter().filter(|key| root.has(key)) {
             let message = format!("`{key}` needs a frequency, and there is no [excitation]");
             root.problem(key, message, vec!["allowed: only with [excitation]".into()]);
@@ -98,7 +98,7 @@ pub(super) fn passed_over(root: &Table<'_>) -> (Vec<Vary>, Vec<Curve>) {
     (Vec::new(), Vec::new())
 }
 
-fn read_vary(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Vary> {
+fn read_vary(table: Table<'_>, study: Variable<'_>) -> Option<Vary> {
     let parameter = parameter::read(&table, study);
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let multiple = read_multiple(&table);
@@ -107,7 +107,7 @@ fn read_vary(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Vary> {
     Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple?, steps: steps? })
 }
 
-fn read_curve(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Curve> {
+fn read_curve(table: Table<'_>, study: Variable<'_>) -> Option<Curve> {
     let of = table.required("of").and_then(|value| value.choice(&KINDS));
     let near = table.required("near_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let parameter = parameter::read(&table, study);
