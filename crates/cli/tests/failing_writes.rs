@@ -173,11 +173,18 @@ fn disturbed(writer: &Writer, workshop: &Workshop, fault: Fault) -> (Output, boo
     }
 }
 
-/// Keys of the stored solutions with their checksums; none where there is no database yet.
+/// Keys of the stored solutions of numbered branches with their checksums; none where there is no database
+/// yet. Walks run ahead of what is decided on them: one that turns out to go where another went has no
+/// number, and its rows may go.
 fn solutions(database: &Path) -> BTreeMap<i64, i64> {
     let read = || -> rusqlite::Result<BTreeMap<i64, i64>> {
         let connection = Connection::open_with_flags(database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
-        let mut statement = connection.prepare("SELECT id, checksum FROM solution")?;
+        let mut statement = connection.prepare(
+            "SELECT solution.id, solution.checksum FROM solution
+            JOIN walk ON walk.id = solution.id >> 32
+            JOIN start ON start.id = walk.start
+            WHERE start.branch IS NOT NULL",
+        )?;
         statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect()
     };
     read().unwrap_or_default()

@@ -32,6 +32,7 @@ mod no_missed_touch;
 mod onwards;
 mod parameters;
 mod point_motion;
+mod pressed_at_start;
 mod resting_contacts;
 mod rigid;
 mod rigid_recursion;

@@ -196,6 +196,15 @@ impl Sensitivity {
         columns.map(|(j, (p, s))| (stiffness * p * p + s * s).sqrt() / scale(j)).fold(0.0, f64::max)
     }
 
+    /// Largest `sqrt(k p^2 + s^2)` over the blocks of one column: the largest velocity that it can reach.
+    pub fn energy_norm_of(&self, column: usize, stiffness: &[f64]) -> f64 {
+        let (positions, velocities) = self.values.split_at(self.values.len() / 2);
+        let entries = |half: &'_ [f64]| half.iter().skip(column).step_by(self.columns).copied().collect();
+        let (positions, velocities): (Vec<f64>, Vec<f64>) = (entries(positions), entries(velocities));
+        let pairs = positions.iter().zip(&velocities).zip(stiffness);
+        pairs.map(|((p, s), k)| (k * p * p + s * s).sqrt()).fold(0.0, f64::max)
+    }
+
     /// Adds to an entry of a column.
     pub fn add_to(&mut self, column: usize, i: usize, value: f64) {
         self.row_mut(i)[column] += value;

@@ -21,7 +21,9 @@
 //!
 //! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
 //! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
-//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own.
+//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own:
+//! the largest velocity that they can reach. Their present one may vanish, as that by the frequency does with a
+//! load that is largest at the start of a stretch, and the rounding of the force would be held against nothing.
 //! Before the first contact the motion does not depend on its stiffness, so there that column has no other
 //! scale than what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the
 //! rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times
@@ -287,9 +289,15 @@ impl ExactIntegrator {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
-                let size = found.velocity + impulse * found.largest;
+                let further_column = column >= sensitivity.frequency_column();
+                let velocity = if further_column {
+                    sensitivity.energy_norm_of(column, &self.blocks.stiffness)
+                } else {
+                    found.velocity
+                };
+                let size = velocity + impulse * found.largest;
                 let mut highest = found.tail.highest;
-                let (scale, into) = if column >= sensitivity.frequency_column() {
+                let (scale, into) = if further_column {
                     if column == sensitivity.frequency_column() {
                         by_frequency = by_frequency.max(size);
                     }
