@@ -3,7 +3,7 @@
 
 use hammerbeam_study::{Drift, Model, Study};
 
-use crate::failure::Failure;
+use crate::{failure::Failure, output::tell};
 
 /// Warns of directions that only stops hold.
 ///
@@ -23,7 +23,7 @@ pub fn heed(model: &Model) -> Result<(), Failure> {
 
 /// Tells every direction on standard error.
 pub fn warn(drifts: &[Drift]) {
-    drifts.iter().for_each(|drift| anstream::eprintln!("warning: {drift}"));
+    drifts.iter().for_each(|drift| tell(&format!("warning: {drift}")));
 }
 
 /// Refuses a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.

@@ -1,4 +1,4 @@
-//! Standard output: text, or one JSON document.
+//! Standard output: text, or one JSON document; and what is told beside it.
 
 use std::{
     borrow::Cow,
@@ -46,11 +46,9 @@ impl Output {
     /// Tells a failure on standard error, and in JSON as the one document.
     pub fn failure(self, failure: &Failure) {
         match failure {
-            Failure::Study(report) => anstream::eprintln!("{}", report.render(true)),
-            Failure::Interrupted(message) | Failure::Disagreement(message) => {
-                anstream::eprintln!("{}", printable(message));
-            }
-            other => anstream::eprintln!("error: {}", printable(&other.message())),
+            Failure::Study(report) => tell(&report.render(true)),
+            Failure::Interrupted(message) | Failure::Disagreement(message) => tell(&printable(message)),
+            other => tell(&format!("error: {}", printable(&other.message()))),
         }
         // Disagreements have their document.
         if self.json && !matches!(failure, Failure::Disagreement(_)) {
@@ -58,6 +56,12 @@ impl Output {
             let _ = print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }
+}
+
+/// Tells something beside the results, on standard error. Where that cannot be written nobody listens, and the
+/// work goes on.
+pub fn tell(text: &str) {
+    let _ = writeln!(anstream::stderr(), "{text}");
 }
 
 /// Gives a text as it is, the help of a command, say.

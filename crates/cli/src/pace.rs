@@ -7,6 +7,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::output::tell;
+
 /// Time between two lines without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Part of the work and time before which nothing is estimated.
@@ -115,7 +117,7 @@ impl Lines {
     pub fn say(&mut self, text: impl FnOnce() -> String) {
         if self.told.elapsed() >= BETWEEN_LINES {
             self.told = Instant::now();
-            anstream::eprintln!("progress: {}", text());
+            tell(&format!("progress: {}", text()));
         }
     }
 }

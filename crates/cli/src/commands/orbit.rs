@@ -11,7 +11,7 @@ use crate::{
     failure::Failure,
     figures::{self, Drawn},
     interrupt::Interrupt,
-    output::{Output, six_decimals},
+    output::{Output, six_decimals, tell},
 };
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
@@ -37,7 +37,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     };
     let complete = incomplete.is_none();
     if let Some(why) = incomplete {
-        anstream::eprintln!("{why}");
+        tell(&why);
     }
     let mut document = document(first, others, complete);
     if let Some(folder) = &options.out {

@@ -19,7 +19,7 @@ use crate::{
     interrupt::Interrupt,
     kept::{Kept, branches, counted, state_words},
     motion_args::SweepOptions,
-    output::Output,
+    output::{Output, tell},
     series::series,
     ticker::Ticker,
 };
@@ -153,7 +153,7 @@ impl Work<'_> {
                 Ok(point) => point,
                 Err(error @ AttractorError::Input { .. }) => return Err(error.into()),
                 Err(error) => {
-                    anstream::eprintln!("the sweep {direction} ends at {frequency_hz} Hz: {error}");
+                    tell(&format!("the sweep {direction} ends at {frequency_hz} Hz: {error}"));
                     return Ok(());
                 }
             };
@@ -207,7 +207,7 @@ impl Work<'_> {
             for (start, point) in points.into_iter().enumerate() {
                 match point {
                     Ok(point) => motions.push(SettledMotion { origin: (start + 1).to_string(), point }),
-                    Err(error) => anstream::eprintln!("{frequency_hz} Hz, start {}: {error}", start + 1),
+                    Err(error) => tell(&format!("{frequency_hz} Hz, start {}: {error}", start + 1)),
                 }
             }
             self.kept.add(|store, request| store.append_settled(request, piece, &motions))?;

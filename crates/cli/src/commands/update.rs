@@ -14,7 +14,11 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{args::UpdateOptions, failure::Failure, output::Output};
+use crate::{
+    args::UpdateOptions,
+    failure::Failure,
+    output::{Output, tell},
+};
 
 /// The updated study in the folder of results.
 const STUDY: &str = "updated.toml";
@@ -43,7 +47,7 @@ pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
         write(folder, options, &found, &document)?;
     }
     for finding in &found.findings {
-        anstream::eprintln!("warning: {finding}");
+        tell(&format!("warning: {finding}"));
     }
     output.give(&document, || text(&found, &data, options))?;
     Ok(())

@@ -19,6 +19,7 @@ use crate::{
     crew::{Crew, Pending},
     failure::Failure,
     interrupt::Interrupt,
+    output::tell,
     ticker::Ticker,
 };
 
@@ -185,14 +186,12 @@ impl<'a> Drawn<'a> {
             )));
         }
         for (name, reason) in &self.refused {
-            anstream::eprintln!("{name}: {reason}");
+            tell(&format!("{name}: {reason}"));
         }
         let lacking: Vec<String> = self.lacking.iter().map(char::to_string).collect();
         if !lacking.is_empty() {
             let all = lacking.join(" ");
-            anstream::eprintln!(
-                "the font of the figures lacks these characters, \u{fffd} stands for each: {all}"
-            );
+            tell(&format!("the font of the figures lacks these characters, \u{fffd} stands for each: {all}"));
         }
         Ok(Files { names: self.files, refused: self.refused, lacking })
     }

@@ -54,11 +54,7 @@ impl Follower {
         trial.point.copy_from_slice(start);
         let parameter = trial.parameter();
         let mut counters = Counters::default();
-        let mut limits = start_limits(&settings);
-        if let Direction::Along(_) = direction {
-            // Beside a branch point rounding leaves corrections along the other branch.
-            limits.singular_tolerance = limits.singular_tolerance.max(0.01 * settings.initial_step);
-        }
+        let limits = start_limits(&settings);
         trial
             .correct(problem, &weights, &row, limits, &mut counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;
@@ -110,7 +106,9 @@ pub(super) fn start_limits(settings: &Settings) -> Limits {
     Limits {
         tolerance: settings.tolerance_at(0.0),
         loose_tolerance: settings.correction_tolerance,
-        singular_tolerance: settings.correction_tolerance,
+        // Beside a branch point rounding leaves corrections along the other branch; without damping, along what
+        // the matrix hardly holds.
+        singular_tolerance: settings.correction_tolerance.max(0.01 * settings.initial_step),
         residual_floor: settings.residual_floor,
         residual_tolerance: settings.residual_tolerance,
         residual_wanted: settings.residual_wanted,

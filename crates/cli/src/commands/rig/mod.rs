@@ -23,7 +23,12 @@ use super::{
     run::threads,
 };
 use crate::{
-    compare_args::RigOptions, drift, failure::Failure, figures::Drawn, interrupt::Interrupt, output::Output,
+    compare_args::RigOptions,
+    drift,
+    failure::Failure,
+    figures::Drawn,
+    interrupt::Interrupt,
+    output::{Output, tell},
     progress::Terminal,
 };
 
@@ -67,14 +72,14 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let solutions = branches(options, &file, &model, threads, &interrupt)?;
     let stored = StoredBranches::open(&options.out, &file)?;
     let stop = interrupt.flag();
-    anstream::eprintln!("sweeping the rig");
+    tell("sweeping the rig");
     let points = sweep(&rig, &rig_model, threads, stop)?;
     let modes = rig_modes(&rig, &rig_model, &model)?;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
     let order = rig.low_pass_order as usize;
     let filters: Vec<Filter> = cut_offs.map(|cut_off_hz| Filter { order, cut_off_hz }).collect();
-    anstream::eprintln!("putting the branches behind filters");
+    tell("putting the branches behind filters");
     let filtered = filtered_branches(&stored, &model, &filters, (spacing_hz, SAMPLES), threads, stop)?;
     let comparisons = comparisons(&stored, &model, &points, &filtered)?;
     let factor = comparisons[0].2.fit.frequency.value;
@@ -82,7 +87,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
         let (rig_side, model_side) = ((&rig_model, points.as_slice()), (&model, &stored));
         compare_signal(&rig, rig_side, model_side, wanted, factor, (threads, stop))
     };
-    anstream::eprintln!("comparing signals");
+    tell("comparing signals");
     let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
     let found = Found { file, rig, modes, points, filters, filtered, comparisons, signals, solutions };
     let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
