@@ -71,9 +71,10 @@ const RIG_CHANGES: [(&str, &str); 4] = [
     ("other_low_pass_hz = [1500.0, 3000.0]", "other_low_pass_hz = [1500.0]"),
 ];
 
-/// Commands, those that need the results of `run` in `out` marked, and those that take seconds.
-const COMMANDS: [(&str, Needs, Cost); 17] = [
+/// Commands with what they need, and those that take seconds.
+const COMMANDS: [(&str, Needs, Cost); 18] = [
     ("run study.toml --out out --jobs 2", Needs::Study, Cost::Small),
+    ("run study.toml --out out --from swept --jobs 2", Needs::Sweep, Cost::Small),
     ("modes study.toml --out drawn", Needs::Study, Cost::Small),
     ("orbit study.toml --frequency 0.5 --out drawn", Needs::Study, Cost::Small),
     ("simulate study.toml --frequency 0.5 --periods 400 --out out", Needs::Study, Cost::Small),
@@ -104,6 +105,9 @@ const COMMANDS: [(&str, Needs, Cost); 17] = [
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Needs {
     Study,
+    /// Attractors in `swept`.
+    Sweep,
+    /// The results of `run` in `out`.
     Results,
 }
 
@@ -147,13 +151,29 @@ pub fn writers(most: Cost) -> Vec<Writer> {
         fs::write(study.path(name), text).unwrap();
     }
     let alone = files(&study);
+    assert_success(&study.hammerbeam(&[
+        "sweep",
+        "study.toml",
+        "--step",
+        "0.04",
+        "--starts",
+        "3",
+        "--out",
+        "swept",
+    ]));
+    let with_sweep = files(&study);
+    fs::remove_dir_all(study.path("swept")).unwrap();
     assert_success(&study.hammerbeam(&["run", "study.toml", "--out", "out"]));
     let with_results = files(&study);
     let chosen = COMMANDS.into_iter().filter(|(_, _, cost)| *cost == Cost::Small || most == Cost::Large);
     chosen
         .map(|(command, needs, cost)| {
-            let before = if needs == Needs::Study { alone.clone() } else { with_results.clone() };
-            Writer::new(command.split(' ').collect(), cost, before)
+            let before = match needs {
+                Needs::Study => &alone,
+                Needs::Sweep => &with_sweep,
+                Needs::Results => &with_results,
+            };
+            Writer::new(command.split(' ').collect(), cost, before.clone())
         })
         .collect()
 }

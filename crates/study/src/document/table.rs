@@ -86,12 +86,13 @@ impl<'a> Table<'a> {
         value
     }
 
-    /// Refuses a text that stands under the key without its unit and is no quantity at all; whether there is
-    /// one.
+    /// Refuses a text that stands under the key without its unit and is no quantity, or one of another
+    /// dimension; whether there is one.
     fn refuse_without_quantity(&self, key: &'static str) -> bool {
         let Some((stem, dimension)) = without_unit(key) else { return false };
         let text = self.entries.get(stem).and_then(|value| text_of(value.get_ref()));
-        let is_wrong = text.is_some_and(|text| measured(text).is_none());
+        let fits = |text: &str| measured(text).is_some_and(|measured| measured.dimension == dimension);
+        let is_wrong = text.is_some_and(|text| !fits(text));
         if is_wrong && !self.refused.borrow().contains(&stem) {
             self.refused.borrow_mut().push(stem);
             self.other_unit(stem, key, dimension);

@@ -377,8 +377,8 @@ fn a_quantity_of_another_dimension_is_refused_with_the_unit_that_fits() {
 }
 
 #[test]
-fn a_text_that_is_no_quantity_is_one_fault() {
-    for text in ["nan mm", "inf mm", "5 furlongs", "mm"] {
+fn a_text_that_is_no_quantity_or_one_of_another_dimension_is_one_fault() {
+    for text in ["nan mm", "inf mm", "5 furlongs", "mm", "3 N"] {
         let changed = PAPER.replacen("amplitude_m = 0.5015e-3", &format!("amplitude = \"{text}\""), 1);
         let Err(StudyError::Invalid(report)) = StudyFile::parse("study.toml", changed) else {
             panic!("{text} is taken")
