@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use hammerbeam_study::{file::DrawnOrbit, verify::TOLERANCE};
 
 use crate::{
@@ -15,12 +16,15 @@ use crate::{
 
 const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 interrupted (what is finished is kept).";
 
+/// The version and, of a release, the commit that it was built from.
+const VERSION: &str = env!("HAMMERBEAM_VERSION");
+
 /// Steady states of structures that hit things.
 ///
 /// Describe a linear structure with stops, gaps and local springs in a study file, and compute all of its
 /// periodic responses over the excitation frequency, stable and unstable.
 #[derive(Debug, Parser)]
-#[command(name = "hammerbeam", version, after_help = AFTER, arg_required_else_help = true)]
+#[command(name = "hammerbeam", version = VERSION, after_help = AFTER, arg_required_else_help = true)]
 pub struct Arguments {
     /// Print one JSON document on standard output and nothing else there
     #[arg(long, global = true)]
@@ -72,6 +76,10 @@ pub enum Command {
     Export(ExportOptions),
     /// Compute stored solutions again with the independent integrator, and report every disagreement
     Verify(VerifyOptions),
+    /// Print what a shell needs to complete commands and flags
+    Completions(CompletionsOptions),
+    /// Print the manual page, or write the pages of all commands into a folder
+    Man(ManOptions),
 }
 
 #[derive(Debug, Args)]
@@ -388,4 +396,17 @@ fn tolerance(text: &str) -> Result<f64, String> {
         Ok(number) if (1e-11..=1e-2).contains(&number) => Ok(number),
         _ => Err("must be a number from 1e-11 to 1e-2".to_owned()),
     }
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsOptions {
+    /// Shell, whose documentation says where the script belongs
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManOptions {
+    /// Folder, made if it is not there, into which the pages of all commands are written, for `man`
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }

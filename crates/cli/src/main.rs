@@ -57,6 +57,8 @@ fn main() -> ExitCode {
         Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),
+        Command::Completions(options) => commands::completions::run(options, output),
+        Command::Man(options) => commands::man::run(options, output),
     };
     ended(output, result)
 }

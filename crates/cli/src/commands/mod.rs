@@ -3,9 +3,11 @@
 pub mod basins;
 pub mod check;
 pub mod compare;
+pub mod completions;
 pub mod export;
 pub mod figure;
 pub mod lyapunov;
+pub mod man;
 pub mod modes;
 pub mod new;
 pub mod orbit;
