@@ -6,11 +6,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{assert_agreement, diagonal, difference, element, force, hertz, model};
+use crate::common::{
+    assert_agreement, damped, diagonal, difference, element, force, hertz, model, remembering,
+};
+use faer::Mat;
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    general::{GeneralSettings, sample},
+    general::{GeneralSettings, observe, sample},
     law::{
         HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop, TwoSidedStop,
     },
@@ -197,4 +200,33 @@ fn an_impact_takes_the_force_off_a_damped_contact() {
         }
     }
     assert!(touches > 100, "{touches}");
+}
+
+/// Two masses with a damped stop on one side and one that remembers its impact on the other, both at the
+/// level zero: the pair passes from one to the other at some 1e-5 m/s, 1e-8 m deep, while the masses move at
+/// 1 m/s. It closes four times, wherever rounding puts the zeros of the two penetrations.
+#[test]
+fn two_stops_of_one_level_change_in_one_instant_however_slowly_it_is_passed() {
+    let damping = [[0.080_801_577_734, 0.025_391_706_235], [0.025_391_706_235, 0.099_385_924_786]];
+    let free = model(&[0.837_718_754_612, 1.451_777_140_202], Mat::from_fn(2, 2, |i, j| damping[i][j]));
+    let shape = [0.190_423_413_426, -1.010_310_352_589];
+    let onto = |law: Law, sign: f64| element(&shape.map(|phi| sign * phi), 0.0, law);
+    let remembers =
+        remembering(37.677_406_860_209, RestitutionModel::LankaraniNikravesh, 0.735_701_571_475, 0.0);
+    let stops = vec![onto(damped(6.632_029_976_090, 0.108_987_073_807, 0.0), 1.0), onto(remembers, -1.0)];
+    let loads = [0.379_200_667_532_f64, -0.265_025_047_209];
+    let (size, phase) = (0.112_547_370_156_f64.hypot(loads[0]), -0.112_547_370_156_f64.atan2(loads[0]));
+    let shaken = force(&[1.0, loads[1] / loads[0]], 1, size, phase);
+    let load = Load { support: vec![], forces: vec![shaken] };
+    let system = System::new(free, &load, stops).unwrap();
+    let stretch =
+        Stretch { frequency_hz: 0.164_773_535_786_562_18, start: 0.115_234_375, end: 1.115_234_375 };
+    for number in 0..100 {
+        let rounding = 1e-15 * f64::from(number);
+        let state =
+            [-0.747_484_226_390_7 + rounding, -0.162_751_820_063_1, 0.678_187_589_630_5, 0.104_255_277_400_8];
+        let settings = GeneralSettings::with_tolerance(1e-11);
+        let found = observe(&system, &stretch, &state, (&[1.0, 0.0], &[]), &settings).unwrap();
+        assert_eq!(found.touches, 4, "{number}: {:?}", found.counts);
+    }
 }

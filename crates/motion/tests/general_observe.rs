@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{element, paper_beam, settled};
+use crate::common::{element, paper_beam, rigid, settled};
 use crate::general_common::{assert_near, diagonal, harmonic_force, model, supported};
 use hammerbeam_motion::{
     Harmonic, Law, Load, Stretch, System,
@@ -36,7 +36,7 @@ fn a_bounce_has_the_force_and_impulse_of_its_speed() {
         assert_near(found.impulse, 2.0 * speed, 1e-9, "impulse");
         assert_near(found.impact_velocity, speed, 1e-12, "speed");
         assert_eq!((found.touches, found.closed_throughout), (1, 0));
-        assert_eq!(found.extrema.len(), 1);
+        assert_eq!((found.extrema.len(), found.kinks.len()), (1, 0));
         assert_near(found.extrema[0], depth, 1e-9 * depth, "penetration");
     }
 }
@@ -158,4 +158,20 @@ fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
             && touches.iter().any(|&t| t > 20),
         "{touches:?}"
     );
+}
+
+/// A mass of 1 kg flies at 2 m/s from 0 to a rigid stop at 1 m and back; a second one stands still at 0.3 m.
+/// The stop between them closes beyond 0.75 m: it comes as near as `(1 - 0.3) - 0.75 = -0.05 m`, with a
+/// velocity that jumps.
+#[test]
+fn an_impact_elsewhere_turns_a_contact_with_a_kink() {
+    let free = model(&[0.0, 0.0], diagonal(&[0.0, 0.0]));
+    let between = |gap: f64| element(&[1.0, -1.0], 0.0, Law::Linear(LinearStop::with_gap(1e3, gap).unwrap()));
+    let stops = vec![element(&[1.0, 0.0], 0.0, rigid(1.0, 1.0)), between(0.75)];
+    let system = System::new(free, &Load::default(), stops).unwrap();
+    let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.8 };
+    let found = watch(&system, &stretch, &[0.0, 0.3, 2.0, 0.0], (&[1.0, 0.0], &[]));
+    assert_eq!((found.touches, found.kinks.len()), (0, 1), "{:?}", found.kinks);
+    assert_eq!(found.kinks[0].0, 1);
+    assert_near(found.kinks[0].1, -0.05, 1e-12, "penetration");
 }

@@ -9,6 +9,7 @@ mod bounces;
 mod brief_openings;
 mod common;
 mod contacts;
+mod corners_beyond_steps;
 mod coupled_damping;
 mod damping_column;
 mod elements;

@@ -235,6 +235,12 @@ impl ExactIntegrator {
             return free(shorter);
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
+        if error <= 1.0
+            && event.is_none()
+            && let Some(shorter) = self.corner_beyond_end(run)
+        {
+            return free(shorter);
+        }
         let accurate = length * self.growth(error).clamp(0.1, MOST_KEPT);
         if let Some(shorter) = (error > 1.0).then_some(accurate).or_else(|| self.shorter_for_volume(run)) {
             run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);

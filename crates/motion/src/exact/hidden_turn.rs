@@ -6,6 +6,25 @@
 //! the step leaves out about `h G s t`, with the mobility G, which may be as small as the tolerance and yet
 //! more than what the error estimate, which knows the nodes only, says. The turn is where the clearance and
 //! its derivatives at the end of the step put it; a step that hides it ends there.
+//!
+//! **Corners beyond an end.** Of a half-integer contact that turns with the penetration b at the time d
+//! beyond an end of the step, the slope of the force goes like `s = S sqrt(t^2 + w^2)` with the time t from
+//! the turn and the width `w = sqrt(b/a)`, where the penetration is `b + a t^2`. Where w is small that is
+//! `S |t|`, which is smooth in the step, and `S w^2/(2 t)`, a pole as seen from there; else two branch points
+//! `t = i w` and `-i w`. On n Gauss nodes the integral is wrong by the lesser of
+//!
+//! `pi S w^2 / rho^(2n+1)` and `5 S sqrt(w) (h |r| / (4n+2))^(3/2) / rho^(2n+1)`,
+//! `rho = |z + r|`, `r = sqrt(z^2 - 1)`, `z = 1 + 2 (d + i w)/h`
+//!
+//! (the contour integral of `2 Q_n/P_n`, of the Legendre functions, around the pole or along the cuts), and
+//! sensitivities by h G times that. Where the contact opens around the turn b is negative, and `i w` the real
+//! `-sqrt(-b/a)`. The coefficients of the force over the step do not show it: those at half the degree belong
+//! to what is smooth. A step in which it is more than the tolerance is shortened until it has only [`SPARE`]
+//! of that.
+
+use std::f64::consts::PI;
+
+use faer::c64;
 
 use super::{
     ExactIntegrator,
@@ -21,6 +40,15 @@ const AT_REST: f64 = 1e-2;
 /// Length of a step whose nodes stand in the corner at its end, over the width of the corner.
 const IN_CORNER: f64 = 12.0;
 
+/// Share of the tolerance that a corner beyond an end of a shortened step leaves.
+const SPARE: f64 = 0.01;
+/// Largest share of the largest speed at the end of a step that lies so near a corner.
+const SLOW: f64 = 0.5;
+/// Factor by which steps are shortened until they resolve a corner.
+const SHORTER: f64 = 0.9;
+/// A corner farther from the step than this share of its length is resolved.
+const FAR: f64 = 0.5;
+
 /// A turn seen from an end of a step, into the step.
 struct Turn {
     element: usize,
@@ -29,6 +57,47 @@ struct Turn {
     jet: Jet,
     /// Clearance and its derivatives by the time from the end of the step.
     clearance: Jet,
+}
+
+/// A corner of a slope beyond an end of a step.
+struct Corner {
+    /// Its distance d from there, or that of the opening [s].
+    apart: f64,
+    /// Its distance from real times [s].
+    aside: f64,
+    /// `w` [s].
+    width: f64,
+    /// `G S` [1/s^3].
+    strength: f64,
+    tolerance: f64,
+}
+
+impl Corner {
+    /// Error of the sensitivities that it leaves in a step of that length which ends by so much earlier.
+    fn error(&self, length: f64, earlier: f64) -> f64 {
+        let n = NODES as f64;
+        let z = c64::new(1.0 + 2.0 * (self.apart + earlier) / length, 2.0 * self.aside / length);
+        let root = (z * z - 1.0).sqrt();
+        let rho = (z + root).norm().max((z - root).norm());
+        let pole = PI * self.width * self.width;
+        let branch = 5.0 * self.width.sqrt() * (length * root.norm() / (4.0 * n + 2.0)).powf(1.5);
+        length * self.strength * pole.min(branch) / rho.powf(2.0 * n + 1.0)
+    }
+
+    /// How long a step may be that does not resolve it with that length; `None` if it does.
+    ///
+    /// * `earlier`: by how much one of another length ends earlier.
+    fn resolved_from(&self, length: f64, earlier: impl Fn(f64) -> f64) -> Option<f64> {
+        let is_near = self.apart > 0.0 && self.apart < FAR * length;
+        if !is_near || self.error(length, 0.0) <= self.tolerance {
+            return None;
+        }
+        let mut length = length;
+        while self.error(length, earlier(length)) > SPARE * self.tolerance {
+            length *= SHORTER;
+        }
+        Some(length)
+    }
 }
 
 impl ExactIntegrator {
@@ -46,7 +115,16 @@ impl ExactIntegrator {
             let turn = Turn { element, contact, jet, clearance };
             self.allowed_beside(&turn, (opens, rests), (first_node, length))
         });
-        allowed.fold(length, f64::min)
+        let length = allowed.fold(length, f64::min);
+        let beyond = self.corners(run).filter_map(|(element, contact)| {
+            let start = run.start[element];
+            let behind = clearance_of(start.jet, contact.level, contact.sign).slope < 0.0;
+            let is_slow = start.jet.slope.abs() < SLOW * start.velocity;
+            let jet = (behind && is_slow).then(|| self.jet_with_forces(run, element))?;
+            let clearance = clearance_of(jet, contact.level, contact.sign);
+            self.corner(&Turn { element, contact, jet, clearance })?.resolved_from(length, |_| 0.0)
+        });
+        beyond.fold(length, f64::min)
     }
 
     /// How long the solved step may be so that no turn lies behind its last node, nor a corner at its end;
@@ -65,6 +143,50 @@ impl ExactIntegrator {
             self.allowed_beside(&turn, (falls, rests), (behind_nodes, length))
         });
         allowed.reduce(f64::max).map(|allowed| length - allowed)
+    }
+
+    /// How long the solved step may be so that it resolves the corners beyond its end; `None` if it does.
+    pub(super) fn corner_beyond_end(&self, run: &Run) -> Option<f64> {
+        let length = self.step.length;
+        let allowed = self.corners(run).filter_map(|(element, contact)| {
+            let at = self.free_jet_at_step_end(run, element);
+            let comes = clearance_of(at, contact.level, contact.sign).slope > 0.0;
+            let is_slow = at.slope.abs() < SLOW * run.start[element].velocity;
+            let jet = (comes && is_slow).then(|| self.jet_at_step_end(run, element))?;
+            let forwards = clearance_of(jet, contact.level, contact.sign);
+            let clearance = Jet { slope: -forwards.slope, ..forwards };
+            let corner = self.corner(&Turn { element, contact, jet, clearance })?;
+            corner.resolved_from(length, |shorter| length - shorter)
+        });
+        allowed.reduce(f64::min)
+    }
+
+    /// Closed contacts whose force has a corner at their level, where sensitivities are wanted.
+    fn corners(&self, run: &Run) -> impl Iterator<Item = (usize, Contact)> {
+        let wanted = run.sensitivity.is_some();
+        let is_half_integer = |contact: &Contact| contact.onset_exponent.fract() != 0.0;
+        self.closed_contacts(run).filter(move |(_, contact)| wanted && is_half_integer(contact))
+    }
+
+    /// The corner of a turn beyond an end of a step.
+    fn corner(&self, turn: &Turn) -> Option<Corner> {
+        let &Turn { element, jet, clearance, .. } = turn;
+        let (time, bend) = (clearance.slope / clearance.curvature, -0.5 * clearance.curvature);
+        let depth = -clearance.value;
+        if !(bend > 0.0 && time > 0.0 && depth > 0.0) {
+            return None;
+        }
+        let bottom = depth - bend * time * time;
+        let width = (bottom.abs() / bend).sqrt();
+        let slope = self.laws[element].pressing_force(jet.value, jet.slope).slope.abs();
+        let (apart, aside) = if bottom > 0.0 { (time, width) } else { (time - width, 0.0) };
+        Some(Corner {
+            apart,
+            aside,
+            width,
+            strength: self.mobility[element][element] * slope / (depth / bend).sqrt(),
+            tolerance: self.settings.tolerance,
+        })
     }
 
     /// How much of a step of that length may lie on this side of a turn that comes, and of one at its end.

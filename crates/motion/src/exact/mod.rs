@@ -19,7 +19,7 @@
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
-//! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last |
+//! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last, and corners beyond the ends |
 //! | `brief_opening.rs` | contacts that open for an instant between two presses |
 //! | `touches.rs` | what of the touches of a stretch counts in an orbit |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |

@@ -19,6 +19,10 @@ use super::{
 /// Steps shorter than this fraction of the one before a crossing do not resolve what follows it.
 const FINEST: f64 = 1e-7;
 
+/// Share of the time in which the state would double over which rates are differences: rounding of what
+/// depends on the state is as small a share of them as this.
+const RESOLVED: f64 = 1e-8;
+
 /// A motion under way.
 pub(super) struct March<'a, F> {
     field: &'a mut F,
@@ -28,6 +32,7 @@ pub(super) struct March<'a, F> {
     dense: Dense,
     time: f64,
     end: f64,
+    duration: f64,
     pub(super) step: f64,
     finest: f64,
     /// Where the march started afresh for the last time, and the length of a first step from there whose
@@ -64,6 +69,7 @@ impl<'a, F: VectorField> March<'a, F> {
             dense,
             time: start,
             end,
+            duration: end - start,
             step,
             finest,
             restart: start,
@@ -237,7 +243,9 @@ impl<'a, F: VectorField> March<'a, F> {
 
     fn cross(&mut self, switch: usize, watcher: &mut impl Watcher<F>) {
         let instant = self.instant();
-        let moment = (self.time, instant, instant.max(self.finest));
+        let resolved = RESOLVED * doubling_time(self.field, &self.stepper).min(self.duration);
+        let span = instant.max(self.finest).max(resolved);
+        let moment = (self.time, instant, span);
         let before = self.region.inside.clone();
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
         self.stepper.impact(self.field, self.time, (&mut self.region.inside, &before));
@@ -290,9 +298,14 @@ const SHORTEST_FIRST: f64 = 1e-6;
 
 /// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.
 fn first_step(field: &impl VectorField, stepper: &Stepper, duration: f64) -> f64 {
+    (0.01 * doubling_time(field, stepper)).min(0.1 * duration).max(SHORTEST_FIRST * duration)
+}
+
+/// The shortest time in which a part of the state would double; infinite at rest.
+fn doubling_time(field: &impl VectorField, stepper: &Stepper) -> f64 {
     let part = stepper.state().len() / field.parts();
     let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
     let parts = stepper.state().chunks_exact(part).zip(stepper.slope(0).chunks_exact(part));
-    let times = parts.map(|(value, slope)| 0.01 * norm(value) / norm(slope)).filter(|&time| time > 0.0);
-    times.fold(0.1 * duration, f64::min).max(SHORTEST_FIRST * duration)
+    let times = parts.map(|(value, slope)| norm(value) / norm(slope)).filter(|&time| time > 0.0);
+    times.fold(f64::INFINITY, f64::min)
 }

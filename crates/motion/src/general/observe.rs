@@ -11,6 +11,7 @@ mod extrema;
 use super::{
     Counts, GeneralError, GeneralSettings, Point, VectorField, check, check_frequency,
     march::March,
+    rigid::Impact,
     stepper::Stepper,
     system_field::{SystemField, dot, region::force_in_region, switches_of},
     watch::{Accepted, Place, Watcher},
@@ -49,7 +50,10 @@ pub struct Observed {
     /// graze have some near zero. An impact on a rigid stop gives `v^2/(2 |r''|)`, to which the motion would
     /// have gone.
     pub extrema: Vec<f64>,
-    /// The same element by element.
+    /// Penetrations at which the motion of an element turns with a velocity that jumps, in an impact on a
+    /// rigid stop elsewhere: extrema without a horizontal tangent, each with the number of its element [m].
+    pub kinks: Vec<(usize, f64)>,
+    /// The extrema element by element.
     pub of_elements: Vec<ElementMaxima>,
 }
 
@@ -113,7 +117,7 @@ pub fn observe(
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
     let flow = march.flow();
-    let Observer { maxima, closed, extrema, contacts, impacts, of_elements, .. } = observer;
+    let Observer { maxima, closed, extrema, kinks, contacts, impacts, of_elements, .. } = observer;
     let whole = of_elements.iter().copied().fold(ElementMaxima::default(), ElementMaxima::joined);
     let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed).map(|(watched, _)| watched);
     Ok(Observed {
@@ -135,6 +139,7 @@ pub fn observe(
         closed_throughout: closed
             .fold(0, |bits, watched| bits | 1_u64.checked_shl(watched.element as u32).unwrap_or(0)),
         extrema,
+        kinks,
         of_elements,
     })
 }
@@ -203,6 +208,9 @@ struct Observer<'a> {
     closed: Vec<bool>,
     maxima: Maxima,
     extrema: Vec<f64>,
+    kinks: Vec<(usize, f64)>,
+    /// Velocity of each element with a contact at the end of the last step [m/s].
+    velocities: Vec<f64>,
     of_elements: Vec<ElementMaxima>,
     /// Impacts on rigid stops, and how many stuck.
     impacts: Vec<[u32; 2]>,
@@ -223,6 +231,8 @@ impl<'a> Observer<'a> {
             contacts,
             maxima: Maxima::default(),
             extrema: Vec::new(),
+            kinks: Vec::new(),
+            velocities: vec![0.0; field.system.elements().len()],
             of_elements: vec![ElementMaxima::default(); field.system.elements().len()],
             impacts: vec![
                 [0; 2];
@@ -274,6 +284,30 @@ impl<'a> Observer<'a> {
         of_element.nearest = of_element.nearest.min(extremum.abs());
     }
 
+    /// Keeps the velocities of the elements, which impacts change.
+    fn note_velocities(&mut self, field: &SystemField<'_>, at: Place<'_>) {
+        if !field.rigid.stops.is_empty() {
+            for element in 0..self.velocities.len() {
+                self.velocities[element] = self.read(field, Output::Element(element), at.time, at.state)[1];
+            }
+        }
+    }
+
+    /// Notes the elements whose velocity changes its sign in impacts on the rigid stops of others.
+    fn add_kinks(&mut self, field: &SystemField<'_>, at: Place<'_>, impacts: &[Impact]) {
+        for (element, local) in field.system.elements().iter().enumerate() {
+            let is_struck = impacts.iter().any(|impact| impact.element == element);
+            if is_struck || field.rigid.held.contains(&element) {
+                continue;
+            }
+            let [r, velocity] = self.read(field, Output::Element(element), at.time, at.state);
+            if (velocity > 0.0) != (self.velocities[element] > 0.0) {
+                let contacts = local.law.contacts().iter();
+                self.kinks.extend(contacts.map(|contact| (element, contact.sign * (r - contact.level))));
+            }
+        }
+    }
+
     fn add_touch(&mut self, element: usize, speed: f64) {
         self.of_elements[element].impact_velocity = self.of_elements[element].impact_velocity.max(speed);
     }
@@ -303,6 +337,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         self.inside.copy_from_slice(start.inside);
         let closed = self.closed.iter_mut().zip(&self.contacts);
         closed.for_each(|(closed, watched)| *closed = start.inside[watched.penetration]);
+        self.note_velocities(field, start);
         self.take(field, start);
     }
 
@@ -319,6 +354,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
                 self.extrema_of(field, step, Output::Element(element));
             }
         }
+        self.note_velocities(field, end);
         self.largest_acceleration(field, step);
         if self.contacts.iter().any(|watched| watched.presses(step.inside)) {
             self.add_impulse(field, step);
@@ -341,6 +377,9 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             if impact.depth.is_finite() {
                 self.add_extremum(impact.element, impact.depth);
             }
+        }
+        if !impacts.is_empty() {
+            self.add_kinks(field, at, &impacts);
         }
         for (element, speed) in std::mem::take(&mut field.rigid.touches) {
             self.maxima.touches += 1;

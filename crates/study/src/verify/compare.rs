@@ -169,8 +169,11 @@ pub(super) fn compare(
     let unknown = Unknown::of((system, response), found, (margin, slow), &cut);
     maxima(row, (solution, found), (&measures, unknown), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
-    list.push(contacts(row, found, grazing + cut.len()));
-    let jump = rigid.min(damped);
+    let turned = found.kinks.iter().filter(|(_, penetration)| penetration.abs() <= margin).count();
+    list.push(contacts(row, found, grazing + turned + cut.len()));
+    // At a damper multipliers jump on the row of the grazing.
+    let damped_row = if row.events.grazing { damped.min(nearest_kink(system, found)) } else { f64::INFINITY };
+    let jump = rigid.min(damped).min(damped_row);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
     list.extend(leading(row, solution));
@@ -179,10 +182,8 @@ pub(super) fn compare(
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
-    // Beside a rigid stop multipliers are far outside the unit circle; at a damper they jump on the row of
-    // the grazing.
-    let at_jump = rigid.min(if row.events.grazing { damped } else { f64::INFINITY });
-    list.extend(events(row, found, &measures, (unknown, at_jump)));
+    // Beside a rigid stop multipliers are far outside the unit circle.
+    list.extend(events(row, found, &measures, (unknown, rigid.min(damped_row))));
     list
 }
 
@@ -191,6 +192,13 @@ fn nearest(system: &System, found: &Recomputed, of: impl Fn(&Law) -> bool) -> f6
     let elements = system.elements().iter().zip(&found.of_elements);
     let nearest = elements.filter(|(element, _)| of(&element.law)).map(|(_, maxima)| maxima.nearest);
     nearest.fold(f64::INFINITY, f64::min)
+}
+
+/// Least distance [m] from the level of a contact with a damper at which an impact elsewhere turns it.
+fn nearest_kink(system: &System, found: &Recomputed) -> f64 {
+    let damped = |e: usize| system.elements()[e].law.onset_damping() > 0.0;
+    let kinks = found.kinks.iter().filter(|(element, _)| damped(*element));
+    kinks.map(|(_, penetration)| penetration.abs()).fold(f64::INFINITY, f64::min)
 }
 
 fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> Comparison {
@@ -302,7 +310,8 @@ fn events(
             .map(|multiplier| (distance(multiplier.value) - unknown * multiplier.condition).max(0.0));
         distances.fold(f64::INFINITY, f64::min)
     };
-    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    let kinks = found.kinks.iter().map(|(_, penetration)| penetration);
+    let touch = found.extrema.iter().chain(kinks).map(|turn| turn.abs()).fold(f64::INFINITY, f64::min);
     let jumps = jump <= EVENT * measures.contact[0];
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {

@@ -26,6 +26,8 @@ pub(super) struct Recomputed {
     pub(super) maxima: OrbitMaxima,
     /// Extrema of the penetrations of all contacts [m].
     pub(super) extrema: Vec<f64>,
+    /// Where the motion of an element turns in an impact elsewhere: its number and penetration [m].
+    pub(super) kinks: Vec<(usize, f64)>,
     /// What the contacts of each element do.
     pub(super) of_elements: Vec<ElementMaxima>,
 }
@@ -142,6 +144,7 @@ pub(super) fn recompute(
             contacts: observed.contacts(),
         },
         extrema: observed.extrema,
+        kinks: observed.kinks,
         of_elements: observed.of_elements,
     })
 }
@@ -162,6 +165,7 @@ fn join(earlier: Observed, later: Observed) -> Observed {
             .collect(),
         closed_throughout: earlier.closed_throughout & later.closed_throughout,
         extrema: [earlier.extrema, later.extrema].concat(),
+        kinks: [earlier.kinks, later.kinks].concat(),
         of_elements: earlier.of_elements.iter().zip(&later.of_elements).map(|(a, b)| a.joined(*b)).collect(),
         ..later
     }
