@@ -17,6 +17,7 @@ mod figure;
 mod figure_refused;
 mod formula;
 mod impact_oscillator;
+mod installed;
 mod interrupts;
 mod json;
 mod kills;

@@ -86,3 +86,17 @@ fn standard_output_that_takes_nothing_is_an_error_and_a_closed_pipe_is_none() {
         assert_eq!(run(writer.into()).status.code(), Some(0));
     }
 }
+
+/// Where nobody listens the work goes on, and a failure has its exit code.
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_error_that_cannot_be_written_changes_nothing() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let run = |arguments: &[&str]| {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        workshop.command(arguments).stderr(full).stdout(std::process::Stdio::null()).status().unwrap().code()
+    };
+    assert_eq!(run(&["check", "study.toml"]), Some(0));
+    assert_eq!(run(&["check", "nowhere.toml"]), Some(2));
+    assert_eq!(run(&["orbit", "study.toml"]), Some(2));
+}
