@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_signal::{Terms, points, read};
+use hammerbeam_signal::{RecordOptions, points, read};
 use hammerbeam_study::{Store, StoreError, StudyFile, export_csv, summary::summarise};
 
 use crate::attractors::Random;
@@ -56,7 +56,9 @@ impl Reader {
             Self::Study => {
                 String::from_utf8(bytes.to_vec()).is_ok_and(|text| StudyFile::parse("input", text).is_ok())
             }
-            Self::Signal => read::parse(bytes).is_ok_and(|raw| raw.judge(&Terms::default()).is_ok()),
+            Self::Signal => {
+                read::parse(bytes).is_ok_and(|raw| raw.validate(&RecordOptions::default()).is_ok())
+            }
             Self::Points => points::parse(bytes).is_ok(),
             Self::Results => everything_stored(folder, bytes).is_ok(),
         }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_signal::limits::is_control;
+use hammerbeam_signal::text::is_control;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! An hour of signal at 10 kHz, 36 million samples: filtered, its spectra, its kind of motion.
+//! An hour of a signal at 10 kHz, 36 million samples: filters, spectra, classification.
 //!
 //! With `-- --test` each case runs once, on ten seconds.
 #![allow(missing_docs, reason = "the macros of the benchmark library generate functions")]
@@ -10,12 +10,12 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hammerbeam_signal::{
     classify::{ClassifySettings, classify},
     filter::{Band, butterworth},
-    random::Random,
+    random::RandomSource,
     spectrum::{WelchSettings, Window, amplitude_spectrum, welch},
 };
 
 const RATE: f64 = 10_000.0;
-/// Periods are no whole number of samples.
+/// A period is not a whole number of samples.
 const EXCITATION: f64 = 34.7;
 
 fn seconds() -> usize {
@@ -24,7 +24,7 @@ fn seconds() -> usize {
 
 /// A motion of period two with higher harmonics and noise.
 fn series() -> Vec<f64> {
-    let mut random = Random::new(1);
+    let mut random = RandomSource::new(1);
     (0..seconds() * RATE as usize)
         .map(|k| {
             let t = 2.0 * PI * EXCITATION * k as f64 / RATE;

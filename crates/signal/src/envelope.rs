@@ -2,8 +2,8 @@
 //!
 //! `z = x + i H(x)` with the Hilbert transform `H` has the spectrum of `x` at positive frequencies, doubled,
 //! and none at negative ones. Its modulus is the envelope: for a decaying harmonic `A exp(-d t) cos(w t + p)`
-//! it is `A exp(-d t)`, as long as `d` is small beside `w`; near both ends of a record it is off, since the
-//! transform takes the record as periodic.
+//! it is `A exp(-d t)` for `d` much smaller than `w`. It is inaccurate near both ends of a record, since the
+//! transform treats the record as periodic.
 //!
 //! # Source
 //! Feldman, *Hilbert Transform Applications in Mechanical Vibration*, 2011, chapter 2.

@@ -1,34 +1,37 @@
-//! What is suspicious in a record, and what was repaired on the user's word.
+//! What is suspicious in a record, and what was repaired with the permission of the user.
 
-use crate::judge::difference;
+use crate::text::time_difference;
 
-/// Something to know about a record that does not make it unusable.
+/// A finding about a record that does not make it unusable.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
-pub enum Finding {
-    /// Successive samples stand at the very end of the range, reached with a steep step.
+pub enum RecordFinding {
+    /// Successive samples are equal to the largest or smallest one, which a steep step leads to.
     #[error(
-        "channel \"{channel}\" is clipped: {samples} samples in {places} places stand at {level:e} (from sample {first} on)"
+        "channel \"{channel}\" is clipped: {samples} samples in {places} places stand at {level:e} \
+         (from sample {first} on)"
     )]
     Clipped { channel: String, samples: usize, places: usize, level: f64, first: usize },
-    /// Read by a converter that is too slow for what the filter before it lets pass.
+    /// Aliasing: the sampling rate is too low for what passes the filter.
     #[error(
-        "what is above half the sampling rate, {half_rate_hz} Hz, is folded down: {percent:.1} % of the root mean square"
+        "what is above half the sampling rate, {half_rate_hz} Hz, is folded down: {percent:.1} % of the \
+         root mean square"
     )]
     Folded { half_rate_hz: f64, percent: f64 },
     /// All samples are the same.
     #[error("channel \"{channel}\" is constant")]
     Constant { channel: String },
-    /// Times stray from an even grid, by so little that they are taken as even.
+    /// Times differ from an even grid, by so little that they are taken as even.
     #[error("sampling times stray by up to {percent:.2} % of a step; they are taken as even")]
     Jitter { percent: f64 },
-    /// A sampling rate was given that is not that of the times in the file.
+    /// The sampling rate given by the user differs from that of the times in the file.
     #[error("the sampling rate given is {given_hz} Hz; by the times in the file it is {found_hz} Hz")]
     RateDisagrees { given_hz: f64, found_hz: f64 },
-    /// The file names a sampling rate that is not that of its times.
+    /// The file names a sampling rate that contradicts its times.
     #[error(
-        "the file names a sampling rate of {named_hz} Hz; by the times in it, which are taken, it is {found_hz} Hz"
+        "the file names a sampling rate of {named_hz} Hz; by the times in it, which are taken, it is \
+         {found_hz} Hz"
     )]
     NamedRateDisagrees { named_hz: f64, found_hz: f64 },
     /// There is no header; a column that rises evenly is taken for the time.
@@ -36,29 +39,30 @@ pub enum Finding {
     TimeAssumed,
     /// Rows without titles that have one comma each.
     #[error(
-        "no title says whether commas separate columns or are decimal signs: they are taken to separate two columns"
+        "no title says whether commas separate columns or are decimal signs: they are taken to separate two \
+         columns"
     )]
     CommasSeparate,
     /// The time column has no unit.
     #[error("the time column \"{name}\" names no unit: seconds are assumed")]
     TimeUnitAssumed { name: String },
-    /// A unit that is not known; values stay as they are.
+    /// An unknown unit; values are not converted.
     #[error("channel \"{channel}\": the unit \"{unit}\" is not known, values are kept as they are")]
     UnknownUnit { channel: String, unit: String },
-    /// A channel says what it measures, but not in which unit.
+    /// A channel names its quantity, but not the unit.
     #[error("channel \"{channel}\" names no unit: {unit} is assumed")]
     UnitAssumed { channel: String, unit: String },
     /// Bytes that are not UTF-8 were read as Latin-1.
     #[error("the file is not UTF-8; it was read as Latin-1")]
     Latin1,
-    /// Something in the file that is no time series, left out.
+    /// Content of the file that is no time series and was left out.
     #[error("\"{name}\" was left out: {reason}")]
     LeftOut { name: String, reason: String },
     /// Repaired: missing samples were interpolated.
     #[error("channel \"{channel}\": {count} missing samples were interpolated, the first is sample {first}")]
     MissingInterpolated { channel: String, count: usize, first: usize },
     /// Repaired: gaps in time were filled.
-    #[error("{count} gaps were filled by interpolation, the longest is {} s", difference(*longest_s))]
+    #[error("{count} gaps were filled by interpolation, the longest is {} s", time_difference(*longest_s))]
     GapsFilled { count: usize, longest_s: f64 },
     /// Repaired: samples with the time of another were dropped.
     #[error("{count} samples with a time that had been there were dropped")]
@@ -74,8 +78,8 @@ pub enum Finding {
     Shortened { length: usize, longest: usize },
 }
 
-impl Finding {
-    /// A word for programs.
+impl RecordFinding {
+    /// Identifier of the kind of finding, for programs.
     #[must_use]
     pub const fn kind(&self) -> &'static str {
         match self {
@@ -101,7 +105,7 @@ impl Finding {
         }
     }
 
-    /// The channel it is about, if it is about one.
+    /// The channel concerned, if it is a single one.
     #[must_use]
     pub fn channel(&self) -> Option<&str> {
         match self {
@@ -115,7 +119,7 @@ impl Finding {
     }
 }
 
-/// What the user allows to be repaired; without it, it is an error.
+/// Repairs that the user permits; without permission each fault is an error.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a permission of its own")]
 pub struct Repairs {
@@ -125,7 +129,7 @@ pub struct Repairs {
     pub gaps: bool,
     /// Interpolate uneven samples to an even grid.
     pub uneven: bool,
-    /// Drop samples whose time was there before.
+    /// Drop samples with the time of an earlier one.
     pub duplicates: bool,
     /// Sort by time.
     pub order: bool,

@@ -7,12 +7,12 @@ pub(crate) fn forward(series: Vec<f64>) -> Vec<Complex<f64>> {
     let mut series = series;
     let transform = RealFftPlanner::new().plan_fft_forward(series.len());
     let mut spectrum = transform.make_output_vec();
-    transform.process(&mut series, &mut spectrum).expect("the lengths are those of the plan");
+    transform.process(&mut series, &mut spectrum).expect("the lengths match the plan");
     spectrum
 }
 
-/// The series of a transform, `N` values; imaginary parts of the first value and, for even `N`, of the last
-/// do not count.
+/// The series of a transform, `N` values; the imaginary parts of the first value and, for even `N`, of the
+/// last one are ignored.
 pub(crate) fn backward(mut spectrum: Vec<Complex<f64>>, length: usize) -> Vec<f64> {
     let transform = RealFftPlanner::new().plan_fft_inverse(length);
     spectrum[0].im = 0.0;
@@ -20,7 +20,7 @@ pub(crate) fn backward(mut spectrum: Vec<Complex<f64>>, length: usize) -> Vec<f6
         spectrum[length / 2].im = 0.0;
     }
     let mut series = transform.make_output_vec();
-    transform.process(&mut spectrum, &mut series).expect("the lengths are those of the plan");
+    transform.process(&mut spectrum, &mut series).expect("the lengths match the plan");
     series.iter_mut().for_each(|value| *value /= length as f64);
     series
 }

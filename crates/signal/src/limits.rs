@@ -1,8 +1,8 @@
-//! What is read and made at most: a wrong file or number then ends with a sentence, and not for want of
-//! memory or time.
+//! Upper limits of what is read and created: a wrong file or number then ends with a message, and does not
+//! exhaust memory or time.
 //!
-//! Every reader of the program opens its file here. A device, a pipe or an archive has no size that could be
-//! looked up beforehand, so no more than the limit is ever taken from any of them.
+//! Every reader of the program opens its file here. The size of a device, a pipe or an archive is not known
+//! beforehand, so no more than the limit is ever read from any of them.
 
 use std::{
     fs::File,
@@ -10,18 +10,16 @@ use std::{
     path::Path,
 };
 
-use crate::error::{SignalError, ensure};
-
-/// Bytes of a file of measurements, also of all that an archive unpacks to.
+/// Bytes of a file of measurements, also of everything that an archive unpacks to.
 pub const LARGEST_FILE: u64 = 256 << 20;
-/// Bytes of a file that someone has written by hand.
+/// Bytes of a file written by hand.
 pub const LARGEST_TEXT: u64 = 16 << 20;
-/// Samples of all channels of a record together, also of one that was filled up or sampled anew.
-pub const MOST_SAMPLES: usize = 1 << 25;
-/// Largest magnitude of a sample in its unit; with larger ones squares and their sums are not finite.
+/// Samples of all channels of a record together, also after filling gaps or resampling.
+pub const MAX_SAMPLES: usize = 1 << 25;
+/// Largest magnitude of a sample in its unit; the squares of larger ones and their sums are not finite.
 pub const LARGEST_SAMPLE: f64 = 1e60;
-/// Magnitude that the largest sample of a channel has at least, if it is not 0; of smaller ones no squares
-/// are left.
+/// Least magnitude of the largest sample of a channel that is not all zero; squares of smaller ones
+/// underflow.
 pub const SMALLEST_SAMPLE: f64 = 1e-60;
 
 /// Content of a file.
@@ -29,10 +27,10 @@ pub const SMALLEST_SAMPLE: f64 = 1e-60;
 /// * `most`: bytes it may have.
 ///
 /// # Errors
-/// The machine does not give the file, or it is larger.
+/// The operating system cannot give the file, or it is larger.
 pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
-    // What a device or a pipe says of its size is nothing.
+    // The size that a device or a pipe reports has no meaning.
     if file.metadata()?.len() > most {
         return Err(too_large(most));
     }
@@ -46,35 +44,10 @@ pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// * `most`: bytes it may have.
 ///
 /// # Errors
-/// The machine does not give the file, it is larger, or it is no text in UTF-8.
+/// The operating system cannot give the file, it is larger, or it is not text in UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text in UTF-8");
     String::from_utf8(read_bytes(path, most)?).map_err(no_text)
-}
-
-/// Whether a character is none that is seen: what a terminal obeys, ends a line, turns the direction of
-/// writing, has no width, or is a tag.
-#[must_use]
-pub fn is_control(character: char) -> bool {
-    character.is_control()
-        || matches!(
-            character,
-            '\u{61c}'
-                | '\u{200b}'..='\u{200f}'
-                | '\u{2028}'..='\u{202e}'
-                | '\u{2060}'..='\u{206f}'
-                | '\u{feff}'
-                | '\u{e0000}'..='\u{e007f}'
-        )
-}
-
-/// Refuses to make a record of so many samples.
-///
-/// # Errors
-/// [`SignalError::Input`] beyond [`MOST_SAMPLES`].
-pub(crate) fn ensure_count(samples: f64) -> Result<(), SignalError> {
-    let allowed = format!("at most {MOST_SAMPLES}");
-    ensure("the number of samples at the new rate", samples, allowed, samples <= MOST_SAMPLES as f64)
 }
 
 fn too_large(most: u64) -> io::Error {

@@ -1,21 +1,25 @@
 //! A record: channels with one sampling rate, in SI units, nothing missing.
 
-use crate::{error::SignalError, finding::Finding, judge::RecordError, unit::Quantity};
+use crate::{
+    error::{RecordError, SignalError},
+    finding::RecordFinding,
+    unit::MeasuredQuantity,
+};
 
 /// One measured or computed quantity over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     /// Name in the file.
     pub name: String,
-    /// Unit in the file, as it was written there.
+    /// Unit as written in the file.
     pub unit: Option<String>,
     /// What it measures.
-    pub quantity: Quantity,
-    /// Samples; in SI, or in the unit of the file if that is [`Quantity::Other`].
+    pub quantity: MeasuredQuantity,
+    /// Samples; in SI, or in the unit of the file for [`MeasuredQuantity::Other`].
     pub samples: Vec<f64>,
 }
 
-/// Channels that were sampled together; sample `k` was taken at `start + k / rate`.
+/// Channels that were sampled together; sample `k` is the value at `start + k / rate`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// Sampling rate [Hz].
@@ -25,7 +29,7 @@ pub struct Record {
     /// The channels, all of one length.
     pub channels: Vec<Channel>,
     /// What is suspicious, and what was repaired.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<RecordFinding>,
 }
 
 impl Record {
@@ -35,13 +39,13 @@ impl Record {
         self.channels.first().map_or(0, |channel| channel.samples.len())
     }
 
-    /// Whether there is nothing in it.
+    /// Whether it has no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Time from the first to behind the last sample [s].
+    /// Number of samples over the sampling rate: the last sample counts with its step [s].
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.len() as f64 / self.sampling_rate_hz
@@ -50,7 +54,7 @@ impl Record {
     /// Index of a channel by its name.
     ///
     /// # Errors
-    /// [`RecordError::NoSuchChannel`] with the names there are.
+    /// [`RecordError::NoSuchChannel`] with the names of all channels.
     pub fn find(&self, name: &str) -> Result<usize, RecordError> {
         self.channels.iter().position(|channel| channel.name == name).ok_or_else(|| {
             RecordError::NoSuchChannel {
@@ -65,13 +69,13 @@ impl Record {
         })
     }
 
-    /// The part between two times [s], both counted like the samples' own times.
+    /// The samples from one time to another [s], on the time axis of the record.
     ///
     /// # Errors
     /// [`SignalError::EmptyPart`] if fewer than two samples lie there.
     pub fn part(&self, from_s: f64, to_s: f64) -> Result<Self, SignalError> {
         let index = |time: f64| ((time - self.start_s) * self.sampling_rate_hz).clamp(0.0, self.len() as f64);
-        // A time that is meant to be that of a sample counts as such in spite of rounding.
+        // The tolerance keeps the sample at a time that rounding has moved past it.
         let first = (index(from_s) - 1e-6).ceil() as usize;
         let last = ((index(to_s) + 1e-6).floor() as usize + 1).min(self.len());
         if last < first + 2 {

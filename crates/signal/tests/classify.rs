@@ -5,8 +5,10 @@ use std::f64::consts::PI;
 
 use hammerbeam_signal::{
     SignalError,
-    classify::{Classification, ClassifySettings, Doubt, Motion, classify, excitation_frequency},
-    random::Random,
+    classify::{
+        Classification, ClassificationDoubt, ClassifySettings, MotionClass, classify, excitation_frequency,
+    },
+    random::RandomSource,
 };
 
 const RATE: f64 = 2000.0;
@@ -14,7 +16,7 @@ const EXCITATION: f64 = 31.37;
 
 /// A motion of parts (order over the excitation frequency, amplitude, phase), with noise.
 fn motion(parts: &[(f64, f64, f64)], noise: f64, seconds: f64) -> Vec<f64> {
-    let mut random = Random::new(11);
+    let mut random = RandomSource::new(11);
     (0..(seconds * RATE) as usize)
         .map(|k| {
             let t = 2.0 * PI * EXCITATION * k as f64 / RATE;
@@ -30,7 +32,7 @@ fn of(series: &[f64]) -> Classification {
 #[track_caller]
 fn assert_periodic(series: &[f64], period_multiple: usize) {
     let found = of(series);
-    assert_eq!(found.motion, Motion::Periodic { period_multiple }, "{:?}", found.repetitions);
+    assert_eq!(found.motion, MotionClass::Periodic { period_multiple }, "{:?}", found.repetitions);
 }
 
 #[test]
@@ -51,7 +53,10 @@ fn weak_subharmonic_counts_from_its_limit_on() {
     assert_periodic(&motion(&[(1.0, 1.0, 0.3), (0.5, 0.002, 1.0)], 0.01, 20.0), 1);
     let between = of(&motion(&[(1.0, 1.0, 0.3), (0.5, 0.01, 1.0)], 0.01, 20.0)).motion;
     assert!(
-        matches!(between, Motion::Doubtful { reason: Doubt::WeakSubharmonic { period_multiple: 2, .. } }),
+        matches!(
+            between,
+            MotionClass::Doubtful { reason: ClassificationDoubt::WeakSubharmonic { period_multiple: 2, .. } }
+        ),
         "{between:?}"
     );
 }
@@ -59,7 +64,7 @@ fn weak_subharmonic_counts_from_its_limit_on() {
 #[test]
 fn quasi_periodic_motion_is_aperiodic() {
     let series = motion(&[(1.0, 1.0, 0.3), ((5.0_f64.sqrt() - 1.0) / 2.0, 0.5, 1.0)], 0.01, 20.0);
-    assert_eq!(of(&series).motion, Motion::Aperiodic);
+    assert_eq!(of(&series).motion, MotionClass::Aperiodic);
 }
 
 /// Duffing's equation of Ueda, `x'' + 0.05 x' + x³ = 7.5 cos t`, is chaotic (Ueda, J. Stat. Phys. 20 (1979),
@@ -83,27 +88,36 @@ fn chaotic_motion_is_aperiodic() {
         }
     }
     let found = classify(&series, 200.0, 1.0, &ClassifySettings::default()).unwrap();
-    assert_eq!(found.motion, Motion::Aperiodic, "{:?}", found.repetitions);
+    assert_eq!(found.motion, MotionClass::Aperiodic, "{:?}", found.repetitions);
 }
 
 #[test]
-fn doubtful_motions_are_called_so() {
+fn doubtful_motions_are_doubtful_with_their_reason() {
     let between = of(&motion(&[(1.0, 1.0, 0.3), (0.618_034, 0.1, 1.0)], 0.0, 20.0)).motion;
-    assert!(matches!(between, Motion::Doubtful { reason: Doubt::BetweenLimits { .. } }), "{between:?}");
+    assert!(
+        matches!(between, MotionClass::Doubtful { reason: ClassificationDoubt::BetweenLimits { .. } }),
+        "{between:?}"
+    );
     let noisy = of(&motion(&[(1.0, 1.0, 0.3)], 1.0, 20.0)).motion;
-    assert!(matches!(noisy, Motion::Doubtful { reason: Doubt::Noise { .. } }), "{noisy:?}");
+    assert!(
+        matches!(noisy, MotionClass::Doubtful { reason: ClassificationDoubt::Noise { .. } }),
+        "{noisy:?}"
+    );
     let mut falling = motion(&[(1.0, 1.0, 0.3)], 0.01, 20.0);
     falling.iter_mut().enumerate().for_each(|(k, value)| *value *= (-2e-5 * k as f64).exp());
     let unsettled = of(&falling).motion;
-    assert!(matches!(unsettled, Motion::Doubtful { reason: Doubt::NotSettled { .. } }), "{unsettled:?}");
+    assert!(
+        matches!(unsettled, MotionClass::Doubtful { reason: ClassificationDoubt::NotSettled { .. } }),
+        "{unsettled:?}"
+    );
 }
 
 #[test]
-fn frequency_that_is_a_little_off_is_corrected_and_told() {
+fn frequency_that_is_a_little_off_is_corrected_and_reported() {
     let series = motion(&[(1.0, 1.0, 0.3), (0.5, 0.5, 1.0)], 0.01, 20.0);
     let found = classify(&series, RATE, EXCITATION + 0.01, &ClassifySettings::default()).unwrap();
-    assert_eq!(found.motion, Motion::Periodic { period_multiple: 2 });
-    // Noise of 0.01 over 40 000 samples leaves 1e-6 cycles a part.
+    assert_eq!(found.motion, MotionClass::Periodic { period_multiple: 2 });
+    // Noise of 0.01 over 40 000 samples leaves 1e-6 cycles per part.
     assert!(
         (found.correction_hz + 0.01).abs() < 1e-4 && (found.frequency_hz - EXCITATION).abs() < 1e-4,
         "{found:?}"

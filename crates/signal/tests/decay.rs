@@ -7,7 +7,7 @@ use hammerbeam_signal::{
     SignalError,
     decay::{DecaySettings, decrement, free_decay},
     filter::{Band, butterworth},
-    random::Random,
+    random::RandomSource,
 };
 
 const RATE: f64 = 1000.0;
@@ -16,7 +16,7 @@ const RATE: f64 = 1000.0;
 type Mode = (f64, f64, f64, f64);
 
 fn decay(modes: &[Mode], samples: usize, noise: f64, seed: u64) -> Vec<f64> {
-    let mut random = Random::new(seed);
+    let mut random = RandomSource::new(seed);
     let value = |k: usize| {
         let t = k as f64 / RATE;
         let mode = |&(f, d, amplitude, phase): &Mode| {
@@ -48,7 +48,7 @@ fn coverage(
     counts
 }
 
-/// With a chance of 95 % each, 90 of 100 are reached but for 1 in 35 sets of seeds; these are fixed.
+/// At 95 % each, 90 of 100 are reached except in 1 of 35 sets of seeds; the seeds are fixed.
 #[track_caller]
 fn assert_covered(counts: &[(u32, u32)]) {
     assert!(
@@ -79,11 +79,10 @@ fn close_modes_lie_in_their_intervals() {
     }));
 }
 
-/// Behind a low-pass filter the noise is coloured: an interval from the variance alone would be too small by
-/// three. The first 0.1 s are left out: there the filter still settles, and that is no decay of the
-/// structure.
+/// After a low-pass filter the noise is coloured: an interval from the variance alone would be too small by a
+/// factor of three. The first 0.1 s, in which the filter settles, are left out.
 #[test]
-fn intervals_hold_behind_a_filter() {
+fn intervals_hold_after_a_filter() {
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 60.0 }, RATE).unwrap();
     for damping in [0.003, 0.015] {
         assert_covered(&coverage(&[(17.2, damping, 1.0, 0.4)], 8000, 0.3, |series| {
@@ -126,7 +125,7 @@ fn exact_decay_is_recovered_to_rounding() {
     }
 }
 
-/// As many modes as are there, neither fewer nor more, in 100 decays.
+/// Neither fewer nor more modes than there are, in 100 decays.
 #[test]
 fn number_of_modes_is_found() {
     let modes = [(17.2, 0.003, 1.0, 0.4), (128.9, 0.015, 0.5, -1.0), (378.9, 0.01, 0.2, 2.0)];
@@ -137,12 +136,12 @@ fn number_of_modes_is_found() {
         })
         .collect();
     let right = counts.iter().filter(|count| **count == 3).count();
-    // Noise passes with a chance of 1e-4 or less.
+    // Noise passes with a probability of at most 1e-4.
     assert!(right >= 99, "{right} of 100: {counts:?}");
 }
 
 #[test]
-fn damping_that_grows_with_time_is_told() {
+fn damping_that_grows_with_time_is_reported() {
     // Coulomb friction: the amplitude falls in a straight line, so the decrement grows.
     let series: Vec<f64> = (0..4000)
         .map(|k| {
@@ -157,8 +156,7 @@ fn damping_that_grows_with_time_is_told() {
     assert!(found.changes() == Some(true) && second.value > first.value, "{found:?}");
 }
 
-/// Damping of 0.15: four or five maxima stand out of the noise. They say the decrement, and nothing about its
-/// course.
+/// Damping of 0.15: four or five maxima exceed the noise. They determine the decrement, but not its change.
 #[test]
 fn few_maxima_of_a_viscous_decay_do_not_show_a_change() {
     let (mut covered, mut fewest, mut most) = (0, usize::MAX, 0);
@@ -175,8 +173,7 @@ fn few_maxima_of_a_viscous_decay_do_not_show_a_change() {
     assert!(covered >= 90, "{covered} of 100");
 }
 
-/// Where there are enough maxima, a viscous decay is rarely said to change: intervals of 95 % of two halves
-/// that do not meet.
+/// With enough maxima a viscous decay rarely appears to change: the 95 % intervals of its halves overlap.
 #[test]
 fn viscous_decays_do_not_change() {
     let changed = (0..100).filter(|seed| {

@@ -1,14 +1,14 @@
 //! Filters with low cut-offs against the same filters in arithmetic of 60 digits.
 //!
-//! Here SciPy's own rounding can be more than 1e-12 of the largest value (`scipy_.._off_by` in
-//! `fixtures/exact_filters.json`, up to 2e-10), so it is no measure: poles near one amplify the rounding of
-//! coefficients in powers of z. Ours are in powers of z - 1.
+//! Here the rounding of SciPy can exceed 1e-12 of the largest value (`scipy_.._off_by` in
+//! `fixtures/exact_filters.json`, up to 2e-10), so it is not a reference: poles near one amplify the rounding
+//! of coefficients in powers of z. Ours are in powers of z - 1.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_signal::filter::{Band, butterworth};
 use serde_json::Value;
 
-/// In parts of the largest value. The worst case here is at 4e-14, a band-pass filter of order 8.
+/// Relative to the largest value. The worst case here has 4e-14, a band-pass filter of order 8.
 const TOLERANCE: f64 = 1e-13;
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -16,7 +16,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn filters_with_low_cut_offs_are_those_of_exact_arithmetic() {
+fn filters_with_low_cut_offs_match_exact_arithmetic() {
     let cases: Value = serde_json::from_str(include_str!("fixtures/exact_filters.json")).unwrap();
     let x: Vec<f64> = (0..2000_u32).map(|n| f64::from((7 * n * n + 13 * n) % 1009) / 256.0 - 1.5).collect();
     let mut failed = Vec::new();
@@ -42,9 +42,8 @@ fn filters_with_low_cut_offs_are_those_of_exact_arithmetic() {
         let causal = off_by(&filter.causal_from_rest(&x), "causal");
         let zero_phase = off_by(&filter.zero_phase(&x).unwrap(), "zero_phase");
         if causal.max(zero_phase) > TOLERANCE {
-            failed.push(format!(
-                "{band:?} of order {order}: causal {causal:.1e}, without phase {zero_phase:.1e}"
-            ));
+            failed
+                .push(format!("{band:?} of order {order}: causal {causal:.1e}, zero-phase {zero_phase:.1e}"));
         }
     }
     assert!(failed.is_empty(), "{failed:#?}");

@@ -1,4 +1,4 @@
-//! Largest exponents from series of the systems on which the methods' authors tried them.
+//! Largest exponents from series of the systems that the authors of the methods used.
 //!
 //! | system | parameters | sampling | largest exponent |
 //! |---|---|---|---|
@@ -7,9 +7,9 @@
 //! | Lorenz | 16, 45.92, 4 | 0.01 s | 1.50 1/s (2.16 bits/s) |
 //! | Rössler | 0.15, 0.2, 10 | 0.1 s | 0.090 1/s (0.13 bits/s) |
 //!
-//! Exponents by Wolf et al. 1985, table 1; delays, dimensions and lengths by Rosenstein et al. 1993. A single
-//! record of these lengths scatters by several per cent with its beginning, so each case is run from five
-//! beginnings.
+//! Exponents by Wolf et al. 1985, table 1; delays, dimensions and lengths by Rosenstein et al. 1993. The
+//! exponent of a single record of these lengths depends on its initial state by several per cent, so each
+//! case is run from five initial states.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::f64::consts::PI;
@@ -38,7 +38,7 @@ enum Method {
     Kantz,
 }
 
-/// Relative errors from five beginnings, the smallest first.
+/// Relative errors from five initial states, the smallest first.
 fn errors(
     (series, rate, (delay, dimension), exponent): System,
     length: usize,
@@ -62,7 +62,7 @@ fn errors(
     errors
 }
 
-/// The middle one within one bound, all within another.
+/// The median within one bound, all within another.
 #[track_caller]
 fn assert_within(errors: &[f64], middle: f64, all: f64) {
     assert!(errors[2].abs() <= middle && errors.iter().all(|error| error.abs() <= all), "{errors:.3?}");
@@ -80,10 +80,10 @@ fn rosenstein_1993_lorenz() {
     assert_within(&errors(LORENZ, 5000, Method::Rosenstein, StraightPart::Found), 0.05, 0.10);
 }
 
-/// Missed when the part is found automatically. Distances to nearest neighbours have a part along the motion,
-/// which does not grow, so the curve is flatter than the exponent until what lies across the motion outweighs
-/// it; by then it feels the size of the attractor. (Distances across the motion alone give 0.9 to 1.0 of the
-/// exponent here, but 1.15 of Lorenz'.)
+/// Missed when the part is found automatically. Distances to nearest neighbours have a component along the
+/// motion, which does not grow. So the curve is flatter than the exponent until the component across the
+/// motion dominates; by then the size of the attractor limits it. (Distances across the motion alone give 0.9
+/// to 1.0 of the exponent here, but 1.15 of Lorenz'.)
 #[test]
 fn rosenstein_1993_roessler_comes_out_a_sixth_too_small() {
     let errors = errors(ROESSLER, 20_000, Method::Rosenstein, StraightPart::Found);
@@ -91,8 +91,8 @@ fn rosenstein_1993_roessler_comes_out_a_sixth_too_small() {
 }
 
 /// The authors give 0.0879 from a record of 2000 samples, 2 % too small, with the part chosen by eye
-/// (`rosenstein_1993.rs`). With ten times as many samples more is missing: over the part in which the mean of
-/// several curves is steepest, and over the period of steepest growth.
+/// (`rosenstein_1993.rs`). With ten times as many samples the error is larger, both over the part in which
+/// the mean of several curves is steepest and over the period of steepest growth.
 #[test]
 fn rosenstein_1993_roessler_with_the_straight_part_given() {
     assert_within(&errors(ROESSLER, 20_000, Method::Rosenstein, StraightPart::Given(230, 320)), 0.15, 0.25);
@@ -113,8 +113,8 @@ fn wolf_1985_lorenz_and_roessler() {
     assert_within(&errors(ROESSLER, 20_000, Method::Wolf, StraightPart::Found), 0.05, 0.10);
 }
 
-/// The straight part of Lorenz' curve is given, as the authors choose it by eye; what is found by itself
-/// gives up to 15 % too much.
+/// The straight part of Lorenz' curve is given, as the authors choose it by eye; the part found
+/// automatically gives up to 15 % too much.
 #[test]
 fn kantz_1994() {
     assert_within(&errors(LOGISTIC, 5000, Method::Kantz, StraightPart::Found), 0.04, 0.06);
@@ -122,7 +122,7 @@ fn kantz_1994() {
     assert_within(&errors(LORENZ, 5000, Method::Kantz, StraightPart::Given(40, 120)), 0.05, 0.15);
 }
 
-/// Rosenstein et al. use 11 and 3 for Lorenz, 1 and 2 for Hénon. Of the logistic map one coordinate is the
+/// Rosenstein et al. use 11 and 3 for Lorenz, 1 and 2 for Hénon. One coordinate of the logistic map is its
 /// state.
 #[test]
 fn delay_and_dimension_are_those_of_the_authors() {
@@ -138,7 +138,7 @@ fn delay_and_dimension_are_those_of_the_authors() {
 
 /// With all choices automatic, whether the rate of sampling is a multiple of the frequency or not.
 #[test]
-fn motion_that_repeats_exactly_is_told_and_has_no_exponent() {
+fn motion_that_repeats_exactly_is_refused_without_exponent() {
     let sine = |k: f64| (2.0 * PI * 0.013 * k).sin();
     // An impact once a period of 200 samples: a short pulse on a harmonic.
     let impacts = |k: f64| {
@@ -157,7 +157,7 @@ fn motion_that_repeats_exactly_is_told_and_has_no_exponent() {
     }
 }
 
-/// Nearly coinciding states beside each other: a false neighbour is false, however near the true one is.
+/// Nearly coinciding states: a false neighbour is false, however near the true one is.
 #[test]
 fn dimension_of_a_motion_that_nearly_repeats_is_not_one() {
     // A drift of 1e-4 of the amplitude in each period of 100 samples.
@@ -189,7 +189,7 @@ fn motion_with_two_frequencies_or_one_that_the_sampling_misses_has_no_positive_e
 #[test]
 fn states_that_have_neighbours_are_counted() {
     // Noise in ten dimensions: some states have neighbours within the largest radius, most have not.
-    let mut random = hammerbeam_signal::random::Random::new(3);
+    let mut random = hammerbeam_signal::random::RandomSource::new(3);
     let series: Vec<f64> = (0..400).map(|_| random.normal()).collect();
     let choice = EmbeddingChoice { delay: Some(1), dimension: Some(6), theiler_window: Some(1) };
     let embedding = embedding(&series, &choice).unwrap();

@@ -13,7 +13,7 @@ use hammerbeam_signal::{
 };
 use serde_json::Value;
 
-/// Relative to the largest value of a result; what is asked of us.
+/// Relative to the largest value of a result.
 const TOLERANCE: f64 = 1e-12;
 
 fn results() -> Value {
@@ -51,7 +51,7 @@ fn butterworth_filters() {
         let order = whole(&case["order"]);
         let filter = butterworth(order, band, case["rate"].as_f64().unwrap()).unwrap();
         let what = format!("{band:?} of order {order}");
-        assert_same(&filter.zero_phase(&x).unwrap(), &case["zero_phase"], &format!("{what}, without phase"));
+        assert_same(&filter.zero_phase(&x).unwrap(), &case["zero_phase"], &format!("{what}, zero-phase"));
         assert_same(&filter.causal_from_rest(&x), &case["causal"], &format!("{what}, causal"));
         assert_same(&filter.causal(&x), &case["settled"], &format!("{what}, causal and settled"));
     }
@@ -148,7 +148,7 @@ fn envelopes() {
         (0..4000).map(|k| 7.0 + (-1e-3 * f64::from(k)).exp() * (0.5 * f64::from(k)).cos()).collect();
     let envelope = envelope(&decay).unwrap();
     for k in (1000..3000).step_by(100) {
-        // d/w is 2e-3, and the ends reach in.
+        // d/w is 2e-3, and the ends have an influence.
         assert!((envelope[k] * (1e-3 * k as f64).exp() - 1.0).abs() < 0.01, "sample {k}");
     }
 }

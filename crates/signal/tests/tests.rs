@@ -6,6 +6,7 @@ mod decay;
 mod exact_filters;
 mod exponent;
 mod formats;
+mod refused_files;
 mod rosenstein_1993;
 mod scipy;
 mod systems;

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_signal::{
-    Quantity,
-    points::{Kind, Maxima, MeasuredPoint},
-    random::Random,
+    MeasuredQuantity,
+    points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
+    random::RandomSource,
 };
 use hammerbeam_study::comparison::{
     BranchCurve, Comparison, ComparisonError, CurvePoint, Curves, Estimate, FitSettings, Fixed, Origin,
@@ -37,14 +37,14 @@ fn curves() -> Curves {
 /// Points as a rig would show them whose frequencies are `factor` too low and whose values are `amplitude`
 /// too small.
 fn measured(factor: f64, amplitude: f64, noise: f64, seed: u64) -> Vec<MeasuredPoint> {
-    let mut random = Random::new(seed);
+    let mut random = RandomSource::new(seed);
     let mut point = |branch: u32, f: f64, period: u32| {
         let acceleration = value(branch, f) / amplitude * (noise * random.normal()).exp();
         MeasuredPoint {
             origin: format!("{f}"),
             frequency_hz: f / factor,
-            maxima: Maxima { acceleration: Some(acceleration), ..Maxima::default() },
-            kind: Kind::Periodic { period_multiple: Some(period) },
+            maxima: MeasuredMaxima { acceleration: Some(acceleration), ..MeasuredMaxima::default() },
+            kind: MeasuredKind::Periodic { period_multiple: Some(period) },
             excitation: None,
         }
     };
@@ -56,7 +56,7 @@ fn measured(factor: f64, amplitude: f64, noise: f64, seed: u64) -> Vec<MeasuredP
 }
 
 fn held(points: &[MeasuredPoint], settings: &FitSettings) -> Comparison {
-    compare(points, &curves(), Quantity::Acceleration, settings).unwrap()
+    compare(points, &curves(), MeasuredQuantity::Acceleration, settings).unwrap()
 }
 
 #[test]
@@ -123,17 +123,17 @@ fn given_numbers_are_kept_and_the_residual_is_told_before_and_after() {
 fn each_point_has_its_verdict() {
     let mut points = measured(1.0, 1.0, 0.0, 1);
     let count = points.len();
-    let mut odd = |kind: Kind, frequency_hz: f64, acceleration: f64| {
-        let maxima = Maxima { acceleration: Some(acceleration), ..Maxima::default() };
+    let mut odd = |kind: MeasuredKind, frequency_hz: f64, acceleration: f64| {
+        let maxima = MeasuredMaxima { acceleration: Some(acceleration), ..MeasuredMaxima::default() };
         points.push(MeasuredPoint { origin: "odd".into(), frequency_hz, maxima, kind, excitation: None });
     };
-    odd(Kind::Periodic { period_multiple: Some(1) }, 60.0, 1e5);
-    odd(Kind::Periodic { period_multiple: Some(1) }, 34.5, value(1, 34.5));
-    odd(Kind::Periodic { period_multiple: Some(3) }, 60.0, 100.0);
-    odd(Kind::Aperiodic, 60.0, 100.0);
-    odd(Kind::Doubtful, 60.0, 100.0);
-    odd(Kind::Unknown, 66.0, value(2, 66.0));
-    odd(Kind::Periodic { period_multiple: Some(1) }, 25.0, value(3, 25.0));
+    odd(MeasuredKind::Periodic { period_multiple: Some(1) }, 60.0, 1e5);
+    odd(MeasuredKind::Periodic { period_multiple: Some(1) }, 34.5, value(1, 34.5));
+    odd(MeasuredKind::Periodic { period_multiple: Some(3) }, 60.0, 100.0);
+    odd(MeasuredKind::Aperiodic, 60.0, 100.0);
+    odd(MeasuredKind::Doubtful, 60.0, 100.0);
+    odd(MeasuredKind::Unknown, 66.0, value(2, 66.0));
+    odd(MeasuredKind::Periodic { period_multiple: Some(1) }, 25.0, value(3, 25.0));
     let fixed =
         FitSettings { frequency: Fixed::Given(1.0), amplitude: Fixed::Given(1.0), ..FitSettings::default() };
     let found = held(&points, &fixed).points.split_off(count);
@@ -177,12 +177,13 @@ fn a_second_minimum_that_is_about_as_good_is_told_and_one_that_is_not_is_not() {
         let value = 1.0 + 5.0 * (-((frequency_hz / 30.0).ln() / 0.02).powi(2)).exp();
         // Differences of 3 %.
         let value = value * (1.0 + 0.03 * (17.0 * f64::from(k)).sin());
-        let maxima = Maxima { acceleration: Some(value), ..Maxima::default() };
-        let kind = Kind::Periodic { period_multiple: Some(1) };
+        let maxima = MeasuredMaxima { acceleration: Some(value), ..MeasuredMaxima::default() };
+        let kind = MeasuredKind::Periodic { period_multiple: Some(1) };
         points.push(MeasuredPoint { origin: "point".into(), frequency_hz, maxima, kind, excitation: None });
     }
     let settings = FitSettings { amplitude: Fixed::Given(1.0), ..FitSettings::default() };
-    let fit = |second| compare(&points, &curves(second), Quantity::Acceleration, &settings).unwrap().fit;
+    let fit =
+        |second| compare(&points, &curves(second), MeasuredQuantity::Acceleration, &settings).unwrap().fit;
     let found = fit(5.02);
     assert!((found.frequency.value - 1.0).abs() < 2e-3, "{found:?}");
     let second = found.second.unwrap();
@@ -207,13 +208,13 @@ fn estimate_at_an_end_is_told_and_has_no_standard_error() {
     let points: Vec<MeasuredPoint> = (0..20)
         .map(|k| {
             let f = 25.0 + 0.5 * f64::from(k);
-            let maxima = Maxima { acceleration: Some(f.powi(3)), ..Maxima::default() };
-            let kind = Kind::Periodic { period_multiple: Some(1) };
+            let maxima = MeasuredMaxima { acceleration: Some(f.powi(3)), ..MeasuredMaxima::default() };
+            let kind = MeasuredKind::Periodic { period_multiple: Some(1) };
             MeasuredPoint { origin: "point".into(), frequency_hz: f / 1.25, maxima, kind, excitation: None }
         })
         .collect();
     let settings = FitSettings { amplitude: Fixed::Given(1.0), ..FitSettings::default() };
-    let found = compare(&points, &curves, Quantity::Acceleration, &settings).unwrap();
+    let found = compare(&points, &curves, MeasuredQuantity::Acceleration, &settings).unwrap();
     assert_eq!(found.fit.frequency.value, 1.18);
     assert_eq!(found.fit.frequency.origin, Origin::AtEnd { low: 0.85, high: 1.18 });
     // Interpolated on a curve of rows 0.01 Hz apart.
@@ -223,12 +224,15 @@ fn estimate_at_an_end_is_told_and_has_no_standard_error() {
         .iter()
         .map(|point| MeasuredPoint {
             frequency_hz: 1.25 * point.frequency_hz,
-            maxima: Maxima { acceleration: point.maxima.acceleration.map(|a| a / 40.0), ..Maxima::default() },
+            maxima: MeasuredMaxima {
+                acceleration: point.maxima.acceleration.map(|a| a / 40.0),
+                ..MeasuredMaxima::default()
+            },
             ..point.clone()
         })
         .collect();
     let settings = FitSettings { frequency: Fixed::Given(1.0), ..FitSettings::default() };
-    let found = compare(&small, &curves, Quantity::Acceleration, &settings).unwrap();
+    let found = compare(&small, &curves, MeasuredQuantity::Acceleration, &settings).unwrap();
     assert!((found.fit.amplitude.value / 20.0 - 1.0).abs() < 1e-12, "{:?}", found.fit);
     assert_eq!(found.fit.amplitude.ends(), Some((0.05, 20.0)));
     assert!((found.after.rms - 2.0_f64.ln()).abs() < 1e-6, "{:?}", found.after);
@@ -274,20 +278,20 @@ fn lowest_of_the_refined_minima_is_taken() {
             let frequency_hz = 29.22 + 0.04 * f64::from(k);
             // A difference that no shift explains.
             let value = (bell(frequency_hz, 30.0) + 0.02 * (17.0 * f64::from(k)).sin()).exp();
-            let maxima = Maxima { acceleration: Some(value), ..Maxima::default() };
-            let kind = Kind::Periodic { period_multiple: Some(1) };
+            let maxima = MeasuredMaxima { acceleration: Some(value), ..MeasuredMaxima::default() };
+            let kind = MeasuredKind::Periodic { period_multiple: Some(1) };
             MeasuredPoint { origin: "point".into(), frequency_hz, maxima, kind, excitation: None }
         })
         .collect();
     let given = |factor: f64| {
         let (frequency, amplitude) = (Fixed::Given(factor), Fixed::Given(1.0));
         let settings = FitSettings { frequency, amplitude, ..FitSettings::default() };
-        compare(&points, &curves, Quantity::Acceleration, &settings).unwrap().after.rms
+        compare(&points, &curves, MeasuredQuantity::Acceleration, &settings).unwrap().after.rms
     };
     // On the grid the first one is better, off it the second.
     assert!(given(1.0) < given(1.1).min(given(1.1005)) && given(1.10025) < given(1.0));
     let settings = FitSettings { amplitude: Fixed::Given(1.0), ..FitSettings::default() };
-    let found = compare(&points, &curves, Quantity::Acceleration, &settings).unwrap().fit;
+    let found = compare(&points, &curves, MeasuredQuantity::Acceleration, &settings).unwrap().fit;
     assert!((found.frequency.value - 1.10025).abs() < 1e-4, "{found:?}");
     let other = found.second.unwrap();
     assert!((other.frequency - 1.0).abs() < 1e-3 && other.cost_ratio > 1.0 && !other.at_end, "{other:?}");
@@ -296,9 +300,9 @@ fn lowest_of_the_refined_minima_is_taken() {
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let points = measured(1.0, 1.0, 0.0, 1);
-    let none = compare(&points, &curves(), Quantity::Force, &FitSettings::default());
+    let none = compare(&points, &curves(), MeasuredQuantity::Force, &FitSettings::default());
     assert_eq!(none, Err(ComparisonError::NothingMeasured { quantity: "force" }));
-    let few = compare(&points[..2], &curves(), Quantity::Acceleration, &FitSettings::default());
+    let few = compare(&points[..2], &curves(), MeasuredQuantity::Acceleration, &FitSettings::default());
     assert!(
         matches!(few, Err(ComparisonError::TooFewPoints { fitted: 2, measured: 2, met: 2, near: 2, .. })),
         "{few:?}"
@@ -307,7 +311,7 @@ fn what_cannot_be_compared_is_refused() {
     // that were read as metres.
     let far: Vec<_> = measured(1.0, 1e-3, 0.0, 1);
     let given = FitSettings { frequency: Fixed::Given(1.0), ..FitSettings::default() };
-    let found = compare(&far, &curves(), Quantity::Acceleration, &given).unwrap_err();
+    let found = compare(&far, &curves(), MeasuredQuantity::Acceleration, &given).unwrap_err();
     let all = far.len();
     assert!(
         matches!(found, ComparisonError::TooFewPoints { quantity: "acceleration", measured, met, near: 0, .. } if (measured, met) == (all, all)),
@@ -324,8 +328,8 @@ fn what_cannot_be_compared_is_refused() {
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     // The square of the reach, without what rounding makes of it: 1.1^2 = 1.2100000000000002.
     for (reach, told) in [(1.1, "a factor of 1.21 of"), (1.0001, "a factor of 1.0002 of")] {
-        let found =
-            compare(&far, &curves(), Quantity::Acceleration, &FitSettings { reach, ..given }).unwrap_err();
+        let found = compare(&far, &curves(), MeasuredQuantity::Acceleration, &FitSettings { reach, ..given })
+            .unwrap_err();
         assert!(found.to_string().contains(told), "{found}");
     }
     for settings in [
@@ -334,7 +338,7 @@ fn what_cannot_be_compared_is_refused() {
         FitSettings { frequency: Fixed::Given(-1.0), ..FitSettings::default() },
         FitSettings { frequency: Fixed::Fitted { low: 1.1, high: 1.1 }, ..FitSettings::default() },
     ] {
-        let refused = compare(&points, &curves(), Quantity::Acceleration, &settings);
+        let refused = compare(&points, &curves(), MeasuredQuantity::Acceleration, &settings);
         assert!(matches!(refused, Err(ComparisonError::Input { .. })), "{refused:?}");
     }
 }

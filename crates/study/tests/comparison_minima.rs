@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_signal::{
-    Quantity,
-    points::{Kind, Maxima, MeasuredPoint},
-    random::Random,
+    MeasuredQuantity,
+    points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
+    random::RandomSource,
 };
 use hammerbeam_study::comparison::{
     BranchCurve, Comparison, CurvePoint, Curves, FitSettings, Fixed, Verdict, compare,
@@ -27,14 +27,14 @@ fn point(frequency_hz: f64, value: f64, period: u32) -> MeasuredPoint {
     MeasuredPoint {
         origin: "point".into(),
         frequency_hz,
-        maxima: Maxima { displacement: Some(value), ..Maxima::default() },
-        kind: Kind::Periodic { period_multiple: Some(period) },
+        maxima: MeasuredMaxima { displacement: Some(value), ..MeasuredMaxima::default() },
+        kind: MeasuredKind::Periodic { period_multiple: Some(period) },
         excitation: None,
     }
 }
 
 fn held(points: &[MeasuredPoint], curves: &Curves, settings: &FitSettings) -> Comparison {
-    compare(points, curves, Quantity::Displacement, settings).unwrap()
+    compare(points, curves, MeasuredQuantity::Displacement, settings).unwrap()
 }
 
 /// Eigenfrequencies of 1 to 1000 Hz and half widths down to 0.05 %: the offset is tried on a scale of the
@@ -80,7 +80,7 @@ fn sum_of_squares_beside_the_end_of_a_branch_is_no_larger_than_at_the_true_shift
     let low = |f: f64| 0.3 + 0.01 * (f - 35.0);
     let curves = Curves::new(vec![branch(1, (28.0, 36.0), high), branch(2, (35.5, 44.0), low)]);
     for seed in 0..40 {
-        let mut random = Random::new(seed);
+        let mut random = RandomSource::new(seed);
         let (factor, amplitude) =
             (0.95 + 0.003 * f64::from(seed as u32), 2.0 + 0.05 * f64::from(seed as u32));
         let mut noisy =
@@ -146,7 +146,7 @@ fn no_factor_and_no_shift_of_a_fine_grid_has_a_smaller_sum() {
         |k: i32| branch(k as u32 + 1, (20.0, 40.0), move |f| 1.3_f64.powi(k) * value(f + 0.3 * f64::from(k)));
     let curves = Curves::new((0..3).map(layer).collect());
     for seed in 0..3 {
-        let mut random = Random::new(seed);
+        let mut random = RandomSource::new(seed);
         let points: Vec<MeasuredPoint> = (0..30)
             .map(|k| {
                 let f = 24.0 + 0.4 * f64::from(k);

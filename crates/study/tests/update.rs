@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_fit::FitProblem;
-use hammerbeam_signal::random::Random;
+use hammerbeam_signal::random::RandomSource;
 use hammerbeam_study::{
     StudyFile,
     update::{Finding, Update, UpdateData, UpdateProblem, UpdateSettings, update},
@@ -94,7 +94,7 @@ fn synthetic(study: &StudyFile, fitted: &str, ask: &str, noise: Option<(u64, f64
         let at: Vec<f64> = data.parameters.iter().map(|parameter| parameter.start).collect();
         UpdateProblem::new(study, &data, &at).unwrap().values(&at).unwrap()
     };
-    let mut source = Random::new(noise.map_or(0, |(seed, _)| seed));
+    let mut source = RandomSource::new(noise.map_or(0, |(seed, _)| seed));
     for (datum, truth) in data.data.iter_mut().zip(truth) {
         let size = datum.deviation / datum.value * truth;
         datum.value = truth + noise.map_or(0.0, |(_, factor)| factor * size * source.normal());

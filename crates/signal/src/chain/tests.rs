@@ -10,7 +10,8 @@ fn record() -> Record {
         1e-3 * t.cos() + 2e-4 * (3.0 * t + 0.5).sin()
     };
     let samples = (0..800).map(value).collect();
-    let channel = Channel { name: "x".to_owned(), unit: None, quantity: Quantity::Displacement, samples };
+    let channel =
+        Channel { name: "x".to_owned(), unit: None, quantity: MeasuredQuantity::Displacement, samples };
     Record { sampling_rate_hz: RATE, start_s: 0.0, channels: vec![channel], findings: Vec::new() }
 }
 
@@ -21,7 +22,7 @@ fn acceleration(t: f64) -> f64 {
 
 fn chain() -> MeasuringChain {
     MeasuringChain {
-        sensor: Quantity::Acceleration,
+        sensor: MeasuredQuantity::Acceleration,
         filter: None,
         sampling_rate_hz: None,
         noise: 0.0,
@@ -32,24 +33,24 @@ fn chain() -> MeasuringChain {
 
 #[test]
 fn acceleration_follows_from_displacement_over_whole_periods() {
-    let measured = chain().measure(&record(), Motion::Periodic).unwrap();
+    let measured = chain().measure(&record(), RecordCoverage::WholePeriods).unwrap();
     for (k, value) in measured.channels[0].samples.iter().enumerate() {
         // Differences of rounding times (w_max)^2: 1e-19 m * (6e4 1/s)^2 is 4e-10.
         assert!((value - acceleration(k as f64 / RATE)).abs() < 1e-8, "sample {k}");
     }
-    let refused = chain().measure(&record(), Motion::Stretch).unwrap_err();
+    let refused = chain().measure(&record(), RecordCoverage::Excerpt).unwrap_err();
     assert!(matches!(refused, SignalError::NoSuchQuantity { .. }), "{refused}");
     let back = differentiated(&differentiated(&record().channels[0].samples, RATE, 2), RATE, -2);
     assert!(back.iter().zip(&record().channels[0].samples).all(|(a, b)| (a - b).abs() < 1e-15));
 }
 
-/// In the settled state a harmonic is weakened by the gain of the filter and turned by its phase.
+/// In the settled state a harmonic is scaled by the gain of the filter and shifted by its phase.
 #[test]
-fn causal_filter_acts_on_a_periodic_record_as_if_it_had_run_for_ever() {
+fn causal_filter_acts_on_a_periodic_record_in_its_settled_state() {
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 100.0 }, RATE).unwrap();
-    let mut chain = MeasuringChain { sensor: Quantity::Displacement, ..chain() };
+    let mut chain = MeasuringChain { sensor: MeasuredQuantity::Displacement, ..chain() };
     chain.filter = Some((filter.clone(), false));
-    let measured = chain.measure(&record(), Motion::Periodic).unwrap();
+    let measured = chain.measure(&record(), RecordCoverage::WholePeriods).unwrap();
     let before = forward(record().channels[0].samples.clone());
     let after = forward(measured.channels[0].samples.clone());
     for (bin, frequency) in [(2, 50.0), (6, 150.0)] {
@@ -58,9 +59,9 @@ fn causal_filter_acts_on_a_periodic_record_as_if_it_had_run_for_ever() {
 }
 
 #[test]
-fn sampling_reads_the_signal_where_it_says() {
+fn resampling_gives_the_signal_at_the_new_times() {
     let chain = MeasuringChain { sampling_rate_hz: Some(3_000.0), ..chain() };
-    let measured = chain.measure(&record(), Motion::Periodic).unwrap();
+    let measured = chain.measure(&record(), RecordCoverage::WholePeriods).unwrap();
     assert_eq!((measured.len(), measured.sampling_rate_hz), (120, 3_000.0));
     for (k, value) in measured.channels[0].samples.iter().enumerate() {
         // The interpolation's own error is 2e-5 of the amplitude, about 280 m/s².
@@ -68,24 +69,25 @@ fn sampling_reads_the_signal_where_it_says() {
     }
 }
 
-/// 150 Hz read at 200 Hz come out as 50 Hz.
+/// The alias of 150 Hz sampled at 200 Hz is 50 Hz.
 #[test]
-fn folding_is_told() {
+fn aliasing_is_reported() {
     let slow = |rate| MeasuringChain { sampling_rate_hz: Some(rate), ..chain() };
-    let folded = slow(200.0).measure(&record(), Motion::Periodic).unwrap().findings;
+    let aliased = slow(200.0).measure(&record(), RecordCoverage::WholePeriods).unwrap().findings;
     // Accelerations of 50 and 150 Hz are as 1 to 0.2 * 9: 87 % of the root mean square.
-    assert!(
-        matches!(folded[..], [Finding::Folded { half_rate_hz: 100.0, percent }] if (percent - 87.4).abs() < 0.1),
-        "{folded:?}"
-    );
-    assert_eq!(slow(400.0).measure(&record(), Motion::Periodic).unwrap().findings, []);
+    let [RecordFinding::Folded { half_rate_hz: 100.0, percent }] = aliased[..] else { panic!("{aliased:?}") };
+    assert!((percent - 87.4).abs() < 0.1, "{aliased:?}");
+    assert_eq!(slow(400.0).measure(&record(), RecordCoverage::WholePeriods).unwrap().findings, []);
 }
 
 #[test]
 fn noise_has_its_size_and_follows_from_the_seed() {
-    let noisy =
-        |seed| MeasuringChain { noise: 2.0, seed, ..chain() }.measure(&record(), Motion::Periodic).unwrap();
-    let clean = chain().measure(&record(), Motion::Periodic).unwrap();
+    let noisy = |seed| {
+        MeasuringChain { noise: 2.0, seed, ..chain() }
+            .measure(&record(), RecordCoverage::WholePeriods)
+            .unwrap()
+    };
+    let clean = chain().measure(&record(), RecordCoverage::WholePeriods).unwrap();
     assert_eq!(noisy(7), noisy(7));
     assert_ne!(noisy(7), noisy(8));
     let difference = noisy(7).channels[0]
@@ -102,7 +104,7 @@ fn noise_has_its_size_and_follows_from_the_seed() {
 fn converter_rounds_to_its_steps_and_clips() {
     let converter = Converter { range: 100.0, bits: 8 };
     let measured = MeasuringChain { converter: Some(converter), ..chain() }
-        .measure(&record(), Motion::Periodic)
+        .measure(&record(), RecordCoverage::WholePeriods)
         .unwrap();
     let step = 200.0 / 256.0;
     for (k, value) in measured.channels[0].samples.iter().enumerate() {
@@ -112,7 +114,7 @@ fn converter_rounds_to_its_steps_and_clips() {
             "sample {k}"
         );
     }
-    // Each end on its own, with the value that is shown there.
+    // Each end separately, with the value at which it is clipped.
     let beyond =
         |holds: &dyn Fn(f64) -> bool| (0..800).filter(|k| holds(acceleration(f64::from(*k) / RATE))).count();
     let expected = [
@@ -123,15 +125,17 @@ fn converter_rounds_to_its_steps_and_clips() {
         .findings
         .iter()
         .filter_map(|finding| match finding {
-            Finding::Clipped { level, samples, .. } => Some((*level, *samples)),
+            RecordFinding::Clipped { level, samples, .. } => Some((*level, *samples)),
             _ => None,
         })
         .collect();
     assert_eq!(found, expected);
     let wide = MeasuringChain { converter: Some(Converter { range: 1e3, bits: 8 }), ..chain() };
-    assert_eq!(wide.measure(&record(), Motion::Periodic).unwrap().findings, []);
+    assert_eq!(wide.measure(&record(), RecordCoverage::WholePeriods).unwrap().findings, []);
     let wrong = Converter { range: 0.0, bits: 8 };
     assert!(
-        MeasuringChain { converter: Some(wrong), ..chain() }.measure(&record(), Motion::Periodic).is_err()
+        MeasuringChain { converter: Some(wrong), ..chain() }
+            .measure(&record(), RecordCoverage::WholePeriods)
+            .is_err()
     );
 }

@@ -1,4 +1,4 @@
-//! A record by periods of its excitation.
+//! A record folded onto periods of its excitation.
 
 use std::f64::consts::PI;
 
@@ -6,13 +6,13 @@ use realfft::num_complex::Complex;
 
 use crate::resample::Interpolation;
 
-/// Fewest samples of a period after interpolation.
-const FEWEST: f64 = 16.0;
-/// Parts of the record, at least, in which the phase is looked at.
+/// Minimum number of samples of a period after interpolation.
+const MIN_SAMPLES: f64 = 16.0;
+/// Number of parts of the record in which the phase is evaluated.
 const PARTS: usize = 16;
 
-/// A record with a whole number of samples a period.
-pub(super) struct Folded {
+/// A record with a whole number of samples per period.
+pub(super) struct FoldedRecord {
     /// Samples of whole periods, about their mean.
     pub samples: Vec<f64>,
     /// Samples of a period.
@@ -21,10 +21,24 @@ pub(super) struct Folded {
     pub variance: f64,
 }
 
-impl Folded {
+/// Scatter of pieces about their mean waveform.
+#[derive(Clone, Copy)]
+pub(super) struct WaveformScatter {
+    /// Sum of squares.
+    pub squares: f64,
+    pub degrees_of_freedom: usize,
+}
+
+impl WaveformScatter {
+    pub(super) fn variance(self) -> f64 {
+        self.squares / self.degrees_of_freedom as f64
+    }
+}
+
+impl FoldedRecord {
     /// Interpolates to periods of a frequency, given in periods per sample.
     pub(super) fn new(series: &[f64], frequency: f64) -> Self {
-        let period = (1.0 / frequency).round().max(FEWEST) as usize;
+        let period = (1.0 / frequency).round().max(MIN_SAMPLES) as usize;
         let step = 1.0 / (frequency * period as f64);
         let periods = ((series.len() - 1) as f64 * frequency + 1e-9).floor() as usize;
         let count = periods * period;
@@ -58,19 +72,19 @@ impl Folded {
         (mean, count)
     }
 
-    /// Sum of squares about the waveform, number of samples, and freedoms left.
-    pub(super) fn scatter(&self, n: usize) -> (f64, usize, usize) {
+    /// The scatter of the pieces about the waveform over `n` periods.
+    pub(super) fn scatter(&self, n: usize) -> WaveformScatter {
         let (mean, count) = self.waveform(n);
         let sum = self
             .samples
             .chunks_exact(mean.len())
             .map(|piece| piece.iter().zip(&mean).map(|(value, mean)| (value - mean).powi(2)).sum::<f64>())
             .sum();
-        (sum, count * mean.len(), (count - 1) * mean.len())
+        WaveformScatter { squares: sum, degrees_of_freedom: (count - 1) * mean.len() }
     }
 
-    /// What is left of the record without the waveform.
-    pub(super) fn rest(&self, n: usize) -> Vec<f64> {
+    /// The record without its waveform over `n` periods.
+    pub(super) fn residual(&self, n: usize) -> Vec<f64> {
         let (mean, _) = self.waveform(n);
         self.samples
             .chunks_exact(mean.len())
@@ -78,10 +92,10 @@ impl Folded {
             .collect()
     }
 
-    /// Relative error of the frequency, if the phase of the fundamental runs straight over the record.
+    /// Relative error of the frequency, if the phase of the fundamental changes linearly over the record.
     ///
     /// # Returns
-    /// The correction by which the frequency is to be multiplied, less one; `None` if the phase says nothing.
+    /// The correction factor of the frequency minus one; `None` if the phase does not determine it.
     pub(super) fn drift(&self) -> Option<f64> {
         let periods = self.periods();
         let parts = PARTS.min(periods / 2);
@@ -91,8 +105,8 @@ impl Folded {
         let turns: Vec<Complex<f64>> = (0..self.period)
             .map(|k| Complex::from_polar(1.0, -2.0 * PI * k as f64 / self.period as f64))
             .collect();
-        // Subharmonics of order two, three, four and six have whole periods in a part of twelve: they do not
-        // turn the phase.
+        // Subharmonics of order two, three, four and six have whole periods in a part of twelve, so that they
+        // do not shift the phase.
         let part = periods / parts;
         let part = [12, 6, 2, 1].into_iter().map(|n| part / n * n).find(|part| *part > 0).unwrap_or(1);
         let length = part * self.period;
@@ -103,18 +117,18 @@ impl Folded {
         };
         let phasors: Vec<Complex<f64>> = self.samples.chunks_exact(length).map(phasor).collect();
         let level = phasors.iter().map(|z| z.norm()).sum::<f64>() / phasors.len() as f64;
-        // A fundamental of a tenth of the motion at least: half of its squared amplitude against the
+        // The fundamental must be at least a tenth of the motion: half of its squared amplitude over the
         // variance.
         let power = 2.0 * (level / length as f64).powi(2) / self.variance;
         if power < 0.01 || phasors.iter().any(|z| z.norm() < 0.5 * level) {
             return None;
         }
-        straight(&phasors).map(|cycles| cycles / part as f64)
+        linear_drift(&phasors).map(|cycles| cycles / part as f64)
     }
 }
 
-/// Slope of the phases [cycles a part] if they lie on a straight line to 0.02 cycles.
-fn straight(phasors: &[Complex<f64>]) -> Option<f64> {
+/// Slope of the phases [cycles per part] if they lie on a straight line to 0.02 cycles.
+fn linear_drift(phasors: &[Complex<f64>]) -> Option<f64> {
     let mut phases = vec![0.0];
     for pair in phasors.windows(2) {
         let turn = (pair[1] / pair[0]).arg() / (2.0 * PI);

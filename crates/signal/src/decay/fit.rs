@@ -1,10 +1,10 @@
 //! Least squares: damped oscillations and an offset fitted to a series.
 //!
-//! Parameters `p = (y0; s_m, w_m, a_m, b_m)`. Gauss-Newton with Levenberg's and Marquardt's damping: `(A + mu
-//! diag A) dp = J^T r`, `A = J^T J`, `r` the residual; `mu` falls tenfold where a step lessens the sum of
-//! squares, and grows tenfold where not. It ends where a step changes no parameter by more than 1e-9 of its
-//! standard error's scale, `dp^T A dp < 1e-16 r^T r`, or moves no sample beyond rounding, or where no step
-//! lessens the sum any more.
+//! Parameters `p = (y0; s_m, w_m, a_m, b_m)`. Gauss-Newton with the damping of Levenberg and Marquardt: `(A +
+//! mu diag A) dp = J^T r`, with `A = J^T J` and the residual `r`. `mu` is divided by ten after a step that
+//! reduces the sum of squares, and multiplied by ten otherwise. The iteration ends when a step is small
+//! against the standard errors, `dp^T A dp < 1e-16 r^T r`, changes samples by no more than rounding, or when
+//! no step reduces the sum.
 
 use faer::{
     Mat, Side,
@@ -12,46 +12,46 @@ use faer::{
 };
 use realfft::num_complex::Complex;
 
-use super::Oscillation;
+use super::model::Oscillation;
 use crate::error::SignalError;
 
-const MOST_ITERATIONS: usize = 200;
+const MAX_ITERATIONS: usize = 200;
 
-/// A fit.
+/// Fitted oscillations.
 #[derive(Debug, Clone)]
-pub(crate) struct Fit {
+pub(crate) struct DecayFit {
     pub offset: f64,
     pub oscillations: Vec<Oscillation>,
-    /// Samples less what was fitted.
+    /// Samples minus fitted values.
     pub residual: Vec<f64>,
     /// `(J^T J)^-1`; parameter 0 is the offset, then four for each oscillation: rate, frequency, cosine,
     /// sine.
     pub inverse: Mat<f64>,
 }
 
-/// Fits oscillations, beginning with those given.
+/// Fits oscillations, starting from given ones.
 ///
 /// # Errors
 /// [`SignalError::FitNotConverged`].
-pub(crate) fn fit(series: &[f64], step: f64, start: &[Oscillation]) -> Result<Fit, SignalError> {
+pub(crate) fn fit(series: &[f64], step: f64, start: &[Oscillation]) -> Result<DecayFit, SignalError> {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
-    let not_converged = || SignalError::FitNotConverged { modes: start.len(), iterations: MOST_ITERATIONS };
+    let not_converged = || SignalError::FitNotConverged { modes: start.len(), iterations: MAX_ITERATIONS };
     let rounding = 1e-26 * series.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
     let mut parameters = (mean, start.to_vec());
-    let mut normal = Normal::at(series, step, &parameters);
+    let mut normal = NormalEquations::at(series, step, &parameters);
     let mut damping = 1e-3;
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let change = normal.step(damping).ok_or_else(not_converged)?;
         if normal.predicted(&change) < 1e-16 * normal.sum + rounding {
             return normal.finish(series, step, parameters).ok_or_else(not_converged);
         }
         let trial = moved(&parameters, &change);
-        let next = Normal::at(series, step, &trial);
+        let next = NormalEquations::at(series, step, &trial);
         if next.sum.is_finite() && next.sum <= normal.sum {
             (parameters, normal) = (trial, next);
             damping = (0.1 * damping).max(1e-12);
         } else if damping > 1e8 {
-            // Rounding is all that is left.
+            // Only rounding is left.
             return normal.finish(series, step, parameters).ok_or_else(not_converged);
         } else {
             damping *= 10.0;
@@ -75,15 +75,15 @@ fn moved((offset, oscillations): &Parameters, change: &Mat<f64>) -> Parameters {
     (offset + change[(0, 0)], moved.collect())
 }
 
-/// Normal equations at some parameters.
-struct Normal {
+/// The normal equations at given parameters.
+struct NormalEquations {
     matrix: Mat<f64>,
     right: Mat<f64>,
     /// Sum of squares of the residual.
     sum: f64,
 }
 
-impl Normal {
+impl NormalEquations {
     fn at(series: &[f64], step: f64, (offset, oscillations): &Parameters) -> Self {
         let size = 1 + 4 * oscillations.len();
         let mut powers: Vec<_> = oscillations.iter().map(|o| o.powers(series.len(), step)).collect();
@@ -126,34 +126,34 @@ impl Normal {
         Some(scaled(&damped)?.solve(&self.right))
     }
 
-    /// By how much a step moves the fitted samples, squared.
+    /// Squared change of the fitted samples by a step.
     fn predicted(&self, change: &Mat<f64>) -> f64 {
         (change.transpose() * &self.matrix * change)[(0, 0)]
     }
 
-    fn finish(&self, series: &[f64], step: f64, (offset, oscillations): Parameters) -> Option<Fit> {
+    fn finish(&self, series: &[f64], step: f64, (offset, oscillations): Parameters) -> Option<DecayFit> {
         let mut residual: Vec<f64> = series.iter().map(|value| value - offset).collect();
         oscillations.iter().for_each(|oscillation| oscillation.subtract(&mut residual, step));
-        Some(Fit { offset, oscillations, residual, inverse: scaled(&self.matrix)?.inverse() })
+        Some(DecayFit { offset, oscillations, residual, inverse: scaled(&self.matrix)?.inverse() })
     }
 }
 
-/// A symmetric positive matrix, scaled to ones on the diagonal and decomposed.
-struct Scaled {
+/// Cholesky decomposition of a symmetric positive matrix, scaled to ones on the diagonal.
+struct ScaledMatrix {
     scale: Vec<f64>,
     decomposed: faer::linalg::solvers::Llt<f64>,
 }
 
-fn scaled(matrix: &Mat<f64>) -> Option<Scaled> {
+fn scaled(matrix: &Mat<f64>) -> Option<ScaledMatrix> {
     let scale: Vec<f64> = (0..matrix.nrows()).map(|i| matrix[(i, i)].sqrt().recip()).collect();
     if scale.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let unit = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
-    Some(Scaled { decomposed: unit.llt(Side::Lower).ok()?, scale })
+    Some(ScaledMatrix { decomposed: unit.llt(Side::Lower).ok()?, scale })
 }
 
-impl Scaled {
+impl ScaledMatrix {
     fn solve(&self, right: &Mat<f64>) -> Mat<f64> {
         let right = Mat::from_fn(right.nrows(), 1, |i, _| right[(i, 0)] * self.scale[i]);
         let solved = self.decomposed.solve(&right);

@@ -1,7 +1,7 @@
-//! The sum of damped oscillations, sample by sample, and its derivatives.
+//! A damped oscillation, sample by sample.
 //!
 //! With `z = exp((-s + i w) h)` for a step `h`, an oscillation is `Re((a - i b) z^k)` at sample `k`. Powers
-//! are carried on by multiplication and begun anew every 256 samples, so that rounding does not grow.
+//! are continued by multiplication and recomputed every 256 samples, so that rounding does not grow.
 
 use realfft::num_complex::Complex;
 
@@ -18,8 +18,8 @@ pub(crate) struct Oscillation {
     pub sine: f64,
 }
 
-/// Samples after which powers are begun anew.
-const ANEW: usize = 256;
+/// Samples after which powers are recomputed.
+const RECOMPUTED_EVERY: usize = 256;
 
 impl Oscillation {
     /// Amplitude at time zero.
@@ -33,16 +33,16 @@ impl Oscillation {
         let factor = exponent.exp();
         let mut power = Complex::new(1.0, 0.0);
         (0..length).map(move |k| {
-            if k.is_multiple_of(ANEW) {
+            if k.is_multiple_of(RECOMPUTED_EVERY) {
                 power = (exponent * k as f64).exp();
             }
-            let now = power;
+            let current = power;
             power *= factor;
-            now
+            current
         })
     }
 
-    /// Takes the oscillation off a series.
+    /// Subtracts the oscillation from a series.
     pub(super) fn subtract(&self, series: &mut [f64], step: f64) {
         let amplitude = Complex::new(self.cosine, -self.sine);
         let powers = self.powers(series.len(), step);

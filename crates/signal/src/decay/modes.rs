@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use hammerbeam_fit::distribution::student_quantile;
 
 use super::{
-    fit::{Fit, fit},
+    fit::{DecayFit, fit},
     model::Oscillation,
     search::strongest,
 };
@@ -14,36 +14,36 @@ use crate::{
     fourier,
 };
 
-/// Fewest samples of a decay.
-const FEWEST: usize = 32;
+/// Minimum number of samples of a decay.
+const MIN_SAMPLES: usize = 32;
 
-/// What to look for.
+/// Settings of the search for modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecaySettings {
-    /// Number of modes; `None` for all that stand out of the noise, up to `most`.
+    /// Number of modes; `None` for all above the noise, up to `max_modes`.
     pub modes: Option<usize>,
-    /// Most modes that are looked for.
-    pub most: usize,
-    /// Frequencies between which to look [Hz].
+    /// Largest number of modes that are searched for.
+    pub max_modes: usize,
+    /// Lower and upper limit of the frequencies [Hz].
     pub band_hz: (f64, f64),
 }
 
 impl Default for DecaySettings {
     fn default() -> Self {
-        Self { modes: None, most: 6, band_hz: (0.0, f64::INFINITY) }
+        Self { modes: None, max_modes: 6, band_hz: (0.0, f64::INFINITY) }
     }
 }
 
 /// A value with its interval of 95 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
+pub struct DecayEstimate {
     /// The value.
     pub value: f64,
     /// Half of the interval.
     pub half_width: f64,
 }
 
-impl Estimate {
+impl DecayEstimate {
     /// Whether a value lies in the interval.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
@@ -55,11 +55,11 @@ impl Estimate {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecayMode {
     /// Eigenfrequency, without damping [Hz].
-    pub frequency_hz: Estimate,
+    pub frequency_hz: DecayEstimate,
     /// Damping ratio.
-    pub damping_ratio: Estimate,
+    pub damping_ratio: DecayEstimate,
     /// Logarithmic decrement.
-    pub decrement: Estimate,
+    pub decrement: DecayEstimate,
     /// Amplitude at the first sample, in the unit of the series.
     pub amplitude: f64,
     /// Phase at the first sample, of a cosine [rad].
@@ -71,24 +71,24 @@ pub struct DecayMode {
 pub struct Decay {
     /// Modes, the lowest frequency first.
     pub modes: Vec<DecayMode>,
-    /// What the decay ends at.
+    /// Value at which the decay ends.
     pub offset: f64,
-    /// Root mean square of what is not explained.
+    /// Root mean square of the residual.
     pub residual: f64,
-    /// Correlation of neighbouring residuals; beyond 3 / sqrt(N) they are not white, and intervals allow for
-    /// that.
+    /// Correlation of neighbouring residuals; above 3 / sqrt(N) they are not white, which intervals take into
+    /// account.
     pub residual_correlation: f64,
-    /// Whether residuals are taken as white.
+    /// Whether residuals count as white.
     pub white: bool,
     pub(super) oscillations: Vec<Oscillation>,
 }
 
 /// Finds modes of a free decay and fits them.
 ///
-/// Modes are added one after the other, each where it takes most off the residual, and all are fitted again.
+/// Modes are added one by one, each where it reduces the residual most, and all are fitted again.
 ///
 /// # Errors
-/// [`SignalError::NoDecay`] if nothing stands out of the noise; [`SignalError::FitNotConverged`] if a number
+/// [`SignalError::NoDecay`] if nothing exceeds the noise; [`SignalError::FitNotConverged`] if a number
 /// of modes is given and cannot be fitted; [`SignalError::TooShort`], [`SignalError::NotFinite`],
 /// [`SignalError::Constant`], [`SignalError::Input`].
 pub fn free_decay(
@@ -96,7 +96,7 @@ pub fn free_decay(
     sampling_rate_hz: f64,
     settings: &DecaySettings,
 ) -> Result<Decay, SignalError> {
-    ensure_series("a decay", series, FEWEST)?;
+    ensure_series("a decay", series, MIN_SAMPLES)?;
     let (low, high) = settings.band_hz;
     ensure("the upper end of the band", high, format!("more than its lower end, {low} Hz"), high > low)?;
     if series.iter().all(|value| *value == series[0]) {
@@ -104,23 +104,23 @@ pub fn free_decay(
     }
     let step = 1.0 / sampling_rate_hz;
     let band = (2.0 * PI * low, 2.0 * PI * high);
-    let mut fitted: Option<Fit> = None;
-    for _ in 0..settings.modes.unwrap_or(settings.most) {
-        let (rest, mut start) = match &fitted {
+    let mut fitted: Option<DecayFit> = None;
+    for _ in 0..settings.modes.unwrap_or(settings.max_modes) {
+        let (residual, mut start) = match &fitted {
             Some(fit) => (fit.residual.clone(), fit.oscillations.clone()),
             None => {
                 let mean = series.iter().sum::<f64>() / series.len() as f64;
                 (series.iter().map(|value| value - mean).collect(), Vec::new())
             }
         };
-        let Some(next) = strongest(&rest, step, band, settings.modes.is_none()) else { break };
+        let Some(next) = strongest(&residual, step, band, settings.modes.is_none()) else { break };
         start.push(next);
         match fit(series, step, &start) {
             Ok(better) if settings.modes.is_some() || is_sound(&better, step, series.len()) => {
                 fitted = Some(better);
             }
             Err(error) if settings.modes.is_some() => return Err(error),
-            // One more is not in the data.
+            // The data do not support another mode.
             _ => break,
         }
     }
@@ -128,9 +128,9 @@ pub fn free_decay(
     Ok(describe(&fit, sampling_rate_hz))
 }
 
-/// Whether all oscillations are modes of their own: none outside of what can be sampled, none growing beyond
-/// doubt, none on another.
-fn is_sound(fit: &Fit, step: f64, length: usize) -> bool {
+/// Whether all oscillations are separate modes: none above half the sampling rate, none clearly growing, none
+/// coinciding with another.
+fn is_sound(fit: &DecayFit, step: f64, length: usize) -> bool {
     let duration = length as f64 * step;
     let inside = |o: &Oscillation| {
         o.frequency > 0.0 && o.frequency < PI / step && o.rate > -2.0 / duration && o.amplitude().is_finite()
@@ -143,7 +143,8 @@ fn is_sound(fit: &Fit, step: f64, length: usize) -> bool {
     all.iter().enumerate().all(|(k, one)| inside(one) && all[..k].iter().all(|other| apart(one, other)))
 }
 
-fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
+/// Modes with their uncertainty, by ascending frequency.
+fn describe(fit: &DecayFit, sampling_rate_hz: f64) -> Decay {
     let residual = &fit.residual;
     let count = residual.len();
     let free = (count - 1 - 4 * fit.oscillations.len()) as f64;
@@ -154,9 +155,9 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     let mut order: Vec<usize> = (0..fit.oscillations.len()).collect();
     order.sort_by(|&a, &b| fit.oscillations[a].frequency.total_cmp(&fit.oscillations[b].frequency));
     let mode = |&m: &usize| {
-        let (local, freedoms) =
+        let (local, degrees_of_freedom) =
             if white { (variance, free) } else { local_variance(fit, m, 1.0 / sampling_rate_hz) };
-        describe_mode(fit, m, local, student_quantile(0.95, freedoms))
+        describe_mode(fit, m, local, student_quantile(0.95, degrees_of_freedom))
     };
     Decay {
         modes: order.iter().map(mode).collect(),
@@ -168,15 +169,15 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     }
 }
 
-/// Values of the spectrum to each side of a mode's frequency over which the density is averaged.
+/// Values of the spectrum on each side of the frequency of a mode over which the density is averaged.
 const NEIGHBOURS: usize = 30;
 
-/// Variance of white noise that has the residual's density about a mode's frequency, and its degrees of
+/// Variance of white noise with the density of the residual about the frequency of a mode, and its degrees of
 /// freedom.
 ///
-/// The average is over [`NEIGHBOURS`] values to each side, or all within the line's width if that is more.
-/// The fit has taken two of them away: four parameters.
-fn local_variance(fit: &Fit, m: usize, step: f64) -> (f64, f64) {
+/// The average is over [`NEIGHBOURS`] values on each side, or over all within the width of the line if these
+/// are more. The four parameters of the fit use up two values.
+fn local_variance(fit: &DecayFit, m: usize, step: f64) -> (f64, f64) {
     let length = fit.residual.len();
     let spectrum = fourier::forward(fit.residual.clone());
     let resolution = 2.0 * PI / (length as f64 * step);
@@ -189,8 +190,8 @@ fn local_variance(fit: &Fit, m: usize, step: f64) -> (f64, f64) {
     (sum / (free * length as f64), 2.0 * free)
 }
 
-/// Figures of a mode; their uncertainty follows from that of `s` and `w` by the derivatives.
-fn describe_mode(fit: &Fit, m: usize, variance: f64, quantile: f64) -> DecayMode {
+/// A mode; the uncertainty of its properties follows from that of `s` and `w` by the derivatives.
+fn describe_mode(fit: &DecayFit, m: usize, variance: f64, quantile: f64) -> DecayMode {
     let o = &fit.oscillations[m];
     let (s, w) = (o.rate, o.frequency);
     let covariance = |i: usize, j: usize| variance * fit.inverse[(1 + 4 * m + i, 1 + 4 * m + j)];
@@ -198,7 +199,7 @@ fn describe_mode(fit: &Fit, m: usize, variance: f64, quantile: f64) -> DecayMode
         let square = by_s * by_s * covariance(0, 0)
             + 2.0 * by_s * by_w * covariance(0, 1)
             + by_w * by_w * covariance(1, 1);
-        Estimate { value, half_width: quantile * square.max(0.0).sqrt() }
+        DecayEstimate { value, half_width: quantile * square.max(0.0).sqrt() }
     };
     let natural = s.hypot(w);
     let cube = natural.powi(3);

@@ -1,4 +1,4 @@
-//! The delay.
+//! Choice of the delay.
 
 /// Smaller of the first minimum of the average mutual information and the first lag with an autocorrelation
 /// below `1 - 1/e`; at least 1.
@@ -6,7 +6,7 @@ pub(super) fn choose(series: &[f64]) -> usize {
     let longest = series.len() / 10;
     let by_correlation = (1..longest).find(|&lag| autocorrelation(series, lag) < 1.0 - (-1.0_f64).exp());
     let until = by_correlation.unwrap_or(longest).max(1);
-    // Nothing beyond the other lag matters.
+    // Lags beyond the other one do not matter.
     let bins = Bins::new(series);
     let mut before = bins.information(1);
     for lag in 2..=until {
@@ -28,15 +28,16 @@ fn autocorrelation(series: &[f64], lag: usize) -> f64 {
     product(lag) / product(0)
 }
 
-/// Values by their rank, in bins that hold equally many.
+/// Bins of equally many values, by rank.
 struct Bins {
+    /// Bin of each value.
     of: Vec<usize>,
     count: usize,
 }
 
 impl Bins {
     fn new(series: &[f64]) -> Self {
-        // About five pairs in each of the squared number of bins, 8 to 32.
+        // 8 to 32 bins, with about five pairs in each pair of bins.
         let count = ((series.len() as f64 / 5.0).sqrt() as usize).clamp(8, 32);
         let mut order: Vec<usize> = (0..series.len()).collect();
         order.sort_by(|&a, &b| series[a].total_cmp(&series[b]));

@@ -1,34 +1,37 @@
 //! The embedding dimension by false nearest neighbours.
 //!
-//! A neighbour on the same spot is none: in a record that repeats each state comes again, whatever the
+//! A coinciding state does not count as a neighbour: in a record that repeats every state recurs, in any
 //! dimension.
 
-use super::{embedding::States, tree::Tree};
+use super::{states::DelayStates, tree::NeighbourTree};
 
-/// Largest dimension that is looked at.
+/// Largest dimension that is tried.
 const LARGEST: usize = 10;
-/// Part of false neighbours that is allowed.
+/// Permitted fraction of false neighbours.
 const FALSE: f64 = 0.01;
-/// Growth of the distance, and distance in standard deviations, beyond which a neighbour is false.
+/// Growth of the distance, and distance in standard deviations, above which a neighbour is false.
 const GROWTH: f64 = 15.0;
 const FAR: f64 = 2.0;
-/// Distance in standard deviations up to which two states are the same.
+/// Distance in standard deviations up to which two states coincide.
 const SAME: f64 = 1e-4;
-/// States that are looked at, about.
+/// Approximate number of states that are examined.
 const STATES: usize = 2000;
 
+/// The smallest dimension with few false neighbours.
+///
+/// * `window`: Theiler window in samples.
 pub(super) fn choose(series: &[f64], delay: usize, window: usize) -> usize {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     let deviation =
         (series.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / series.len() as f64).sqrt();
     for dimension in 1..LARGEST {
-        let states = States::new(series, delay, dimension);
-        // The next coordinate has to be there too.
-        let count = States::new(series, delay, dimension + 1).len();
+        let states = DelayStates::new(series, delay, dimension);
+        // The next coordinate must exist, too.
+        let count = DelayStates::new(series, delay, dimension + 1).len();
         if count < 2 * window + 20 {
             return dimension;
         }
-        let tree = Tree::new(&states, count);
+        let tree = NeighbourTree::new(&states, count);
         let (mut all, mut wrong) = (0, 0);
         for state in (0..count).step_by((count / STATES).max(1)) {
             let Some((neighbour, square)) = tree.nearest(&states, state, window, SAME * deviation) else {

@@ -1,61 +1,62 @@
 //! Mean logarithmic distance of neighbours over time: Rosenstein's and Kantz's methods.
 
 use super::{
-    Embedding, FLOW, GROUPS, Scattered,
-    embedding::States,
-    scatter,
+    embedding::Embedding,
+    scatter::{ExponentEstimate, GROUPS, LEAST_FLOW_PERIOD, standard_error},
     slope::{growth, rises, slope, steepest_period, straight_part},
-    tree::Tree,
+    states::DelayStates,
+    tree::NeighbourTree,
 };
 use crate::error::{SignalError, ensure};
 
-/// Most states whose neighbours are followed; of more, every n-th is taken.
+/// Largest number of states whose neighbours are followed; of more, every n-th is used.
 const STATES: usize = 5000;
-/// Fewest neighbours of a state for Kantz's method, and the part of states that has to have them.
+/// Minimum number of neighbours of a state for Kantz's method, and the fraction of states that must have
+/// them.
 const NEIGHBOURS: usize = 5;
 const ENOUGH: f64 = 0.8;
-/// Fewest states.
-const FEWEST: usize = 50;
+/// Minimum number of states with neighbours.
+const MIN_STATES: usize = 50;
 
-/// Which part of the curve is taken as straight.
+/// Which part of the curve is fitted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum StraightPart {
-    /// It is looked for between two parts of the rise.
+    /// Found automatically, between two fractions of the rise.
     #[default]
     Found,
     /// From one step to another.
     Given(usize, usize),
-    /// The mean period in which the curve grows most, after the first one: for flows that go round with one
-    /// period, whose curves wave with it.
+    /// The mean period in which the curve grows most, after the first one: for flows with one dominant
+    /// period, whose curves oscillate with it.
     SteepestPeriod,
 }
 
 /// How neighbours are followed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DivergenceSettings {
-    /// Steps for which they are followed; `None`: 25 steps of a map; seven mean periods of a flow, doubled
-    /// until distances grow no more.
+    /// Steps for which they are followed; `None`: 25 steps of a map, or seven mean periods of a flow, doubled
+    /// until distances stop growing.
     pub steps: Option<usize>,
     /// The straight part.
     pub fit: StraightPart,
 }
 
-/// What came out.
+/// An exponent, and the curve it was fitted to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Divergence {
     /// The exponent [1/s].
-    pub exponent: Scattered,
+    pub exponent: ExponentEstimate,
     /// Mean logarithm of the distance after 0, 1, 2, .. samples.
     pub curve: Vec<f64>,
-    /// First and last step that were fitted.
+    /// First and last step of the fitted part.
     pub fit: (usize, usize),
-    /// States that have a neighbour.
+    /// Number of states with a neighbour.
     pub states: usize,
-    /// Radius within which neighbours were taken (Kantz), in the unit of the series.
+    /// Radius of the neighbourhoods (Kantz), in the unit of the series.
     pub radius: Option<f64>,
 }
 
-/// By nearest neighbours.
+/// The exponent by nearest neighbours.
 ///
 /// # Errors
 /// [`SignalError::NoScaling`] if there is no straight part, [`SignalError::TooFewNeighbours`],
@@ -66,20 +67,22 @@ pub fn rosenstein(
     embedding: &Embedding,
     settings: &DivergenceSettings,
 ) -> Result<Divergence, SignalError> {
-    let work = Work::new(series, embedding, settings)?;
+    let hoods = Neighbourhoods::new(series, embedding, settings)?;
     let follow = |state: usize, steps: usize| {
-        let Some((neighbour, _)) = work.tree.nearest(&work.states, state, embedding.theiler_window, 0.0)
+        let Some((neighbour, _)) = hoods.tree.nearest(&hoods.states, state, embedding.theiler_window, 0.0)
         else {
             return Vec::new();
         };
-        let last = work.states.len() - state.max(neighbour);
-        (0..steps.min(last)).map(|k| 0.5 * work.states.square(state + k, neighbour + k).ln()).collect()
+        let last = hoods.states.len() - state.max(neighbour);
+        (0..steps.min(last)).map(|k| 0.5 * hoods.states.square(state + k, neighbour + k).ln()).collect()
     };
-    work.average(follow, sampling_rate_hz, settings, None)
+    hoods.average(follow, sampling_rate_hz, settings, None)
 }
 
-/// By all neighbours within a radius: the smallest of those doubling from 1/1000 of the range of the series
-/// with which four states in five have five neighbours.
+/// The exponent by all neighbours within a radius.
+///
+/// The radius is doubled from 1/1000 of the range of the series until four states in five have five
+/// neighbours.
 ///
 /// # Errors
 /// As [`rosenstein`].
@@ -89,14 +92,14 @@ pub fn kantz(
     embedding: &Embedding,
     settings: &DivergenceSettings,
 ) -> Result<Divergence, SignalError> {
-    let work = Work::new(series, embedding, settings)?;
+    let hoods = Neighbourhoods::new(series, embedding, settings)?;
     let ends = series.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-    let radius = work.radius(1e-3 * (ends.1 - ends.0), embedding.theiler_window)?;
+    let radius = hoods.radius(1e-3 * (ends.1 - ends.0), embedding.theiler_window)?;
     let last = (embedding.dimension - 1) * embedding.delay;
     let follow = |state: usize, steps: usize| {
-        let mut neighbours = work.tree.within(&work.states, state, embedding.theiler_window, radius);
-        neighbours.retain(|other| other + steps <= work.states.len());
-        if neighbours.len() < NEIGHBOURS || state + steps > work.states.len() {
+        let mut neighbours = hoods.tree.within(&hoods.states, state, embedding.theiler_window, radius);
+        neighbours.retain(|other| other + steps <= hoods.states.len());
+        if neighbours.len() < NEIGHBOURS || state + steps > hoods.states.len() {
             return Vec::new();
         }
         let distance = |k: usize| {
@@ -108,13 +111,13 @@ pub fn kantz(
         };
         (0..steps).map(distance).collect()
     };
-    work.average(follow, sampling_rate_hz, settings, Some(radius))
+    hoods.average(follow, sampling_rate_hz, settings, Some(radius))
 }
 
-/// What both methods share.
-struct Work<'a> {
-    states: States<'a>,
-    tree: Tree,
+/// States and the search for their neighbours, which both methods share.
+struct Neighbourhoods<'a> {
+    states: DelayStates<'a>,
+    tree: NeighbourTree,
     steps: usize,
     /// Mean period of a flow in steps; `None` of a map.
     period: Option<usize>,
@@ -122,14 +125,14 @@ struct Work<'a> {
     followed: Vec<usize>,
 }
 
-impl<'a> Work<'a> {
+impl<'a> Neighbourhoods<'a> {
     fn new(
         series: &'a [f64],
         embedding: &Embedding,
         settings: &DivergenceSettings,
     ) -> Result<Self, SignalError> {
-        let flow = embedding.mean_period > FLOW;
-        let states = States::new(series, embedding.delay, embedding.dimension);
+        let flow = embedding.mean_period > LEAST_FLOW_PERIOD;
+        let states = DelayStates::new(series, embedding.delay, embedding.dimension);
         let usual = if flow { (7.0 * embedding.mean_period) as usize } else { 25 };
         let steps = settings.steps.unwrap_or(usual.min(states.len() / 4));
         let holds = steps >= 4 && steps < states.len();
@@ -145,12 +148,13 @@ impl<'a> Work<'a> {
                 ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
             }
             StraightPart::SteepestPeriod => {
-                let allowed = format!("more than {FLOW} samples where the steepest one is fitted");
+                let allowed =
+                    format!("more than {LEAST_FLOW_PERIOD} samples where the steepest one is fitted");
                 ensure("the mean period", embedding.mean_period, allowed, flow)?;
             }
             StraightPart::Found => {}
         }
-        let tree = Tree::new(&states, states.len());
+        let tree = NeighbourTree::new(&states, states.len());
         let followed = (0..states.len()).step_by(states.len().div_ceil(STATES)).collect();
         let period = flow.then(|| embedding.mean_period.round() as usize);
         Ok(Self { states, tree, steps, period, followed })
@@ -172,9 +176,9 @@ impl<'a> Work<'a> {
         Err(SignalError::TooFewNeighbours { found, asked: some.len() })
     }
 
-    /// Averages the logarithms of distances, and fits.
+    /// Averages the logarithms of distances, and fits the slope.
     ///
-    /// * `follow`: logarithms of a state's distances after 0, 1, 2, .. up to so many steps.
+    /// * `follow`: logarithms of the distances of a state after 0, 1, 2, .. steps, up to a number of steps.
     fn average(
         &self,
         follow: impl Fn(usize, usize) -> Vec<f64>,
@@ -189,7 +193,7 @@ impl<'a> Work<'a> {
         let mut sums = self.sums(&follow, steps)?;
         while free && steps < longest && rises(&sums.curve()) {
             steps = (2 * steps).min(longest);
-            // Fewer states can be followed for longer; where there are too few, the shorter curve stands.
+            // Fewer states can be followed for longer; where there are too few, the shorter curve is used.
             let Ok(longer) = self.sums(&follow, steps) else { break };
             sums = longer;
         }
@@ -205,14 +209,14 @@ impl<'a> Work<'a> {
         };
         let slopes = sums.groups.iter().map(|group| steepness(&group.mean()));
         let slopes: Vec<f64> = slopes.filter(|slope| slope.is_finite()).collect();
-        let exponent = Scattered {
+        let exponent = ExponentEstimate {
             value: sampling_rate_hz * steepness(&curve),
-            scatter: sampling_rate_hz * scatter(&slopes),
+            scatter: sampling_rate_hz * standard_error(&slopes),
         };
         Ok(Divergence { exponent, curve, fit, states: sums.found, radius })
     }
 
-    /// Sums of all states that have neighbours, in groups by time.
+    /// Sums over all states with neighbours, in groups by time.
     fn sums(&self, follow: &impl Fn(usize, usize) -> Vec<f64>, steps: usize) -> Result<Grouped, SignalError> {
         let mut groups = vec![Sums::new(steps); GROUPS];
         let mut found = 0;
@@ -221,14 +225,14 @@ impl<'a> Work<'a> {
             found += usize::from(!logarithms.is_empty());
             groups[index * GROUPS / self.followed.len()].add(&logarithms);
         }
-        if found < FEWEST {
+        if found < MIN_STATES {
             return Err(SignalError::TooFewNeighbours { found, asked: self.followed.len() });
         }
         Ok(Grouped { groups, found })
     }
 }
 
-/// Sums by groups of states, and how many states have neighbours.
+/// Sums over groups of states, and the number of states with neighbours.
 struct Grouped {
     groups: Vec<Sums>,
     found: usize,
@@ -237,12 +241,12 @@ struct Grouped {
 impl Grouped {
     fn curve(&self) -> Vec<f64> {
         let mut all = Sums::new(self.groups[0].sum.len());
-        self.groups.iter().for_each(|group| all.join(group));
+        self.groups.iter().for_each(|group| all.merge(group));
         all.mean()
     }
 }
 
-/// Sums of logarithms by steps.
+/// Sums of logarithms for each step.
 #[derive(Clone)]
 struct Sums {
     sum: Vec<f64>,
@@ -254,7 +258,7 @@ impl Sums {
         Self { sum: vec![0.0; steps], count: vec![0.0; steps] }
     }
 
-    /// Distances of zero do not count.
+    /// Adds the logarithms of a state; distances of zero do not count.
     fn add(&mut self, logarithms: &[f64]) {
         for (k, value) in logarithms.iter().enumerate().filter(|(_, value)| value.is_finite()) {
             self.sum[k] += value;
@@ -262,7 +266,7 @@ impl Sums {
         }
     }
 
-    fn join(&mut self, other: &Self) {
+    fn merge(&mut self, other: &Self) {
         for k in 0..self.sum.len() {
             self.sum[k] += other.sum[k];
             self.count[k] += other.count[k];

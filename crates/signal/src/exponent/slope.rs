@@ -2,19 +2,18 @@
 
 use crate::error::SignalError;
 
-/// Parts of the rise between which flows are fitted, and up to which maps are.
+/// Fractions of the rise between which flows are fitted, and up to which maps are fitted.
 const FLOW: (f64, f64) = (0.3, 0.7);
 const MAP: f64 = 0.6;
-/// Part of the rise from which on distances feel the size of the attractor.
+/// Fraction of the rise above which the size of the attractor limits distances.
 const NEAR_THE_LEVEL: f64 = 0.8;
-/// Part of the rise below which distances do not fall again once they have grown.
+/// Fraction of the rise below which distances do not fall again after the fitted part.
 const STAYS: f64 = 0.5;
 
-/// Part of the whole rise by which the last fifth of a curve may lie above the fifth before it and still be
-/// level.
+/// Fraction of the rise by which the last fifth of a level curve may exceed the fifth before it.
 const LEVEL: f64 = 0.05;
 
-/// Whether a curve still rises at its end: then its final level is not known.
+/// Whether a curve still rises at its end, so that its final level is unknown.
 pub(super) fn rises(curve: &[f64]) -> bool {
     let fifth = (curve.len() / 5).max(1);
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
@@ -23,10 +22,10 @@ pub(super) fn rises(curve: &[f64]) -> bool {
     mean(last) - before > LEVEL * (mean(last) - curve[0])
 }
 
-/// First and last step of the straight part, looked for between two parts of the rise.
+/// First and last step of the straight part between two fractions of the rise.
 ///
-/// The first step of a map does not count: in it the difference of two neighbours turns into the direction
-/// that grows.
+/// The first step of a map does not count: in it the difference of two neighbours turns into the growing
+/// direction.
 ///
 /// # Errors
 /// [`SignalError::NoScaling`].
@@ -48,10 +47,11 @@ pub(super) fn straight_part(curve: &[f64], flow: bool) -> Result<(usize, usize),
     Err(SignalError::NoScaling { reason: "it rises until the end: follow neighbours for longer" })
 }
 
-/// First and last step of the mean period in which the curve grows most, after the first one and before it is
-/// near its final level.
+/// First and last step of the mean period in which the curve grows most, after the first period and before
+/// the curve is near its final level.
 ///
-/// Growth over a whole period, not the slope of a regression line: waves of that period cancel.
+/// Growth over a whole period is used instead of a regression slope, so that oscillations of that period
+/// cancel.
 ///
 /// * `period`: mean period in steps.
 ///
@@ -60,9 +60,10 @@ pub(super) fn straight_part(curve: &[f64], flow: bool) -> Result<(usize, usize),
 pub(super) fn steepest_period(curve: &[f64], period: usize) -> Result<(usize, usize), SignalError> {
     let near = curve[0] + NEAR_THE_LEVEL * rise(curve)?;
     let end = curve.iter().position(|value| *value >= near).unwrap_or(curve.len() - 1);
-    let stretches = (period..=end.saturating_sub(period)).map(|from| (from, from + period));
-    stretches.max_by(|a, b| growth(curve, *a).total_cmp(&growth(curve, *b))).ok_or(SignalError::NoScaling {
-        reason: "neighbours are as far apart as they come within two mean periods: there is no whole one after the first",
+    let periods = (period..=end.saturating_sub(period)).map(|from| (from, from + period));
+    periods.max_by(|a, b| growth(curve, *a).total_cmp(&growth(curve, *b))).ok_or(SignalError::NoScaling {
+        reason: "neighbours are as far apart as they come within two mean periods: there is no whole \
+                 one after the first",
     })
 }
 
@@ -86,7 +87,7 @@ pub(super) fn slope(curve: &[f64], (from, to): (usize, usize)) -> f64 {
     at().map(|(k, value)| k * value).sum::<f64>() / at().map(|(k, _)| k * k).sum::<f64>()
 }
 
-/// Growth a step from one step to another.
+/// Mean growth per step from one step to another.
 pub(super) fn growth(curve: &[f64], (from, to): (usize, usize)) -> f64 {
     (curve[to] - curve[from]) / (to - from) as f64
 }
@@ -95,15 +96,15 @@ pub(super) fn growth(curve: &[f64], (from, to): (usize, usize)) -> f64 {
 mod tests {
     use super::*;
 
-    /// A line of slope 0.01 up to its level at 400, and waves of a period of 50 on it.
-    fn waving(level_at: usize) -> Vec<f64> {
-        let wave = |k: usize| 0.2 * (std::f64::consts::TAU * k as f64 / 50.0 + 0.3).sin();
-        (0..1000).map(|k| 0.01 * k.min(level_at) as f64 + wave(k)).collect()
+    /// A line of slope 0.01 up to its level at 400, with oscillations of period 50.
+    fn oscillating(level_at: usize) -> Vec<f64> {
+        let oscillation = |k: usize| 0.2 * (std::f64::consts::TAU * k as f64 / 50.0 + 0.3).sin();
+        (0..1000).map(|k| 0.01 * k.min(level_at) as f64 + oscillation(k)).collect()
     }
 
     #[test]
-    fn waves_cancel_in_a_whole_period() {
-        let curve = waving(400);
+    fn oscillations_cancel_over_a_whole_period() {
+        let curve = oscillating(400);
         let fit = steepest_period(&curve, 50).unwrap();
         assert!(fit.0 >= 50 && fit.1 - fit.0 == 50 && fit.1 <= 400, "{fit:?}");
         assert!((growth(&curve, fit) - 0.01).abs() < 1e-12, "{fit:?}");
@@ -111,8 +112,8 @@ mod tests {
 
     #[test]
     fn curve_that_is_level_within_two_periods_has_no_steepest_one() {
-        assert!(matches!(steepest_period(&waving(90), 50), Err(SignalError::NoScaling { .. })));
-        assert!(matches!(steepest_period(&waving(0), 50), Err(SignalError::NoScaling { .. })));
+        assert!(matches!(steepest_period(&oscillating(90), 50), Err(SignalError::NoScaling { .. })));
+        assert!(matches!(steepest_period(&oscillating(0), 50), Err(SignalError::NoScaling { .. })));
     }
 
     /// The first step grows by 0.1, the next ones by 0.5, up to a level.

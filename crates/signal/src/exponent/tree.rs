@@ -1,42 +1,43 @@
-//! Nearest neighbours: a tree that halves states along their widest coordinate (Bentley, Commun. ACM 18
-//! (1975), 509-517).
+//! Nearest neighbours by a k-d tree, which halves the states along their widest coordinate (Bentley, Commun.
+//! ACM 18 (1975), 509-517).
 
-use super::embedding::States;
+use super::states::DelayStates;
 
+/// States of a leaf.
 const LEAF: usize = 12;
 
 /// States in the order of the tree, with its inner nodes.
-pub(super) struct Tree {
+pub(super) struct NeighbourTree {
     order: Vec<usize>,
-    /// Coordinate and value at which a node is divided, for the stretch of `order` from and to; leaves have
-    /// none.
     nodes: Vec<Node>,
 }
 
+/// The states of `order` from one index to another.
+#[derive(Clone, Copy)]
 struct Node {
     from: usize,
     to: usize,
-    /// Coordinate, value, and the nodes below and above.
+    /// Coordinate, value, and the nodes below and above; leaves have none.
     cut: Option<(usize, f64, usize, usize)>,
 }
 
-/// A search: what is looked for, and the neighbours that do not count.
+/// A search for a neighbour, and the states that do not count.
 struct Search<'a> {
-    states: &'a States<'a>,
+    states: &'a DelayStates<'a>,
     state: usize,
     window: usize,
     beyond: f64,
 }
 
-impl Tree {
+impl NeighbourTree {
     /// A tree of the first `count` states.
-    pub(super) fn new(states: &States, count: usize) -> Self {
+    pub(super) fn new(states: &DelayStates, count: usize) -> Self {
         let mut tree = Self { order: (0..count).collect(), nodes: Vec::new() };
         tree.divide(states, 0, count);
         tree
     }
 
-    fn divide(&mut self, states: &States, from: usize, to: usize) -> usize {
+    fn divide(&mut self, states: &DelayStates, from: usize, to: usize) -> usize {
         let index = self.nodes.len();
         self.nodes.push(Node { from, to, cut: None });
         if to - from <= LEAF {
@@ -64,21 +65,21 @@ impl Tree {
         index
     }
 
-    /// The nearest state more than `window` samples away in time and farther than `beyond`, and the squared
-    /// distance.
+    /// The nearest state more than `window` samples away in time and farther away than `beyond`, with its
+    /// squared distance.
     pub(super) fn nearest(
         &self,
-        states: &States,
+        states: &DelayStates,
         state: usize,
         window: usize,
         beyond: f64,
     ) -> Option<(usize, f64)> {
         let mut best = None;
-        self.look(0, &Search { states, state, window, beyond: beyond * beyond }, &mut best);
+        self.search(0, &Search { states, state, window, beyond: beyond * beyond }, &mut best);
         best
     }
 
-    fn look(&self, node: usize, search: &Search, best: &mut Option<(usize, f64)>) {
+    fn search(&self, node: usize, search: &Search, best: &mut Option<(usize, f64)>) {
         let Node { from, to, cut } = self.nodes[node];
         let Some((coordinate, value, below, above)) = cut else {
             for &other in &self.order[from..to] {
@@ -96,14 +97,20 @@ impl Tree {
         };
         let side = search.states.coordinate(search.state, coordinate) - value;
         let (near, far) = if side < 0.0 { (below, above) } else { (above, below) };
-        self.look(near, search, best);
+        self.search(near, search, best);
         if best.is_none_or(|(_, least)| side * side <= least) {
-            self.look(far, search, best);
+            self.search(far, search, best);
         }
     }
 
     /// All states within a radius, more than `window` samples away in time.
-    pub(super) fn within(&self, states: &States, state: usize, window: usize, radius: f64) -> Vec<usize> {
+    pub(super) fn within(
+        &self,
+        states: &DelayStates,
+        state: usize,
+        window: usize,
+        radius: f64,
+    ) -> Vec<usize> {
         let mut found = Vec::new();
         let mut open = vec![0];
         while let Some(node) = open.pop() {
@@ -127,11 +134,3 @@ impl Tree {
         found
     }
 }
-
-impl Clone for Node {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl Copy for Node {}

@@ -1,7 +1,7 @@
 //! Design of Butterworth filters.
 //!
-//! Poles of the analogue low-pass filter of cut-off 1: `p_k = exp(i pi (2k + n + 1) / (2n))`, `k = 0 .. n-1`.
-//! With `c = tan(pi f_c / f_s)`:
+//! Poles of the analogue low-pass filter with cut-off 1: `p_k = exp(i pi (2k + n + 1) / (2n))`, `k = 0 ..
+//! n-1`. With `c = tan(pi f_c / f_s)`:
 //!
 //! | band | poles in s | zeros in z |
 //! |---|---|---|
@@ -17,13 +17,13 @@ use std::{cmp::Ordering, f64::consts::PI};
 
 use realfft::num_complex::Complex;
 
-use super::sections::{Section, Sections};
+use super::sections::{DigitalFilter, SecondOrderSection};
 use crate::error::{SignalError, ensure};
 
-/// Highest order: beyond it no one can say what the filter is for.
+/// Highest order; higher ones have no practical use.
 const HIGHEST_ORDER: usize = 32;
 
-/// What passes.
+/// Frequencies that pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Band {
     /// Below a frequency.
@@ -47,12 +47,12 @@ pub enum Band {
 
 /// Designs a filter.
 ///
-/// * `order`: that of the low-pass filter it is made of, 1 to 32; a band-pass filter has twice as many poles.
-/// * `sampling_rate_hz`: of the series it is for [Hz].
+/// * `order`: order of the low-pass prototype, 1 to 32; a band-pass filter has twice as many poles.
+/// * `sampling_rate_hz`: sampling rate of the series to be filtered [Hz].
 ///
 /// # Errors
 /// [`SignalError::Input`]: the order, or a cut-off that is not between 0 and half the sampling rate.
-pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<Sections, SignalError> {
+pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<DigitalFilter, SignalError> {
     let orders = format!("a whole number from 1 to {HIGHEST_ORDER}");
     ensure("the order of the filter", order as f64, orders, (1..=HIGHEST_ORDER).contains(&order))?;
     let half = sampling_rate_hz / 2.0;
@@ -85,7 +85,7 @@ pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<Se
             let roots = prototype.flat_map(|p| {
                 let half = p * (high - low) / 2.0;
                 let root = (half * half - low * high).sqrt();
-                // The larger one without cancellation; the product of both is known.
+                // The larger root without cancellation; the product of both is known.
                 let larger = if (half.conj() * root).re >= 0.0 { half + root } else { half - root };
                 [larger, low * high / larger]
             });
@@ -95,10 +95,10 @@ pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<Se
     };
     // Distances of the poles from one, 1 - z.
     let poles: Vec<Complex<f64>> = poles.into_iter().map(|s| -2.0 * s / (one - s)).collect();
-    Ok(chain(&poles, zeros, reference))
+    Ok(with_unit_gain(&poles, zeros, reference))
 }
 
-/// Where the zeros of a filter lie: -1, 1, or half of them at each.
+/// Location of the zeros of a filter: -1, 1, or half of them at each.
 #[derive(Clone, Copy)]
 enum Zeros {
     Low,
@@ -106,31 +106,36 @@ enum Zeros {
     Both,
 }
 
-/// One or two poles that make a section, `d² + a1 d + a2` in `d = z - 1`; a single one `d + a2`.
-struct Poles {
+/// One or two poles of a section, `d² + a1 d + a2` in `d = z - 1`; a single pole is `d + a2`.
+struct SectionPoles {
     a: [f64; 2],
-    /// Angle of a pole with positive imaginary part; none if both are real.
+    /// Angle of the pole with positive imaginary part; `None` for real poles.
     angle: Option<f64>,
-    /// Distance of a single pole from zero, or the root of the product of two.
+    /// Modulus of a single pole, or the root of the product of two moduli.
     modulus: f64,
-    single: bool,
+    is_single: bool,
 }
 
-/// Poles by sections, given by their distances from one. What is left of the imaginary part of a real pole is
-/// rounding.
-fn grouped(poles: &[Complex<f64>]) -> Vec<Poles> {
+/// Poles grouped into sections, given by their distances from one. A tiny imaginary part is rounding of a
+/// real pole.
+fn grouped(poles: &[Complex<f64>]) -> Vec<SectionPoles> {
     let is_real = |p: &Complex<f64>| p.im.abs() < 1e-12 * p.norm().max(1e-300);
     let pair = |p: &Complex<f64>| {
         let z = Complex::new(1.0, 0.0) - p;
-        Poles { a: [2.0 * p.re, p.norm_sqr()], angle: Some(z.arg()), modulus: z.norm(), single: false }
+        SectionPoles {
+            a: [2.0 * p.re, p.norm_sqr()],
+            angle: Some(z.arg()),
+            modulus: z.norm(),
+            is_single: false,
+        }
     };
     let mut real: Vec<f64> = poles.iter().filter(|p| is_real(p)).map(|p| p.re).collect();
     real.sort_by(|one, other| other.total_cmp(one));
     let of_real = |pair: &[f64]| {
-        let single = pair.len() == 1;
-        let a = if single { [0.0, pair[0]] } else { [pair.iter().sum(), pair.iter().product()] };
+        let is_single = pair.len() == 1;
+        let a = if is_single { [0.0, pair[0]] } else { [pair.iter().sum(), pair.iter().product()] };
         let product: f64 = pair.iter().map(|p| (1.0 - p).abs()).product();
-        Poles { a, angle: None, modulus: if single { product } else { product.sqrt() }, single }
+        SectionPoles { a, angle: None, modulus: if is_single { product } else { product.sqrt() }, is_single }
     };
     let complex = poles.iter().filter(|p| !is_real(p) && p.im < 0.0);
     complex.map(pair).chain(real.chunks(2).map(of_real)).collect()
@@ -141,19 +146,19 @@ const BOTH_LOW: [f64; 3] = [1.0, 4.0, 4.0];
 const BOTH_HIGH: [f64; 3] = [1.0, 0.0, 0.0];
 const ONE_EACH: [f64; 3] = [1.0, 2.0, 0.0];
 
-/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance
-/// sees what the others have damped.
+/// A filter with unit gain at a reference: sections ordered by their poles, those closest to the unit circle
+/// last, so that the sharpest resonance acts on an already filtered signal.
 ///
-/// The zeros of a band-pass filter go to the poles nearest to them: both at 1 to those of the lower edge,
-/// both at -1 to those of the upper one, one of each to what is left in the middle. Sections with a zero at
-/// each end pass what lies below a far higher upper edge nearly unweakened to sharp poles at the lower one,
-/// and their rounding is a thousand times larger.
-fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Sections {
+/// The zeros of a band-pass filter are paired with the nearest poles: two zeros at 1 with poles of the lower
+/// edge, two at -1 with poles of the upper edge, one of each with a pole left in the middle. Otherwise, if
+/// the upper edge is far higher, signals reach sharp poles at the lower edge almost unattenuated, and
+/// rounding is a thousand times larger.
+fn with_unit_gain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> DigitalFilter {
     let mut groups = grouped(poles);
     groups.sort_by(|one, other| one.angle.unwrap_or(0.0).total_cmp(&other.angle.unwrap_or(0.0)));
     let complex = groups.iter().filter(|group| group.angle.is_some()).count();
     let mut number = 0;
-    let mut numerator = |group: &Poles| match (zeros, group.single) {
+    let mut numerator = |group: &SectionPoles| match (zeros, group.is_single) {
         (Zeros::Low, false) => BOTH_LOW,
         (Zeros::Low, true) => [0.0, 1.0, 2.0],
         (Zeros::High, false) => BOTH_HIGH,
@@ -168,18 +173,18 @@ fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Secti
             }
         }
     };
-    let mut sections: Vec<(f64, Section)> = groups
+    let mut sections: Vec<(f64, SecondOrderSection)> = groups
         .iter()
         .map(|group| {
             let (numerator, denominator) = (numerator(group), group.a);
-            (group.modulus, Section { numerator, denominator, single: group.single })
+            (group.modulus, SecondOrderSection { numerator, denominator, is_first_order: group.is_single })
         })
         .collect();
     sections.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let mut sections: Vec<Section> = sections.into_iter().map(|(_, section)| section).collect();
+    let mut sections: Vec<SecondOrderSection> = sections.into_iter().map(|(_, section)| section).collect();
     let gain: f64 = sections.iter().map(|section| section.response(reference).norm()).product();
     sections[0].numerator.iter_mut().for_each(|value| *value /= gain);
-    Sections::new(sections)
+    DigitalFilter::new(sections)
 }
 
 #[cfg(test)]
@@ -187,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn half_the_power_is_left_at_the_cut_off_and_the_slope_is_that_of_the_order() {
+    fn half_the_power_remains_at_the_cut_off_and_the_slope_follows_the_order() {
         for order in [1, 2, 3, 4, 7, 10] {
             let filter = butterworth(order, Band::LowPass { cut_off_hz: 850.0 }, 1e5).unwrap();
             assert!((filter.gain(850.0, 1e5) - 0.5_f64.sqrt()).abs() < 1e-9, "order {order}");

@@ -1,13 +1,12 @@
-//! A low-pass filter on a motion that repeats: what an instrument shows once it has settled.
+//! A low-pass filter on a periodic motion: the settled response of an instrument.
 //!
 //! A periodic signal `x = sum_k c_k exp(2 pi i k f t)` leaves a linear filter as `sum_k H(2 pi i k f) c_k
-//! exp(2 pi i k f t)`: no transient, no time step. `H` is that of the analogue Butterworth filter,
+//! exp(2 pi i k f t)`: no transient, no time step. `H` is the response of the analogue Butterworth filter,
 //!
 //! `H(s) = prod_k -p_k/(s/w_c - p_k)`, `p_k = exp(i pi (2k + n + 1)/(2n))`, `|H(i w)|^2 = 1/(1 +
 //! (w/w_c)^(2n))`.
 //!
-//! The coefficients are those of the samples; a signal with lines above half the sampling rate is folded down
-//! before.
+//! The coefficients are computed from the samples; lines above half the sampling rate are aliased before.
 
 use std::f64::consts::PI;
 
@@ -26,10 +25,11 @@ pub fn low_pass_response(order: usize, cut_off_hz: f64, frequency_hz: f64) -> Co
     (0..order).map(pole).map(|p| -p / (s - p)).product()
 }
 
-/// A periodic signal behind a low-pass filter that has run for ever.
+/// The settled response of a low-pass filter to a periodic signal.
 ///
 /// * `samples`: one period (or several), at equal steps.
-/// * `duration_s`: what they cover [s].
+/// * `duration_s`: duration of the samples [s].
+/// * `filter`: order and cut-off frequency [Hz].
 ///
 /// # Errors
 /// [`SignalError::Input`], [`SignalError::TooShort`], [`SignalError::NotFinite`].
@@ -38,10 +38,10 @@ pub fn periodic_low_pass(
     duration_s: f64,
     filter: (usize, f64),
 ) -> Result<Vec<f64>, SignalError> {
-    behind(samples, duration_s, filter, |response| response)
+    filtered(samples, duration_s, filter, |response| response)
 }
 
-/// The same behind a filter that acts forwards and backwards: `|H|^2`, no phase.
+/// The response of a filter that acts forwards and backwards: `|H|^2`, zero phase.
 ///
 /// # Errors
 /// As [`periodic_low_pass`].
@@ -50,14 +50,14 @@ pub fn periodic_zero_phase(
     duration_s: f64,
     filter: (usize, f64),
 ) -> Result<Vec<f64>, SignalError> {
-    behind(samples, duration_s, filter, |response| Complex::new(response.norm_sqr(), 0.0))
+    filtered(samples, duration_s, filter, |response| Complex::new(response.norm_sqr(), 0.0))
 }
 
-fn behind(
+fn filtered(
     samples: &[f64],
     duration_s: f64,
     (order, cut_off_hz): (usize, f64),
-    acting: impl Fn(Complex<f64>) -> Complex<f64>,
+    factor: impl Fn(Complex<f64>) -> Complex<f64>,
 ) -> Result<Vec<f64>, SignalError> {
     ensure_series("a filter", samples, 2)?;
     ensure("the duration", duration_s, "more than 0", duration_s > 0.0 && duration_s.is_finite())?;
@@ -71,7 +71,7 @@ fn behind(
     ensure("the cut-off of the low-pass filter", cut_off_hz, "more than 0", positive)?;
     let mut spectrum = forward(samples.to_vec());
     for (k, value) in spectrum.iter_mut().enumerate() {
-        *value *= acting(low_pass_response(order, cut_off_hz, k as f64 / duration_s));
+        *value *= factor(low_pass_response(order, cut_off_hz, k as f64 / duration_s));
     }
     Ok(backward(spectrum, samples.len()))
 }
@@ -82,7 +82,7 @@ mod tests {
     use crate::filter::{Band, butterworth};
 
     #[test]
-    fn response_is_that_of_the_formula() {
+    fn modulus_of_the_response_matches_the_formula() {
         for order in [1, 2, 3, 4, 7] {
             for frequency in [0.0, 300.0, 850.0, 3000.0] {
                 let expected = (1.0 + (frequency / 850.0_f64).powi(2 * order as i32)).sqrt().recip();
@@ -112,7 +112,7 @@ mod tests {
         for k in 0..count / 2 {
             let t = period * k as f64 / count as f64;
             let expected = slope * (t - time_constant) - 1.0 + a * (-t / time_constant).exp();
-            // What folds down of a triangle is of the order (1/samples)^2 of it.
+            // Aliases of a triangle are of the order (1/samples)^2 of it.
             assert!((found[k] - expected).abs() < 1e-7, "sample {k}: {} {expected}", found[k]);
         }
     }
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_refused() {
+    fn input_out_of_range_is_refused() {
         assert!(periodic_low_pass(&[1.0], 1.0, (4, 850.0)).is_err());
         assert!(periodic_low_pass(&[1.0, 2.0], 0.0, (4, 850.0)).is_err());
         assert!(periodic_low_pass(&[1.0, 2.0], 1.0, (0, 850.0)).is_err());

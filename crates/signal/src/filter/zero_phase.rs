@@ -1,22 +1,22 @@
 //! Filtering forwards and backwards.
 
-use super::Sections;
+use super::sections::DigitalFilter;
 use crate::error::{SignalError, ensure_series};
 
-impl Sections {
-    /// Samples by which a series is continued at each end: three times the order of the whole chain plus one.
+impl DigitalFilter {
+    /// Samples by which a series is extended at each end: three times the order of the filter plus one.
     fn padding(&self) -> usize {
-        let first_order = self.sections().iter().filter(|section| section.single).count();
+        let first_order = self.sections().iter().filter(|section| section.is_first_order).count();
         3 * (2 * self.sections().len() + 1 - first_order)
     }
 
     /// Filters forwards and backwards: no delay, the gain squared.
     ///
-    /// The series is continued at both ends by `2 x_end - x_mirrored`, and each run begins in the steady
-    /// state of its first value.
+    /// The series is extended at both ends by `2 x_end - x_mirrored`, and each run starts in the steady state
+    /// of its first value.
     ///
     /// # Errors
-    /// [`SignalError::TooShort`] if the series is not longer than what it is continued by;
+    /// [`SignalError::TooShort`] if the series is not longer than its extension;
     /// [`SignalError::NotFinite`].
     pub fn zero_phase(&self, series: &[f64]) -> Result<Vec<f64>, SignalError> {
         let padding = self.padding();

@@ -1,10 +1,13 @@
 //! From the bytes of a table to its points.
 
 use super::{
-    Kind, Maxima, MeasuredPoint, MeasuredTable, PointsError,
-    columns::{Column, Role, roles},
+    columns::{ColumnRole, TitledColumn, roles},
+    measured::{MeasuredKind, MeasuredMaxima, MeasuredPoint, MeasuredTable},
 };
-use crate::read::csv::{Line, TextTable, excerpt};
+use crate::{
+    error::PointsError,
+    read::csv::{NumberedLine, TextTable, content_lines, decode, excerpt},
+};
 
 /// Reads a table of measured points.
 ///
@@ -12,8 +15,8 @@ use crate::read::csv::{Line, TextTable, excerpt};
 /// See [`PointsError`].
 pub fn parse(bytes: &[u8]) -> Result<MeasuredTable, PointsError> {
     let mut findings = Vec::new();
-    let text = crate::read::csv::decode(bytes, &mut findings).map_err(|_| PointsError::NotText)?;
-    let lines: Vec<Line> = crate::read::csv::lines(&text).collect();
+    let text = decode(bytes, &mut findings).map_err(|_| PointsError::NotText)?;
+    let lines: Vec<NumberedLine> = content_lines(&text).collect();
     let Some((&(_, titles), rows)) = lines.split_first() else { return Err(PointsError::Empty) };
     let table = TextTable::of_titles(titles);
     let titles: Vec<String> = table.fields(titles);
@@ -34,34 +37,36 @@ pub fn parse(bytes: &[u8]) -> Result<MeasuredTable, PointsError> {
 fn point(
     table: &TextTable,
     line: usize,
-    columns: &[Column],
+    columns: &[TitledColumn],
     fields: &[String],
 ) -> Result<MeasuredPoint, PointsError> {
-    let (mut frequency_hz, mut maxima, mut excitation) = (None, Maxima::default(), None);
-    let (mut kind, mut period) = (Kind::Unknown, None);
+    let (mut frequency_hz, mut maxima, mut excitation) = (None, MeasuredMaxima::default(), None);
+    let (mut kind, mut period) = (MeasuredKind::Unknown, None);
     for (column, field) in columns.iter().zip(fields) {
         let value = |factor: f64| positive(table, line, (&column.title, field), factor);
         match column.role {
-            Role::Frequency(factor) => frequency_hz = value(factor)?,
-            Role::Maximum(unit) => {
+            ColumnRole::Frequency(factor) => frequency_hz = value(factor)?,
+            ColumnRole::Maximum(unit) => {
                 if let Some(found) = value(unit.factor)? {
                     maxima.set(unit.quantity, found);
                 }
             }
-            Role::Excitation(unit) => {
+            ColumnRole::Excitation(unit) => {
                 excitation = value(unit.factor)?.map(|amplitude| (unit.quantity, amplitude));
             }
-            Role::Kind => kind = kind_of(line, field)?,
-            Role::Period => period = period_of(line, field)?,
-            Role::Other => {}
+            ColumnRole::Kind => kind = kind_of(line, field)?,
+            ColumnRole::Period => period = period_of(line, field)?,
+            ColumnRole::Other => {}
         }
     }
     let frequency_hz = frequency_hz.ok_or(PointsError::MissingFrequency { line })?;
-    if maxima == Maxima::default() {
+    if maxima == MeasuredMaxima::default() {
         return Err(PointsError::MissingMaximum { line });
     }
     let kind = match (kind, period) {
-        (Kind::Periodic { .. } | Kind::Unknown, Some(_)) => Kind::Periodic { period_multiple: period },
+        (MeasuredKind::Periodic { .. } | MeasuredKind::Unknown, Some(_)) => {
+            MeasuredKind::Periodic { period_multiple: period }
+        }
         (other, Some(period)) => {
             return Err(PointsError::PeriodOfAperiodic { line, kind: other.word(), period });
         }
@@ -70,7 +75,7 @@ fn point(
     Ok(MeasuredPoint { origin: format!("line {line}"), frequency_hz, maxima, kind, excitation })
 }
 
-/// A positive number times a factor; nothing where the field is empty.
+/// A positive number times a factor; `None` if the field is empty.
 fn positive(
     table: &TextTable,
     line: usize,
@@ -90,12 +95,12 @@ fn positive(
     }
 }
 
-fn kind_of(line: usize, text: &str) -> Result<Kind, PointsError> {
+fn kind_of(line: usize, text: &str) -> Result<MeasuredKind, PointsError> {
     match text.trim().to_lowercase().as_str() {
-        "" | "-" | "unknown" => Ok(Kind::Unknown),
-        "periodic" => Ok(Kind::Periodic { period_multiple: None }),
-        "aperiodic" | "chaotic" | "chaos" | "quasi-periodic" | "quasiperiodic" => Ok(Kind::Aperiodic),
-        "doubtful" => Ok(Kind::Doubtful),
+        "" | "-" | "unknown" => Ok(MeasuredKind::Unknown),
+        "periodic" => Ok(MeasuredKind::Periodic { period_multiple: None }),
+        "aperiodic" | "chaotic" | "chaos" | "quasi-periodic" | "quasiperiodic" => Ok(MeasuredKind::Aperiodic),
+        "doubtful" => Ok(MeasuredKind::Doubtful),
         _ => Err(PointsError::UnknownKind { line, text: excerpt(text) }),
     }
 }

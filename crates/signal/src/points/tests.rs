@@ -1,14 +1,15 @@
-use super::super::*;
 use super::*;
+use crate::{finding::RecordFinding, unit::MeasuredQuantity};
 
 fn read(text: &str) -> Result<MeasuredTable, PointsError> {
     parse(text.as_bytes())
 }
 
 #[test]
-fn columns_are_told_by_their_units_and_become_si() {
+fn columns_are_identified_by_their_units_and_become_si() {
     let table = read(
-        "# a rig\nfrequency [Hz],max acc (g),tip displacement / mm,shaker [m/s^2],kind,period,remark\n31.5,10,2,19.6,periodic,1,x\n\n50.8,,1.5,,chaotic,,\n",
+        "# a rig\nfrequency [Hz],max acc (g),tip displacement / mm,shaker [m/s^2],kind,period,remark\n\
+         31.5,10,2,19.6,periodic,1,x\n\n50.8,,1.5,,chaotic,,\n",
     )
     .unwrap();
     let [first, second] = &table.points[..] else { panic!("{table:?}") };
@@ -16,13 +17,13 @@ fn columns_are_told_by_their_units_and_become_si() {
     // One rounding.
     assert!((first.maxima.acceleration.unwrap() - 98.0665).abs() < 1e-12);
     assert_eq!(first.maxima.displacement, Some(2e-3));
-    assert_eq!(first.kind, Kind::Periodic { period_multiple: Some(1) });
+    assert_eq!(first.kind, MeasuredKind::Periodic { period_multiple: Some(1) });
     // 19.6 m/s² at 31.5 Hz: 19.6 / (2 pi 31.5)².
     let (quantity, amplitude) = first.excitation_amplitude().unwrap();
-    assert_eq!(quantity, Quantity::Displacement);
+    assert_eq!(quantity, MeasuredQuantity::Displacement);
     assert!((amplitude - 5.003_4e-4).abs() < 1e-7, "{amplitude}");
-    assert_eq!((second.maxima.acceleration, second.kind), (None, Kind::Aperiodic));
-    assert!(matches!(&table.findings[..], [Finding::LeftOut { name, .. }] if name == "remark"));
+    assert_eq!((second.maxima.acceleration, second.kind), (None, MeasuredKind::Aperiodic));
+    assert!(matches!(&table.findings[..], [RecordFinding::LeftOut { name, .. }] if name == "remark"));
 }
 
 #[test]
@@ -30,7 +31,7 @@ fn spreadsheets_with_decimal_commas_are_read() {
     let table = read("\u{feff}Frequenz in Hz;acc in mm/s²;multiple\r\n31,5;2000,5;2\r\n").unwrap();
     assert_eq!(table.points[0].frequency_hz, 31.5);
     assert_eq!(table.points[0].maxima.acceleration, Some(2.0005));
-    assert_eq!(table.points[0].kind, Kind::Periodic { period_multiple: Some(2) });
+    assert_eq!(table.points[0].kind, MeasuredKind::Periodic { period_multiple: Some(2) });
 }
 
 #[test]
@@ -38,11 +39,11 @@ fn columns_named_as_in_other_tables_of_the_program_are_read() {
     let table = read("frequency_hz,max_abs_displacement_m,max_contact_force_n\n20,1e-3,5\n").unwrap();
     assert_eq!(table.points[0].maxima.displacement, Some(1e-3));
     assert_eq!(table.points[0].maxima.force, Some(5.0));
-    assert_eq!(table.points[0].kind, Kind::Unknown);
+    assert_eq!(table.points[0].kind, MeasuredKind::Unknown);
 }
 
 #[test]
-fn every_fault_has_its_sentence() {
+fn every_fault_has_its_message() {
     let title = "frequency [Hz],acc [m/s^2],kind,period\n";
     for (text, part) in [
         (String::new(), "there is no table"),

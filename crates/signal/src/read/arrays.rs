@@ -1,28 +1,26 @@
-//! Which of named arrays are channels, which is the time, which the sampling rate.
+//! Channels, time and sampling rate among named arrays.
 //!
 //! * A single number named `fs`, `sampling_rate`, `rate`, ... is the sampling rate, one named `dt`, `ts`, ...
 //!   the step.
 //! * A vector is a channel. A matrix holds channels along its shorter side; `x[1]`, `x[2]`, ...
-//! * A vector whose name is that of a time, or whose name ends in a unit of time, is the time of all of them.
-//! * Without any of these, a matrix whose first column rises evenly holds the time there (told as a finding).
+//! * A vector named like a time, or with a name that ends in a unit of time, is the time of all channels.
+//! * Without any of these, the first column of a matrix is the time if it rises evenly (a finding reports
+//!   it).
 //! * Complex channels become two.
 
+use super::time::{compare_rates, rises_evenly, time_column};
 use crate::{
-    finding::Finding,
-    raw::{Axis, RawChannel, RawRecord, TimeColumn},
-    read::{
-        ReadError,
-        csv::unique,
-        time::{compare_rates, rises_evenly, time_column},
-    },
-    unit::split_title,
+    error::ReadError,
+    finding::RecordFinding,
+    raw::{RawChannel, RawRecord, TimeAxis, TimeColumn, number_repeated_names},
+    title::split_title,
 };
 
 /// An array of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Array {
     pub name: String,
-    /// Its sides; none for a single number.
+    /// Its side lengths; empty for a single number.
     pub shape: Vec<usize>,
     /// Entries, the first index running fastest.
     pub real: Vec<f64>,
@@ -30,21 +28,22 @@ pub(super) struct Array {
     pub imaginary: Option<Vec<f64>>,
 }
 
-pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<RawRecord, ReadError> {
+/// A record from the arrays of a file.
+pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<RecordFinding>) -> Result<RawRecord, ReadError> {
     let (numbers, arrays): (Vec<Array>, Vec<Array>) =
         arrays.into_iter().partition(|array| array.real.len() == 1);
     let step = step_of(&numbers, &mut findings)?;
     let mut channels: Vec<RawChannel> = arrays.iter().flat_map(|array| split(array, &mut findings)).collect();
-    unique(&mut channels);
+    number_repeated_names(&mut channels);
     let time = take_time(&mut channels, step.is_none(), &mut findings);
     let axis = match (&time, step) {
         (Some(TimeColumn { channel, .. }), _) => {
             let (times, _) = channel.times();
             compare_rates(step.map(|step| 1.0 / step), &times, &mut findings);
-            Axis::Times(times)
+            TimeAxis::Times(times)
         }
-        (None, Some(step_s)) => Axis::Even { step_s, start_s: 0.0 },
-        (None, None) => Axis::Unknown,
+        (None, Some(step_s)) => TimeAxis::Even { step_s, start_s: 0.0 },
+        (None, None) => TimeAxis::Unknown,
     };
     if channels.is_empty() {
         return Err(ReadError::NoNumbers);
@@ -52,8 +51,8 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     Ok(RawRecord { time, ..RawRecord::single(axis, channels, findings) })
 }
 
-/// The step that single numbers name [s].
-fn step_of(numbers: &[Array], findings: &mut Vec<Finding>) -> Result<Option<f64>, ReadError> {
+/// The step given by single numbers [s].
+fn step_of(numbers: &[Array], findings: &mut Vec<RecordFinding>) -> Result<Option<f64>, ReadError> {
     let mut step: Option<f64> = None;
     for number in numbers {
         let value = number.real[0];
@@ -66,7 +65,7 @@ fn step_of(numbers: &[Array], findings: &mut Vec<Finding>) -> Result<Option<f64>
             "ts" => value,
             _ => {
                 let reason = "a single number that is neither a sampling rate nor a step".to_owned();
-                findings.push(Finding::LeftOut { name: number.name.clone(), reason });
+                findings.push(RecordFinding::LeftOut { name: number.name.clone(), reason });
                 continue;
             }
         };
@@ -79,7 +78,7 @@ fn step_of(numbers: &[Array], findings: &mut Vec<Finding>) -> Result<Option<f64>
 }
 
 /// Channels of an array.
-fn split(array: &Array, findings: &mut Vec<Finding>) -> Vec<RawChannel> {
+fn split(array: &Array, findings: &mut Vec<RecordFinding>) -> Vec<RawChannel> {
     let sides: Vec<usize> = array.shape.iter().copied().filter(|side| *side != 1).collect();
     let (name, unit) = split_title(&array.name);
     let parts: Vec<(&str, &[f64])> = match &array.imaginary {
@@ -104,31 +103,33 @@ fn split(array: &Array, findings: &mut Vec<Finding>) -> Vec<RawChannel> {
         }
         _ => {
             let reason = format!("an array of {} dimensions", sides.len());
-            findings.push(Finding::LeftOut { name: array.name.clone(), reason });
+            findings.push(RecordFinding::LeftOut { name: array.name.clone(), reason });
             Vec::new()
         }
     }
 }
 
-/// Takes the time out of the channels.
+/// Moves the time out of the channels.
+///
+/// * `search`: whether an untitled column that rises evenly counts.
 fn take_time(
     channels: &mut Vec<RawChannel>,
     search: bool,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<RecordFinding>,
 ) -> Option<TimeColumn> {
-    // Of a field of a structure the last word counts.
-    let kinds: Vec<(&str, Option<&str>)> = channels
+    // Of the name of a structure's field the last word counts.
+    let titles: Vec<(&str, Option<&str>)> = channels
         .iter()
         .map(|channel| (channel.name.rsplit('.').next().unwrap_or_default(), channel.unit.as_deref()))
         .collect();
-    if let Some(place) = time_column(&kinds) {
-        let channel = channels.remove(place);
+    if let Some(index) = time_column(&titles) {
+        let channel = channels.remove(index);
         findings.extend(channel.times().1);
-        return Some(TimeColumn { channel, place });
+        return Some(TimeColumn { channel, index });
     }
     if search && channels.len() > 1 && rises_evenly(&channels[0].samples) {
-        findings.push(Finding::TimeAssumed);
-        return Some(TimeColumn { channel: channels.remove(0), place: 0 });
+        findings.push(RecordFinding::TimeAssumed);
+        return Some(TimeColumn { channel: channels.remove(0), index: 0 });
     }
     None
 }

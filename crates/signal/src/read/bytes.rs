@@ -1,17 +1,17 @@
-//! Numbers out of bytes.
+//! Numbers from bytes.
 
-use super::ReadError;
+use crate::error::ReadError;
 
-/// Bytes that are read from the front.
+/// Reads bytes from front to end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bytes<'a> {
+pub(super) struct ByteReader<'a> {
     rest: &'a [u8],
     big_endian: bool,
 }
 
-/// How a number is stored.
+/// Storage format of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stored {
+pub(super) enum NumberFormat {
     I8,
     U8,
     I16,
@@ -24,7 +24,7 @@ pub(super) enum Stored {
     F64,
 }
 
-impl Stored {
+impl NumberFormat {
     pub(super) const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -34,7 +34,7 @@ impl Stored {
         }
     }
 
-    /// Values of whole numbers of it.
+    /// Values of consecutive numbers in this format.
     pub(super) fn values(self, bytes: &[u8], big_endian: bool) -> Vec<f64> {
         bytes.chunks_exact(self.size()).map(|chunk| self.value(chunk, big_endian)).collect()
     }
@@ -59,7 +59,7 @@ impl Stored {
     }
 }
 
-impl<'a> Bytes<'a> {
+impl<'a> ByteReader<'a> {
     pub(super) const fn new(rest: &'a [u8], big_endian: bool) -> Self {
         Self { rest, big_endian }
     }

@@ -1,7 +1,7 @@
 //! Files of measurements, as users have them.
 //!
-//! Readers take bytes and give a [`RawRecord`]: what the file says, in its units. Whether that is a usable
-//! record is judged elsewhere ([`RawRecord::judge`]).
+//! Readers take bytes and give a [`RawRecord`]: the content of the file in its own units. Whether that is a
+//! usable record is decided by [`RawRecord::validate`].
 //!
 //! | file | format |
 //! |---|---|
@@ -10,8 +10,9 @@
 //! | `wav.rs` | RIFF WAVE |
 //! | `npy.rs`, `npz.rs` | NumPy arrays and archives |
 //! | `mat/` | MATLAB, level 5 |
-//! | `arrays.rs` | which of named arrays are channels, time, sampling rate: shared by NumPy and MATLAB |
-//! | `time.rs` | which of several columns is the time; a rate named beside it |
+//! | `arrays.rs` | channels, time and sampling rate among named arrays, for NumPy and MATLAB |
+//! | `time.rs` | which of several columns is the time; comparison with a named sampling rate |
+//! | `bytes.rs` | numbers from bytes |
 
 mod arrays;
 mod bytes;
@@ -26,16 +27,17 @@ mod wav;
 use std::path::Path;
 
 use crate::{
-    error::SignalError,
-    judge::Terms,
-    limits::{self, LARGEST_FILE, is_control},
+    error::{ReadError, SignalError},
+    limits::{self, LARGEST_FILE},
     raw::RawRecord,
     record::Record,
+    text::is_control,
+    validation::RecordOptions,
 };
 
-/// A format of files.
+/// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum RecordFormat {
     /// Values separated by commas, semicolons, tabs or blanks.
     Csv,
     /// Universal File Format with datasets 58 and 58b.
@@ -50,8 +52,8 @@ pub enum Format {
     Matlab,
 }
 
-impl Format {
-    /// The word for it.
+impl RecordFormat {
+    /// Its name on the command line and in reports.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -64,7 +66,7 @@ impl Format {
         }
     }
 
-    /// Told by the first bytes; whatever is no other format is taken for separated values.
+    /// The format by the first bytes; content of no other format is read as separated values.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
         if bytes.starts_with(b"\x93NUMPY") {
@@ -73,9 +75,9 @@ impl Format {
             Self::Npz
         } else if bytes.starts_with(b"RIFF") || bytes.starts_with(b"RIFX") {
             Self::Wav
-        } else if mat::begins(bytes) {
+        } else if mat::is_matlab(bytes) {
             Self::Matlab
-        } else if uff::begins(bytes) {
+        } else if uff::is_universal(bytes) {
             Self::Universal
         } else {
             Self::Csv
@@ -83,46 +85,7 @@ impl Format {
     }
 }
 
-/// Why a file is not what it should be.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "each message names its fields")]
-#[non_exhaustive]
-pub enum ReadError {
-    /// Nothing in it.
-    #[error("the file is empty")]
-    Empty,
-    /// Bytes that no text has.
-    #[error(
-        "the file is in no known format: it is binary, but neither WAV, NumPy, MATLAB nor universal file"
-    )]
-    UnknownFormat,
-    /// No rows of numbers.
-    #[error("there are no rows of numbers in it")]
-    NoNumbers,
-    /// Text where numbers should be.
-    #[error("line {line}, column {column}: \"{text}\" is not a number")]
-    NotANumber { line: usize, column: usize, text: String },
-    /// Rows of different length.
-    #[error("line {line} has {found} values, the other rows have {expected}")]
-    RaggedRow { line: usize, found: usize, expected: usize },
-    /// The file ends too early.
-    #[error("the file ends early: {what}")]
-    Truncated { what: String },
-    /// A format, or a part of it, that is not read.
-    #[error("{what} is not read; {instead}")]
-    Unsupported { what: String, instead: &'static str },
-    /// The file contradicts its own format.
-    #[error("not as the format has it: {what}")]
-    Malformed { what: String },
-    /// An archive that grows beyond all bounds when it is unpacked.
-    #[error("it unpacks to more than {} MiB, the most that is read", LARGEST_FILE >> 20)]
-    TooLarge,
-    /// A sampling rate that contradicts another one in the file.
-    #[error("the file names two sampling rates, {first} Hz and {second} Hz")]
-    TwoRates { first: f64, second: f64 },
-}
-
-/// Reads what bytes say.
+/// Reads the content of a file.
 ///
 /// # Errors
 /// See [`ReadError`].
@@ -130,15 +93,15 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     if bytes.trim_ascii().is_empty() {
         return Err(ReadError::Empty);
     }
-    let mut raw = match Format::of(bytes) {
-        Format::Csv => csv::read(bytes),
-        Format::Universal => uff::read(bytes),
-        Format::Wav => wav::read(bytes),
-        Format::Npy => npy::read(bytes),
-        Format::Npz => npz::read(bytes),
-        Format::Matlab => mat::read(bytes),
+    let mut raw = match RecordFormat::of(bytes) {
+        RecordFormat::Csv => csv::read(bytes),
+        RecordFormat::Universal => uff::read(bytes),
+        RecordFormat::Wav => wav::read(bytes),
+        RecordFormat::Npy => npy::read(bytes),
+        RecordFormat::Npz => npz::read(bytes),
+        RecordFormat::Matlab => mat::read(bytes),
     }?;
-    // Names go into tables and onto terminals.
+    // Names are printed in tables and on terminals.
     for channel in raw.groups.iter_mut().flat_map(|group| &mut group.channels) {
         let texts = [Some(&mut channel.name), channel.unit.as_mut()];
         texts.into_iter().flatten().for_each(|text| *text = text.replace(is_control, "\u{fffd}"));
@@ -146,26 +109,26 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     Ok(raw)
 }
 
-/// Reads what a file says.
+/// Reads a file.
 ///
 /// # Returns
-/// That, and the format of the file.
+/// Its content, and its format.
 /// # Errors
 /// [`SignalError::File`], [`SignalError::Read`].
-pub fn read_raw(path: &Path) -> Result<(RawRecord, Format), SignalError> {
+pub fn read_raw(path: &Path) -> Result<(RawRecord, RecordFormat), SignalError> {
     let bytes = limits::read_bytes(path, LARGEST_FILE)
         .map_err(|source| SignalError::File { path: path.to_owned(), source })?;
     let raw = parse(&bytes).map_err(|source| SignalError::Read { path: path.to_owned(), source })?;
-    Ok((raw, Format::of(&bytes)))
+    Ok((raw, RecordFormat::of(&bytes)))
 }
 
-/// Reads a file and judges it.
+/// Reads and validates a file.
 ///
 /// # Returns
-/// The record, and the format of the file.
+/// The record, and the file format.
 /// # Errors
 /// [`SignalError::File`], [`SignalError::Read`], [`SignalError::Record`].
-pub fn read(path: &Path, terms: &Terms) -> Result<(Record, Format), SignalError> {
+pub fn read(path: &Path, options: &RecordOptions) -> Result<(Record, RecordFormat), SignalError> {
     let (raw, format) = read_raw(path)?;
-    Ok((raw.judge(terms)?, format))
+    Ok((raw.validate(options)?, format))
 }

@@ -8,11 +8,10 @@
 //! NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays", and the format's version 2 and 3.
 
 use super::{
-    ReadError,
     arrays::{Array, arrange},
-    bytes::{Bytes, Stored},
+    bytes::{ByteReader, NumberFormat},
 };
-use crate::raw::RawRecord;
+use crate::{error::ReadError, raw::RawRecord};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     arrange(arrays(bytes, "x")?, Vec::new())
@@ -21,21 +20,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 /// One entry of an array: a number, or a part of a complex one.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
-    stored: Stored,
+    format: NumberFormat,
     big_endian: bool,
     complex: bool,
 }
 
 impl Entry {
     const fn size(self) -> usize {
-        self.stored.size() * if self.complex { 2 } else { 1 }
+        self.format.size() * if self.complex { 2 } else { 1 }
     }
 }
 
-/// The array of a file under a name, or the columns of a table under their own.
+/// The array of a file with a given name, or the columns of a table with their own names.
 pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> {
-    let mut bytes = Bytes::new(bytes, false);
-    let magic = bytes.take(8, "the beginning of the array")?;
+    let mut bytes = ByteReader::new(bytes, false);
+    let magic = bytes.take(8, "the start of the array")?;
     if !magic.starts_with(b"\x93NUMPY") {
         return Err(malformed(format!("{name} is no array")));
     }
@@ -52,7 +51,7 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
         .ok_or_else(|| malformed(format!("{name} has a shape that cannot be")))?;
     let data = bytes.take(expected, "the array")?;
     if expected == 0 {
-        // However long its other sides are.
+        // Whatever its other side lengths.
         return Ok(Vec::new());
     }
     let mut offset = 0;
@@ -61,12 +60,12 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
         let gather = |shift: usize| {
             let part: Vec<u8> = data
                 .chunks_exact(size)
-                .flat_map(|row| &row[offset + shift..offset + shift + entry.stored.size()])
+                .flat_map(|row| &row[offset + shift..offset + shift + entry.format.size()])
                 .copied()
                 .collect();
-            in_order(entry.stored.values(&part, entry.big_endian), &shape, fortran)
+            in_order(entry.format.values(&part, entry.big_endian), &shape, fortran)
         };
-        let imaginary = entry.complex.then(|| gather(entry.stored.size()));
+        let imaginary = entry.complex.then(|| gather(entry.format.size()));
         arrays.push(Array { name, shape: shape.clone(), real: gather(0), imaginary });
         offset += entry.size();
     }
@@ -77,7 +76,7 @@ fn malformed(what: String) -> ReadError {
     ReadError::Malformed { what }
 }
 
-/// Text behind a key of the dictionary.
+/// Text after a key of the dictionary.
 fn value_of<'a>(header: &'a str, key: &str) -> Result<&'a str, ReadError> {
     let quoted = format!("'{key}':");
     let at = header.find(&quoted).ok_or_else(|| malformed(format!("the header has no {key}")))?;
@@ -120,19 +119,19 @@ fn quoted(text: &str, n: usize) -> Result<&str, ReadError> {
 
 fn entry(text: &str) -> Result<Entry, ReadError> {
     let big_endian = text.starts_with('>');
-    let (stored, complex) = match text.trim_start_matches(['<', '>', '|', '=']) {
-        "f8" => (Stored::F64, false),
-        "f4" => (Stored::F32, false),
-        "i1" => (Stored::I8, false),
-        "u1" | "b1" => (Stored::U8, false),
-        "i2" => (Stored::I16, false),
-        "u2" => (Stored::U16, false),
-        "i4" => (Stored::I32, false),
-        "u4" => (Stored::U32, false),
-        "i8" => (Stored::I64, false),
-        "u8" => (Stored::U64, false),
-        "c8" => (Stored::F32, true),
-        "c16" => (Stored::F64, true),
+    let (format, complex) = match text.trim_start_matches(['<', '>', '|', '=']) {
+        "f8" => (NumberFormat::F64, false),
+        "f4" => (NumberFormat::F32, false),
+        "i1" => (NumberFormat::I8, false),
+        "u1" | "b1" => (NumberFormat::U8, false),
+        "i2" => (NumberFormat::I16, false),
+        "u2" => (NumberFormat::U16, false),
+        "i4" => (NumberFormat::I32, false),
+        "u4" => (NumberFormat::U32, false),
+        "i8" => (NumberFormat::I64, false),
+        "u8" => (NumberFormat::U64, false),
+        "c8" => (NumberFormat::F32, true),
+        "c16" => (NumberFormat::F64, true),
         other => {
             return Err(ReadError::Unsupported {
                 what: format!("an array of type {other}"),
@@ -140,10 +139,10 @@ fn entry(text: &str) -> Result<Entry, ReadError> {
             });
         }
     };
-    Ok(Entry { stored, big_endian, complex })
+    Ok(Entry { format, big_endian, complex })
 }
 
-/// Entries with the first index running fastest.
+/// Entries with the first index varying fastest.
 fn in_order(values: Vec<f64>, shape: &[usize], fortran: bool) -> Vec<f64> {
     let sides: Vec<usize> = shape.iter().copied().filter(|side| *side != 1).collect();
     match sides[..] {

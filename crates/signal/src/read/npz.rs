@@ -1,7 +1,7 @@
 //! NumPy archives (`.npz`): a zip archive of arrays, stored or deflated.
 //!
-//! Only what such archives need of the zip format is read: the central directory at the end, and each file by
-//! what stands there.
+//! Of the zip format only the necessary parts are read: the central directory at the end, and the files it
+//! lists.
 //!
 //! # Source
 //! PKWARE, APPNOTE.TXT "ZIP File Format Specification", sections 4.3.7, 4.3.12, 4.3.16.
@@ -10,8 +10,8 @@ use std::io::Read;
 
 use flate2::{Crc, read::DeflateDecoder};
 
-use super::{ReadError, arrays::arrange, bytes::Bytes, npy};
-use crate::{finding::Finding, limits::LARGEST_FILE, raw::RawRecord};
+use super::{arrays::arrange, bytes::ByteReader, npy};
+use crate::{error::ReadError, finding::RecordFinding, limits::LARGEST_FILE, raw::RawRecord};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut arrays = Vec::new();
@@ -22,13 +22,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
             Some(name) => match npy::arrays(&entry.content(bytes, &mut room)?, name) {
                 Ok(found) => arrays.extend(found),
                 Err(ReadError::Unsupported { what, .. }) => {
-                    findings.push(Finding::LeftOut { name: name.to_owned(), reason: what });
+                    findings.push(RecordFinding::LeftOut { name: name.to_owned(), reason: what });
                 }
                 Err(error) => return Err(error),
             },
             None => {
                 let reason = "no array".to_owned();
-                findings.push(Finding::LeftOut { name: entry.name, reason });
+                findings.push(RecordFinding::LeftOut { name: entry.name, reason });
             }
         }
     }
@@ -44,20 +44,20 @@ struct Entry {
     offset: usize,
 }
 
-/// What the central directory lists.
+/// The entries of the central directory.
 fn directory(bytes: &[u8]) -> Result<Vec<Entry>, ReadError> {
     let truncated = || ReadError::Truncated { what: "the directory of the archive is missing".to_owned() };
     let end = bytes.windows(4).rposition(|window| window == b"PK\x05\x06").ok_or_else(truncated)?;
-    let mut record = Bytes::new(&bytes[end..], false);
+    let mut record = ByteReader::new(&bytes[end..], false);
     record.take(10, "the end of the directory")?;
     let count = record.u16("the number of files")?;
     record.u32("the size of the directory")?;
-    let start = record.u32("the place of the directory")? as usize;
-    let mut directory = Bytes::new(bytes.get(start..end).ok_or_else(truncated)?, false);
+    let start = record.u32("the offset of the directory")? as usize;
+    let mut directory = ByteReader::new(bytes.get(start..end).ok_or_else(truncated)?, false);
     (0..count).map(|_| entry(&mut directory)).collect()
 }
 
-fn entry(directory: &mut Bytes) -> Result<Entry, ReadError> {
+fn entry(directory: &mut ByteReader) -> Result<Entry, ReadError> {
     let what = "the directory of the archive";
     directory.take(10, what)?;
     let method = directory.u16(what)?;
@@ -76,12 +76,12 @@ fn entry(directory: &mut Bytes) -> Result<Entry, ReadError> {
 impl Entry {
     /// Its content, decompressed.
     ///
-    /// * `room`: bytes that the archive may still unpack to.
+    /// * `room`: remaining bytes that the archive may unpack to.
     fn content(&self, bytes: &[u8], room: &mut u64) -> Result<Vec<u8>, ReadError> {
         *room = room.checked_sub(self.size as u64).ok_or(ReadError::TooLarge)?;
         let what = "a file of the archive";
         let truncated = || ReadError::Truncated { what: format!("{} is not whole", self.name) };
-        let mut local = Bytes::new(bytes.get(self.offset..).ok_or_else(truncated)?, false);
+        let mut local = ByteReader::new(bytes.get(self.offset..).ok_or_else(truncated)?, false);
         local.take(26, what)?;
         let lengths = [local.u16(what)?, local.u16(what)?].map(usize::from);
         local.take(lengths[0] + lengths[1], what)?;

@@ -4,8 +4,11 @@
 
 use hound::{SampleFormat, WavReader};
 
-use super::{ReadError, bytes::Stored};
-use crate::raw::{Axis, RawChannel, RawRecord};
+use super::bytes::NumberFormat;
+use crate::{
+    error::ReadError,
+    raw::{RawChannel, RawRecord, TimeAxis},
+};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     if let Some(double) = Double::find(bytes) {
@@ -23,22 +26,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     Ok(record(&values.map_err(reason)?, usize::from(spec.channels), spec.sample_rate))
 }
 
-/// Channels out of samples that stand in turn.
+/// Channels from interleaved samples.
 fn record(values: &[f64], count: usize, rate: u32) -> RawRecord {
     let channel = |index: usize| RawChannel {
         name: format!("channel {}", index + 1),
         unit: None,
         samples: values.iter().skip(index).step_by(count).copied().collect(),
     };
-    let axis = Axis::Even { step_s: 1.0 / f64::from(rate), start_s: 0.0 };
+    let axis = TimeAxis::Even { step_s: 1.0 / f64::from(rate), start_s: 0.0 };
     RawRecord::single(axis, (0..count).map(channel).collect(), Vec::new())
 }
 
-/// A file of floating-point numbers of 64 bits, which the library does not read.
+/// A file of floating-point numbers of 64 bits, which `hound` does not read.
 struct Double<'a> {
     channels: u16,
     rate: u32,
-    /// What follows its `fmt` chunk.
+    /// The bytes after its `fmt` chunk.
     rest: &'a [u8],
 }
 
@@ -46,8 +49,8 @@ const FLOAT: u16 = 3;
 const EXTENSIBLE: u16 = 0xfffe;
 
 impl<'a> Double<'a> {
-    /// The `fmt` chunk, if it is that of such numbers: format, channels, rate, bytes a second, bytes of all
-    /// channels, bits; in the extensible form the format stands at 24.
+    /// The `fmt` chunk of such a file: format, channels, rate, bytes per second, bytes per frame, bits. In
+    /// the extensible form the format is at offset 24.
     fn find(bytes: &'a [u8]) -> Option<Self> {
         let (chunk, rest) = chunk(bytes.get(12..)?, b"fmt ")?;
         let short = |at: usize| Some(u16::from_le_bytes([*chunk.get(at)?, *chunk.get(at + 1)?]));
@@ -67,11 +70,11 @@ impl<'a> Double<'a> {
         if !data.len().is_multiple_of(frame) {
             return Err(truncated());
         }
-        Ok(record(&Stored::F64.values(data, false), usize::from(self.channels), self.rate))
+        Ok(record(&NumberFormat::F64.values(data, false), usize::from(self.channels), self.rate))
     }
 }
 
-/// Content of the first chunk of a kind, and what follows it; chunks have even lengths.
+/// Content of the first chunk of a type, and the bytes after it; chunks have even lengths.
 fn chunk<'a>(mut bytes: &'a [u8], kind: &[u8; 4]) -> Option<(&'a [u8], &'a [u8])> {
     loop {
         let length = u32::from_le_bytes(bytes.get(4..8)?.try_into().ok()?) as usize;
@@ -86,7 +89,7 @@ fn chunk<'a>(mut bytes: &'a [u8], kind: &[u8; 4]) -> Option<(&'a [u8], &'a [u8])
 
 fn reason(error: hound::Error) -> ReadError {
     match error {
-        // The library's word for floating-point numbers of other lengths.
+        // The message of `hound` for floating-point numbers of other lengths.
         hound::Error::FormatError("bits per sample is not 32")
         | hound::Error::Unsupported
         | hound::Error::InvalidSampleFormat

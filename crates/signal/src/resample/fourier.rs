@@ -7,12 +7,12 @@ use crate::{
     fourier::{backward, forward},
 };
 
-/// Resamples a series that is taken as periodic.
+/// Resamples a periodic series.
 ///
-/// The spectrum is cut or continued by zeros. The value at half of the lower rate belongs to a positive and a
-/// negative frequency; it is split when it gets a place of its own, and both are joined when it loses it.
+/// The spectrum is truncated or padded with zeros. The value at half of the lower rate belongs to a positive
+/// and a negative frequency: it is halved when these become separate values, and doubled when they merge.
 ///
-/// * `length`: samples of the same stretch of time afterwards.
+/// * `length`: samples of the same duration afterwards.
 ///
 /// # Errors
 /// [`SignalError::Input`], [`SignalError::TooShort`], [`SignalError::NotFinite`].

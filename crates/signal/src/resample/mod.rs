@@ -3,9 +3,10 @@
 //! | file | how | for |
 //! |---|---|---|
 //! | `polyphase.rs` | low-pass filter (windowed sinc), by a rational factor | long records |
-//! | `fourier.rs` | the spectrum is cut or continued by zeros | whole periods; a record is taken as periodic |
-//! | `sinc.rs` | the value between samples, for any place | uneven places; no filter against aliasing |
+//! | `fourier.rs` | the spectrum is truncated or padded with zeros | whole periods |
+//! | `sinc.rs` | interpolation between samples | arbitrary times; no filter against aliasing |
 
+mod bessel;
 mod fourier;
 mod polyphase;
 mod sinc;
@@ -13,4 +14,4 @@ mod sinc;
 pub use fourier::resample_periodic;
 pub use polyphase::{Ratio, resample};
 pub use sinc::Interpolation;
-pub(crate) use sinc::{KNOWN_BELOW, REACH};
+pub(crate) use sinc::{ACCURATE_BELOW, REACH};

@@ -1,26 +1,24 @@
 //! Resampling by a rational factor.
 //!
-//! In thought the series is filled up with `up - 1` zeros between samples, filtered, and every `down`-th
-//! value kept: with the filter `h`, centred, `y_m = sum_k h(m down - k up) x_k`. The filter is a sinc of
-//! cut-off `1 / max(up, down)` of half the fine rate, over 10 zeros to each side, times a Kaiser window with
-//! `beta = 5` (ripple and stop band about 0.3 % and 53 dB), scaled to gain one. Before and after the series
-//! zeros are assumed.
+//! Conceptually, `up - 1` zeros are inserted between samples, the result is filtered, and every `down`-th
+//! value is kept: with the centred filter `h`, `y_m = sum_k h(m down - k up) x_k`. The filter is a sinc with
+//! a cut-off of `1 / max(up, down)` of half the fine rate, over 10 zeros on each side. It is multiplied by a
+//! Kaiser window with `beta = 5` (ripple and stop band about 0.3 % and 53 dB) and scaled to gain one. The
+//! series is zero outside its samples.
 //!
 //! # Source
-//! Kaiser and Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980), 105-107; the choices are those
-//! of SciPy's `resample_poly`.
+//! Kaiser and Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980), 105-107; the parameters are
+//! those of SciPy's `resample_poly`.
 
 use std::f64::consts::PI;
 
-use crate::{
-    error::{SignalError, ensure, ensure_series},
-    limits::ensure_count,
-};
+use super::bessel::bessel_i0;
+use crate::error::{SignalError, ensure, ensure_sample_count, ensure_series};
 
 const BETA: f64 = 5.0;
-/// Zeros of the sinc to each side.
+/// Zeros of the sinc on each side.
 const ZEROS: usize = 10;
-/// Largest number of the ratio.
+/// Largest numerator and denominator of a ratio.
 const LARGEST: usize = 10_000;
 
 /// New sampling rate over old, in lowest terms.
@@ -31,7 +29,7 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// `up / down`, which is reduced.
+    /// `up / down`, reduced to lowest terms.
     ///
     /// # Errors
     /// [`SignalError::Input`] if one of them is zero or, reduced, more than 10 000.
@@ -45,7 +43,7 @@ impl Ratio {
         Ok(Self { up, down })
     }
 
-    /// The ratio of two rates [Hz]: the first of their continued fraction that is good to 1e-9.
+    /// The ratio of two rates [Hz]: the first convergent of its continued fraction with an error below 1e-9.
     ///
     /// # Errors
     /// [`SignalError::Input`] if there is none with numbers up to 10 000.
@@ -53,9 +51,9 @@ impl Ratio {
         let wanted = new_hz / old_hz;
         ensure("the new sampling rate", new_hz, "more than 0", new_hz > 0.0 && wanted.is_finite())?;
         let (mut before, mut last) = ((0.0, 1.0), (1.0, 0.0));
-        let mut rest = wanted;
+        let mut remainder = wanted;
         for _ in 0..40 {
-            let whole = rest.floor();
+            let whole = remainder.floor();
             let next = (whole * last.0 + before.0, whole * last.1 + before.1);
             (before, last) = (last, next);
             if next.0 > LARGEST as f64 || next.1 > LARGEST as f64 {
@@ -64,7 +62,7 @@ impl Ratio {
             if next.0 > 0.0 && (next.0 / next.1 / wanted - 1.0).abs() < 1e-9 {
                 return Self::new(next.0 as usize, next.1 as usize);
             }
-            rest = 1.0 / (rest - whole);
+            remainder = 1.0 / (remainder - whole);
         }
         let allowed = format!("in a ratio of whole numbers up to {LARGEST} to {old_hz} Hz");
         Err(SignalError::Input { what: "the new sampling rate", found: new_hz, allowed })
@@ -97,15 +95,15 @@ pub fn resample(series: &[f64], ratio: Ratio) -> Result<Vec<f64>, SignalError> {
         return Ok(series.to_vec());
     }
     let half = ZEROS * up.max(down);
-    ensure_count(series.len() as f64 * ratio.value())?;
+    ensure_sample_count(series.len() as f64 * ratio.value())?;
     let filter = filter(half, up.max(down), up as f64);
     let length = (series.len() * up).div_ceil(down);
     let value = |m: usize| {
         // The filter's index is m down + half - k up, from 0 to 2 half.
-        let place = m * down + half;
-        let last = (place / up).min(series.len() - 1);
-        let first = place.saturating_sub(2 * half).div_ceil(up);
-        (first..=last).map(|k| filter[place - k * up] * series[k]).sum()
+        let position = m * down + half;
+        let last = (position / up).min(series.len() - 1);
+        let first = position.saturating_sub(2 * half).div_ceil(up);
+        (first..=last).map(|k| filter[position - k * up] * series[k]).sum()
     };
     Ok((0..length).map(value).collect())
 }
@@ -122,20 +120,6 @@ fn filter(half: usize, rate: usize, gain: f64) -> Vec<f64> {
         .collect();
     let sum: f64 = taps.iter().sum();
     taps.into_iter().map(|tap| tap * gain / sum).collect()
-}
-
-/// Modified Bessel function of the first kind and order zero, by its series.
-pub(super) fn bessel_i0(x: f64) -> f64 {
-    let quarter = x * x / 4.0;
-    let (mut sum, mut term) = (1.0, 1.0);
-    for k in 1..200 {
-        term *= quarter / f64::from(k * k);
-        sum += term;
-        if term < 1e-17 * sum {
-            break;
-        }
-    }
-    sum
 }
 
 #[cfg(test)]

@@ -1,23 +1,23 @@
-//! Values between samples: a windowed sinc.
+//! Values between samples by a windowed sinc.
 //!
-//! `x(t) = sum_k x_k sinc(t - k) w(t - k)`, `t` in samples, over 16 samples to each side, `w` a Kaiser window
-//! with `beta = 10`. For signals below 0.4 of the sampling rate the error is below 2e-5 of their amplitude.
-//! Within 16 samples of an end the outer sample stands for what is missing.
+//! `x(t) = sum_k x_k sinc(t - k) w(t - k)`, `t` in samples, over 16 samples on each side, with a Kaiser
+//! window `w` of `beta = 10`. For signals below 0.4 of the sampling rate the error is below 2e-5 of their
+//! amplitude. Beyond the ends of the series its outermost sample is used.
 
 use std::f64::consts::PI;
 
-use super::polyphase::bessel_i0;
+use super::bessel::bessel_i0;
 
-/// Samples to each side.
+/// Samples on each side.
 pub(crate) const REACH: usize = 16;
-/// Part of the sampling rate below which the error is as stated.
-pub(crate) const KNOWN_BELOW: f64 = 0.4;
+/// Fraction of the sampling rate below which the stated error holds.
+pub(crate) const ACCURATE_BELOW: f64 = 0.4;
 const BETA: f64 = 10.0;
-/// Places between two samples for which weights are kept; between them they are linear, with an error of
-/// about `(pi/1024)²/8`, 1e-6.
-const PLACES: usize = 1024;
+/// Positions between two samples with tabulated weights; between them weights are interpolated linearly, with
+/// an error of about `(pi/1024)²/8`, 1e-6.
+const POSITIONS: usize = 1024;
 
-/// Weights of neighbouring samples for places between them.
+/// Weights of neighbouring samples for positions between them.
 #[derive(Debug, Clone)]
 pub struct Interpolation {
     weights: Vec<[f64; 2 * REACH]>,
@@ -30,11 +30,11 @@ impl Default for Interpolation {
 }
 
 impl Interpolation {
-    /// Prepares the weights.
+    /// Tabulates the weights.
     #[must_use]
     pub fn new() -> Self {
-        let row = |place: usize| {
-            let part = place as f64 / PLACES as f64;
+        let row = |position: usize| {
+            let part = position as f64 / POSITIONS as f64;
             let mut row = [0.0; 2 * REACH];
             for (index, weight) in row.iter_mut().enumerate() {
                 *weight = kernel(part + (REACH - 1) as f64 - index as f64);
@@ -42,15 +42,15 @@ impl Interpolation {
             let sum: f64 = row.iter().sum();
             row.map(|weight| weight / sum)
         };
-        Self { weights: (0..=PLACES).map(row).collect() }
+        Self { weights: (0..=POSITIONS).map(row).collect() }
     }
 
-    /// The value at a place, counted in samples.
+    /// The value at a position, counted in samples.
     #[must_use]
-    pub fn at(&self, series: &[f64], place: f64) -> f64 {
-        let whole = place.floor();
-        let part = (place - whole) * PLACES as f64;
-        let row = (part as usize).min(PLACES - 1);
+    pub fn at(&self, series: &[f64], position: f64) -> f64 {
+        let whole = position.floor();
+        let part = (position - whole) * POSITIONS as f64;
+        let row = (part as usize).min(POSITIONS - 1);
         let between = part - row as f64;
         let (low, high) = (&self.weights[row], &self.weights[row + 1]);
         let first = whole as isize - (REACH as isize - 1);
@@ -86,10 +86,10 @@ mod tests {
             let signal = |t: f64| (2.0 * PI * frequency * t + 0.4).sin();
             let series: Vec<f64> = (0..200).map(|k| signal(f64::from(k))).collect();
             for step in 0..600 {
-                let place = 40.0 + 0.1734 * f64::from(step);
+                let position = 40.0 + 0.1734 * f64::from(step);
                 assert!(
-                    (interpolation.at(&series, place) - signal(place)).abs() < 2e-5,
-                    "{frequency} at {place}"
+                    (interpolation.at(&series, position) - signal(position)).abs() < 2e-5,
+                    "{frequency} at {position}"
                 );
             }
         }

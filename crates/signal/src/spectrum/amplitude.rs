@@ -1,50 +1,49 @@
 //! Amplitude spectrum of a whole record, and the lines in it.
 //!
-//! A line between two bins is located by the parabola through the logarithms of the three values about a
-//! maximum: at `delta` bins from it, `delta = (a - c) / (2 (a - 2b + c))` with `a, b, c` these logarithms,
-//! and the line's amplitude is `exp(b - (a - c) delta / 4)`. For a Hann window that is within 0.016 bins and
-//! 4 %. The rectangular window knows no such rule: its values are those of the bin. Nor is there one beside
-//! the ends of the spectrum, where a line is folded upon itself, or for what is narrower than the line of a
-//! window.
+//! A line between two bins is located by the parabola through the logarithms `a`, `b`, `c` of the three
+//! values about a maximum. It is `delta = (a - c) / (2 (a - 2b + c))` bins away from the middle one, with the
+//! amplitude `exp(b - (a - c) delta / 4)`. For a Hann window the errors are below 0.016 bins and 4 %. There
+//! is no interpolation for the rectangular window, next to the ends of the spectrum, where a line is folded
+//! upon itself, and for maxima narrower than the line of a window.
 
-use super::Window;
+use super::window::Window;
 use crate::{
     error::{SignalError, ensure_series},
     fourier,
 };
 
-/// Values over frequency.
+/// Amplitudes, powers or densities over the frequency.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spectrum {
-    /// Distance of the values [Hz]; the first is at zero.
+pub struct FrequencySpectrum {
+    /// Distance between values [Hz]; the first one is at zero.
     pub step_hz: f64,
     /// The values, up to half the sampling rate.
     pub values: Vec<f64>,
-    /// Values below this are rounding.
+    /// Values below this one are rounding.
     pub rounding: f64,
-    /// The window before the transform.
+    /// The window applied before the transform.
     pub window: Window,
 }
 
-/// Part of the largest sample that may be rounding in a spectrum of amplitudes.
+/// Rounding in a spectrum of amplitudes, over the largest sample.
 pub(super) const ROUNDING: f64 = 1e-14;
-/// Part of a line's value that both neighbours have at least, with any window but the rectangular one. For a
-/// Hann window it is 0.2 or more, squared 0.04.
+/// Least value of both neighbours of a line over its own, with any window but the rectangular one. For a Hann
+/// window it is at least 0.2, squared 0.04.
 const NARROW: f64 = 0.01;
 
 /// A maximum of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
-    /// Where [Hz].
+pub struct SpectralLine {
+    /// Its frequency [Hz].
     pub frequency_hz: f64,
-    /// How high.
+    /// Its value.
     pub value: f64,
 }
 
 /// Amplitudes of a series.
 ///
-/// The mean is taken off before the window is put on, so that it does not leak into low frequencies; it
-/// stands at zero.
+/// The mean is removed before the window is applied, so that it does not leak into low frequencies; it is the
+/// value at zero.
 ///
 /// # Errors
 /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
@@ -52,7 +51,7 @@ pub fn amplitude_spectrum(
     series: &[f64],
     sampling_rate_hz: f64,
     window: Window,
-) -> Result<Spectrum, SignalError> {
+) -> Result<FrequencySpectrum, SignalError> {
     ensure_series("a spectrum", series, 2)?;
     let length = series.len();
     let mean = series.iter().sum::<f64>() / length as f64;
@@ -67,10 +66,15 @@ pub fn amplitude_spectrum(
     let mut values: Vec<f64> = spectrum.iter().enumerate().map(value).collect();
     values[0] = mean.abs();
     let largest = series.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values, rounding: ROUNDING * largest, window })
+    Ok(FrequencySpectrum {
+        step_hz: sampling_rate_hz / length as f64,
+        values,
+        rounding: ROUNDING * largest,
+        window,
+    })
 }
 
-impl Spectrum {
+impl FrequencySpectrum {
     /// Frequency of a value [Hz].
     #[must_use]
     pub fn frequency_hz(&self, index: usize) -> f64 {
@@ -79,14 +83,14 @@ impl Spectrum {
 
     /// The highest lines, highest first.
     ///
-    /// * `count`: how many at most.
-    /// * `apart`: bins within which only the highest counts.
+    /// * `count`: largest number of lines.
+    /// * `apart`: distance in bins within which only the highest line counts.
     #[must_use]
-    pub fn lines(&self, count: usize, apart: usize) -> Vec<Line> {
+    pub fn lines(&self, count: usize, apart: usize) -> Vec<SpectralLine> {
         let values = &self.values;
         let last = values.len().saturating_sub(1);
         let is_maximum = |k: usize| match values.get(k + 1) {
-            // At the end of the spectrum a line of a Hann window has two equal values: it is the end.
+            // At the end of the spectrum a line of a Hann window has two equal values, and the end counts.
             Some(end) if k + 1 == last => values[k] > values[k - 1] && values[k] > end * (1.0 + 1e-9),
             Some(next) => values[k] > values[k - 1] && values[k] >= *next,
             None => values[k] >= values[k - 1] * (1.0 - 1e-9),
@@ -106,8 +110,8 @@ impl Spectrum {
         chosen.into_iter().map(|index| self.line(index)).collect()
     }
 
-    fn line(&self, index: usize) -> Line {
-        let here = Line { frequency_hz: self.frequency_hz(index), value: self.values[index] };
+    fn line(&self, index: usize) -> SpectralLine {
+        let here = SpectralLine { frequency_hz: self.frequency_hz(index), value: self.values[index] };
         let inside = index > 1 && index + 2 < self.values.len();
         if !inside || self.window == Window::Rectangular {
             return here;
@@ -119,7 +123,10 @@ impl Spectrum {
         let [a, b, c] = near.map(f64::ln);
         let curvature = a - 2.0 * b + c;
         let shift = if curvature < 0.0 { ((a - c) / (2.0 * curvature)).clamp(-0.5, 0.5) } else { 0.0 };
-        Line { frequency_hz: (index as f64 + shift) * self.step_hz, value: (b - (a - c) * shift / 4.0).exp() }
+        SpectralLine {
+            frequency_hz: (index as f64 + shift) * self.step_hz,
+            value: (b - (a - c) * shift / 4.0).exp(),
+        }
     }
 }
 
@@ -155,8 +162,8 @@ mod tests {
         }
     }
 
-    /// A line at half the sampling rate, and one below the first bin, are folded upon themselves: nothing is
-    /// made up about them.
+    /// A line at half the sampling rate, and one below the first bin, are folded upon themselves: they are
+    /// not interpolated.
     #[test]
     fn lines_at_the_ends_of_the_spectrum_keep_their_values() {
         let alternating: Vec<f64> = (0..1000).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
@@ -176,15 +183,17 @@ mod tests {
         assert_eq!(spectrum.lines(3, 3), []);
     }
 
-    /// Nothing between bins for a rectangular window: what it shows of 50.37 Hz is the value at 50.5 Hz. A
-    /// line on a bin has zeros beside it.
+    /// A rectangular window shows 50.37 Hz as the value at 50.5 Hz. A line on a bin has zeros next to it.
     #[test]
     fn rectangular_window_is_not_interpolated() {
         for (frequency, shown) in [(50.37, 50.5), (50.0, 50.0)] {
             let spectrum =
                 amplitude_spectrum(&harmonic(frequency, 1.7), 1000.0, Window::Rectangular).unwrap();
             let line = spectrum.lines(1, 3)[0];
-            assert_eq!(line, Line { frequency_hz: shown, value: spectrum.values[(2.0 * shown) as usize] });
+            assert_eq!(
+                line,
+                SpectralLine { frequency_hz: shown, value: spectrum.values[(2.0 * shown) as usize] }
+            );
         }
     }
 

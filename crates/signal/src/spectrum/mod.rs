@@ -1,4 +1,4 @@
-//! Spectra: amplitudes of lines, and densities of what has none.
+//! Spectra: amplitudes of lines, power and spectral densities.
 //!
 //! With window `w`, `X_k = sum_n w_n x_n exp(-2 pi i k n / N)`, one-sided (`c_k = 2`, but 1 at zero and at
 //! half the sampling rate):
@@ -11,12 +11,15 @@
 //! |---|---|
 //! | `window.rs` | windows |
 //! | `amplitude.rs` | amplitudes of a whole record; its lines |
-//! | `welch.rs` | averages over overlapping segments (Welch, IEEE Trans. Audio Electroacoust. 15 (1967), 70-73) |
+//! | `welch.rs` | averages over overlapping segments |
+//!
+//! # Source
+//! Welch, IEEE Trans. Audio Electroacoust. 15 (1967), 70-73.
 
 mod amplitude;
 mod welch;
 mod window;
 
-pub use amplitude::{Line, Spectrum, amplitude_spectrum};
+pub use amplitude::{FrequencySpectrum, SpectralLine, amplitude_spectrum};
 pub use welch::{Detrend, Scaling, WelchSettings, welch};
 pub use window::Window;

@@ -2,10 +2,13 @@
 
 use realfft::RealFftPlanner;
 
-use super::{Spectrum, Window, amplitude::ROUNDING};
+use super::{
+    amplitude::{FrequencySpectrum, ROUNDING},
+    window::Window,
+};
 use crate::error::{SignalError, ensure, ensure_series};
 
-/// What the values are.
+/// Meaning of the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scaling {
     /// Spectral density [unit²/Hz].
@@ -14,7 +17,7 @@ pub enum Scaling {
     Power,
 }
 
-/// What is taken off each segment before its transform.
+/// What is subtracted from each segment before its transform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detrend {
     /// Nothing.
@@ -25,7 +28,7 @@ pub enum Detrend {
     Linear,
 }
 
-/// How segments are made.
+/// How a series is divided into segments and evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WelchSettings {
     /// Samples of a segment.
@@ -34,14 +37,14 @@ pub struct WelchSettings {
     pub overlap: usize,
     /// The window.
     pub window: Window,
-    /// What the values are.
+    /// Meaning of the values.
     pub scaling: Scaling,
-    /// What is taken off.
+    /// What is subtracted.
     pub detrend: Detrend,
 }
 
 impl WelchSettings {
-    /// Segments of a length, half overlapping, Hann window, densities, mean taken off.
+    /// Segments of a length that overlap by half, with a Hann window, densities, mean removed.
     #[must_use]
     pub const fn with_segment(segment: usize) -> Self {
         Self {
@@ -57,13 +60,13 @@ impl WelchSettings {
 /// Spectral density or power, averaged over segments.
 ///
 /// # Errors
-/// [`SignalError::TooShort`] if there is no whole segment, [`SignalError::Input`] for a segment or overlap
-/// that is none.
+/// [`SignalError::TooShort`] if there is no whole segment, [`SignalError::Input`] for an invalid segment or
+/// overlap.
 pub fn welch(
     series: &[f64],
     sampling_rate_hz: f64,
     settings: &WelchSettings,
-) -> Result<Spectrum, SignalError> {
+) -> Result<FrequencySpectrum, SignalError> {
     let WelchSettings { segment: length, overlap, window, scaling, detrend } = *settings;
     ensure("the length of a segment", length as f64, "at least 2 samples", length >= 2)?;
     ensure(
@@ -90,7 +93,7 @@ pub fn welch(
         segment.iter_mut().zip(&weights).for_each(|(value, weight)| *value *= weight);
         transform
             .process_with_scratch(&mut segment, &mut spectrum, &mut scratch)
-            .expect("the lengths are those of the plan");
+            .expect("the lengths match the plan");
         values.iter_mut().zip(&spectrum).for_each(|(value, x)| *value += x.norm_sqr());
         count += 1;
     }
@@ -100,10 +103,10 @@ pub fn welch(
     }
     let largest = series.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let rounding = scale * (ROUNDING * largest * weights.iter().sum::<f64>()).powi(2);
-    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values, rounding, window })
+    Ok(FrequencySpectrum { step_hz: sampling_rate_hz / length as f64, values, rounding, window })
 }
 
-/// Takes the mean or the regression line off.
+/// Subtracts the mean or the regression line.
 fn remove_trend(series: &mut [f64], detrend: Detrend) {
     if detrend == Detrend::None {
         return;

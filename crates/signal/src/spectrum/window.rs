@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | rectangular | whole periods, transients | 1 bin | 13 dB |
 //! | Hann | in general | 1.5 bins | 31 dB |
-//! | Hamming | near sidelobes low | 1.36 bins | 43 dB |
-//! | Blackman | weak lines beside strong ones | 1.73 bins | 58 dB |
+//! | Hamming | low first sidelobes | 1.36 bins | 43 dB |
+//! | Blackman | weak lines next to strong ones | 1.73 bins | 58 dB |
 //! | flat-top | amplitudes of lines between bins, to 0.01 dB | 3.77 bins | 93 dB |
 //!
 //! Widths are equivalent noise bandwidths.
@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 /// A window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Window {
-    /// None.
+    /// No window.
     Rectangular,
     /// Hann.
     Hann,

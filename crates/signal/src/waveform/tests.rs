@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::error::SignalError;
 
 /// Harmonics up to the sixth, at a phase in cycles.
 fn wave(phase: f64) -> f64 {
@@ -14,14 +15,14 @@ fn sampled(count: usize, from: f64) -> Vec<f64> {
 }
 
 #[test]
-fn shift_factor_and_residual_are_those_that_were_put_in() {
+fn shift_factor_and_residual_are_recovered() {
     let b = sampled(64, 0.0);
     // Delayed by 13.37 samples, half as large, on another level.
     let a: Vec<f64> = sampled(64, -13.37 / 64.0).iter().map(|value| 0.5 * value + 3.0).collect();
     let found = align(&a, &b, Shifts::Any).unwrap();
     assert!((found.shift - 13.37).abs() < 1e-9, "{found:?}");
     assert!((found.correlation - 1.0).abs() < 1e-12 && (found.factor - 2.0).abs() < 1e-12, "{found:?}");
-    // (1 - 1/2) of the size is left without the factor.
+    // Without the factor the residual is 1 - 1/2 of the size.
     assert!((found.residual(1.0) - 0.5).abs() < 1e-12 && found.residual(2.0) < 1e-6, "{found:?}");
     let moved = delayed(&b, found.shift).unwrap();
     assert!(moved.iter().zip(&a).all(|(b, a)| (0.5 * b + 3.0 - a).abs() < 1e-3), "{moved:?}");
@@ -51,9 +52,9 @@ fn shifts_are_kept_near_whole_periods() {
 }
 
 #[test]
-fn record_is_folded_from_the_time_on_that_is_told() {
-    // 2 Hz, whose waveform repeats after two periods, from 1.3 s on at 1 kHz; pieces begin where the clock
-    // has whole ones.
+fn record_is_folded_from_the_given_time() {
+    // 2 Hz, whose waveform repeats after two periods, from 1.3 s on at 1 kHz; pieces start at whole
+    // ones of the clock.
     let value = |t: f64| (TAU * 2.0 * t).cos() + 0.5 * (TAU * t + 0.3).sin();
     let samples: Vec<f64> = (0..9_000).map(|k| value(1.3 + f64::from(k) * 1e-3)).collect();
     let found = folded(&samples, (1000.0, -1.3), 2.0, (2, 512)).unwrap();
@@ -66,10 +67,10 @@ fn record_is_folded_from_the_time_on_that_is_told() {
     assert!(found.scatter < 1e-4);
 }
 
-/// 4000 samples a period, read at 64 phases: the fortieth harmonic is above what these hold, and folded down
-/// it would be the 24th.
+/// 4000 samples a period, read at 64 phases: the fortieth harmonic is above their limit, and its alias
+/// would be the 24th.
 #[test]
-fn what_the_samples_of_a_waveform_do_not_hold_is_left_out() {
+fn harmonics_above_the_samples_of_a_waveform_are_left_out() {
     let slow = |t: f64| (TAU * t).cos() + 0.3 * (TAU * 31.0 * t).sin();
     let samples: Vec<f64> = (0..20_001)
         .map(|k| f64::from(k) / 4000.0)
@@ -83,10 +84,10 @@ fn what_the_samples_of_a_waveform_do_not_hold_is_left_out() {
     }
 }
 
-/// Ten samples a period hold four lines to the interpolation's accuracy; a computed waveform with more is cut
-/// to them.
+/// Ten samples per period represent four lines to the interpolation's accuracy; a computed waveform with more
+/// is cut to them.
 #[test]
-fn what_a_record_does_not_hold_is_left_out_of_both() {
+fn harmonics_above_the_record_are_left_out_of_both() {
     let lines = |most: u32, t: f64| {
         (1..=most).map(|k| (TAU * f64::from(k) * t + f64::from(k * k)).cos()).sum::<f64>()
     };
@@ -94,21 +95,21 @@ fn what_a_record_does_not_hold_is_left_out_of_both() {
     let found = folded(&samples, (10.0, 0.0), 1.0, (1, 64)).unwrap();
     assert_eq!(found.lines, 4);
     let computed: Vec<f64> = (0..512).map(|k| lines(200, f64::from(k) / 512.0)).collect();
-    let cut = within_lines(&computed, 64, found.lines).unwrap();
+    let cut = band_limited(&computed, 64, found.lines).unwrap();
     for (k, (sample, cut)) in found.samples.iter().zip(&cut).enumerate() {
         let expected = lines(4, k as f64 / 64.0);
         assert!((cut - expected).abs() < 1e-10 && (sample - expected).abs() < 2e-4, "{k}: {sample} {cut}");
     }
-    assert!(matches!(within_lines(&computed, 64, 32), Err(SignalError::Input { .. })));
+    assert!(matches!(band_limited(&computed, 64, 32), Err(SignalError::Input { .. })));
 }
 
-/// A pulse of all lines and its summit half a sample from the nearest one: there the first Newton step lands
-/// beyond the summit, lower than it began.
+/// A pulse of all lines with its maximum half a sample from the nearest one: there the first Newton step
+/// overshoots to a lower value.
 #[test]
-fn summit_far_from_the_samples_is_found() {
+fn maximum_far_from_the_samples_is_found() {
     let mut pulse = vec![0.0; 64];
     pulse[0] = 1.0;
-    let pulse = within_lines(&pulse, 64, 31).unwrap();
+    let pulse = band_limited(&pulse, 64, 31).unwrap();
     for shift in [5.49, 5.495, 5.51, 5.3] {
         let found = align(&delayed(&pulse, shift).unwrap(), &pulse, Shifts::Any).unwrap();
         assert!((found.shift - shift).abs() < 1e-9, "{shift}: {found:?}");
@@ -116,9 +117,9 @@ fn summit_far_from_the_samples_is_found() {
     }
 }
 
-/// The best shift is beyond what is allowed: the end is taken, between samples.
+/// The best shift is outside the allowed interval: the result is its end, between samples.
 #[test]
-fn shift_stops_at_the_end_of_what_is_allowed() {
+fn shift_stops_at_the_end_of_the_allowed_interval() {
     let b = sampled(64, 0.0);
     let a = delayed(&b, 34.9).unwrap();
     let found = align(&a, &b, Shifts::NearWhole { period: 32, most: 2.6 }).unwrap();
@@ -127,7 +128,7 @@ fn shift_stops_at_the_end_of_what_is_allowed() {
 
 #[test]
 fn scatter_is_the_noise() {
-    let mut random = crate::random::Random::new(5);
+    let mut random = crate::random::RandomSource::new(5);
     let samples: Vec<f64> = (0..40_000).map(|k| wave(f64::from(k) / 100.0) + 0.2 * random.normal()).collect();
     let found = folded(&samples, (100.0, 0.0), 1.0, (1, 100)).unwrap();
     // 400 pieces of 100 samples: 0.4 % standard error.
@@ -135,7 +136,7 @@ fn scatter_is_the_noise() {
 }
 
 #[test]
-fn what_cannot_be_laid_over_is_refused() {
+fn waveforms_that_cannot_be_aligned_are_refused() {
     let refused = |first: &[f64], second: &[f64]| align(first, second, Shifts::Any).unwrap_err();
     assert!(matches!(refused(&[1.0; 8], &sampled(8, 0.0)), SignalError::Constant));
     assert!(matches!(refused(&sampled(8, 0.0), &sampled(9, 0.0)), SignalError::Input { .. }));

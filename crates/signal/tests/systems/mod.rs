@@ -1,4 +1,4 @@
-//! Series of the systems on which methods for exponents were tried by their authors.
+//! Series of the systems on which the authors of the methods tested them.
 
 type State = [f64; 3];
 

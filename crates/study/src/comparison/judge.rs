@@ -1,8 +1,8 @@
 //! What becomes of each measured point.
 
 use hammerbeam_signal::{
-    Quantity,
-    points::{Kind, MeasuredPoint},
+    MeasuredQuantity,
+    points::{MeasuredKind, MeasuredPoint},
 };
 
 use super::{Curves, Hit, Shift, curve, period_of};
@@ -103,7 +103,7 @@ pub struct PointOutcome {
 pub(super) fn judge(
     point: &MeasuredPoint,
     curves: &Curves,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     shift: Shift,
     reach: f64,
 ) -> PointOutcome {
@@ -127,7 +127,7 @@ pub(super) fn judge(
         verdict,
     };
     let (nearest, verdict) = match period_of(point.kind) {
-        None if point.kind == Kind::Doubtful => (any(), Verdict::Doubtful),
+        None if point.kind == MeasuredKind::Doubtful => (any(), Verdict::Doubtful),
         None => (any(), Verdict::Aperiodic),
         Some(period) => match curves.nearest_stable(shifted_hz, period, shifted_value).map(matched) {
             Some(found) if found.difference.abs() <= reach => (Some(found), Verdict::Explained),

@@ -56,8 +56,8 @@ mod observed;
 mod overlay;
 
 use hammerbeam_signal::{
-    Quantity,
-    points::{Kind, MeasuredPoint},
+    MeasuredQuantity,
+    points::{MeasuredKind, MeasuredPoint},
 };
 
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
@@ -144,7 +144,7 @@ pub struct Residual {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: MeasuredQuantity,
     /// Shift and factor, and how well they are known.
     pub fit: Fit,
     /// Without shift and factor.
@@ -164,7 +164,7 @@ pub struct Comparison {
 pub fn compare(
     points: &[MeasuredPoint],
     curves: &Curves,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     settings: &FitSettings,
 ) -> Result<Comparison, ComparisonError> {
     settings.check()?;
@@ -188,10 +188,10 @@ pub fn compare(
 }
 
 /// Whether a point takes part in a fit, and the period that its branch must have.
-fn period_of(kind: Kind) -> Option<Option<u32>> {
+fn period_of(kind: MeasuredKind) -> Option<Option<u32>> {
     match kind {
-        Kind::Periodic { period_multiple } => Some(period_multiple),
-        Kind::Unknown => Some(None),
-        Kind::Aperiodic | Kind::Doubtful => None,
+        MeasuredKind::Periodic { period_multiple } => Some(period_multiple),
+        MeasuredKind::Unknown => Some(None),
+        MeasuredKind::Aperiodic | MeasuredKind::Doubtful => None,
     }
 }

@@ -5,7 +5,7 @@
 //! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no
 //! feature narrower than the branch itself.
 
-use hammerbeam_signal::{Quantity, SignalError};
+use hammerbeam_signal::{MeasuredQuantity, SignalError};
 
 use super::{
     BranchCurve, CurvePoint, Curves,
@@ -26,7 +26,7 @@ pub struct Filter {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: MeasuredQuantity,
     /// Whether the model observes the response point of the study, whose maxima are stored.
     pub at_response_point: bool,
     /// The filter before the maximum is taken.
@@ -73,8 +73,8 @@ pub fn curves(
     observation: &Observation,
 ) -> Result<Curves, ObservationError> {
     let is_stored = match observation.quantity {
-        Quantity::Force => true,
-        Quantity::Velocity => false,
+        MeasuredQuantity::Force => true,
+        MeasuredQuantity::Velocity => false,
         _ => observation.at_response_point,
     };
     if observation.filter.is_none() && is_stored {
@@ -82,9 +82,9 @@ pub fn curves(
     }
     gone_over(branches, model, observation, |course| {
         let series = match observation.quantity {
-            Quantity::Displacement => &course.displacement,
-            Quantity::Velocity => &course.velocity,
-            Quantity::Acceleration => &course.acceleration,
+            MeasuredQuantity::Displacement => &course.displacement,
+            MeasuredQuantity::Velocity => &course.velocity,
+            MeasuredQuantity::Acceleration => &course.acceleration,
             _ => return Err(ObservationError::FilteredForce),
         };
         match observation.filter {
@@ -130,13 +130,13 @@ fn gone_over(
     Ok(Curves::new(curves))
 }
 
-fn stored(branches: &StoredBranches, quantity: Quantity) -> Curves {
+fn stored(branches: &StoredBranches, quantity: MeasuredQuantity) -> Curves {
     let of = |branch: &StoredBranch| {
         let point = |(index, placed): (usize, &PlacedRow)| CurvePoint {
             frequency_hz: placed.row.frequency_hz,
             value: match quantity {
-                Quantity::Displacement => placed.row.maxima.displacement,
-                Quantity::Force => placed.row.maxima.contact_force,
+                MeasuredQuantity::Displacement => placed.row.maxima.displacement,
+                MeasuredQuantity::Force => placed.row.maxima.contact_force,
                 _ => placed.row.maxima.acceleration,
             },
             stable: placed.row.stability.may_be_stable(),

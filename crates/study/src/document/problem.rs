@@ -3,7 +3,7 @@
 use std::{fmt, ops::Range};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use hammerbeam_signal::limits::is_control;
+use hammerbeam_signal::text::is_control;
 
 /// One fault of a document.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::{DeFloat, DeInteger, DeValue};
 
-use hammerbeam_signal::limits::is_control;
+use hammerbeam_signal::text::is_control;
 
 use super::{
     Quantity, Reading, Table, closest,

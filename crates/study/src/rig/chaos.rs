@@ -10,7 +10,7 @@ use hammerbeam_attractor::{LyapunovSettings, SystemMap, lyapunov};
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_signal::{
     SignalError,
-    exponent::{EmbeddingChoice, Scattered, WolfSettings, embedding, wolf},
+    exponent::{EmbeddingChoice, ExponentEstimate, WolfSettings, embedding, wolf},
 };
 
 use crate::Model;
@@ -24,7 +24,7 @@ const AVERAGED: u64 = 200;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionExponents {
     /// From the record by Wolf's method [1/s]; `None` if it has none.
-    pub of_record: Option<Scattered>,
+    pub of_record: Option<ExponentEstimate>,
     /// Of the motion, with the half width of its interval of 95 % [1/s]; `None` where tangent vectors cannot
     /// be followed.
     pub of_motion: Option<(f64, f64)>,
@@ -45,7 +45,7 @@ pub(super) fn exponents(
     }
 }
 
-fn of_record(acceleration: &[f64], sampling_rate_hz: f64) -> Result<Scattered, SignalError> {
+fn of_record(acceleration: &[f64], sampling_rate_hz: f64) -> Result<ExponentEstimate, SignalError> {
     let embedding = embedding(acceleration, &EmbeddingChoice::default())?;
     Ok(wolf(acceleration, sampling_rate_hz, &embedding, &WolfSettings::default())?.exponent)
 }

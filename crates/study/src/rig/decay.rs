@@ -9,8 +9,8 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_signal::{
-    Channel, Quantity, Record, SignalError,
-    chain::{MeasuringChain, Motion},
+    Channel, MeasuredQuantity, Record, SignalError,
+    chain::{MeasuringChain, RecordCoverage},
     decay::{DecaySettings, free_decay},
     filter::{Band, butterworth},
 };
@@ -49,19 +49,20 @@ pub(super) fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMod
     let fine_hz = rig.sampling_hz * FINER as f64;
     let band = Band::LowPass { cut_off_hz: rig.low_pass_hz };
     let chain = MeasuringChain {
-        sensor: Quantity::Acceleration,
+        sensor: MeasuredQuantity::Acceleration,
         filter: Some((butterworth(rig.low_pass_order as usize, band, fine_hz)?, false)),
         sampling_rate_hz: Some(rig.sampling_hz),
         noise: rig.noise_m_s2,
         seed: u64::from(rig.seed),
         converter: None,
     };
-    let quantity = Quantity::Acceleration;
+    let quantity = MeasuredQuantity::Acceleration;
     let channel = Channel { name: "decay".to_owned(), unit: None, quantity, samples: acceleration };
     let record =
         Record { sampling_rate_hz: fine_hz, start_s: 0.0, channels: vec![channel], findings: Vec::new() };
-    let measured = chain.measure(&record, Motion::Stretch)?.part(lead_in_s, f64::INFINITY)?;
-    let settings = DecaySettings { band_hz: (0.0, highest_hz(rig)), most: 4, ..DecaySettings::default() };
+    let measured = chain.measure(&record, RecordCoverage::Excerpt)?.part(lead_in_s, f64::INFINITY)?;
+    let settings =
+        DecaySettings { band_hz: (0.0, highest_hz(rig)), max_modes: 4, ..DecaySettings::default() };
     let found = match free_decay(&measured.channels[0].samples, rig.sampling_hz, &settings) {
         // A structure whose decay drowns in the noise shows nothing; that is no fault.
         Err(SignalError::NoDecay) => return Ok(Vec::new()),

@@ -7,7 +7,7 @@
 use std::sync::atomic::AtomicBool;
 
 use hammerbeam_signal::{
-    Quantity,
+    MeasuredQuantity,
     classify::{Classification, ClassifySettings, classify},
     waveform::{Shifts, Waveform, folded},
 };
@@ -80,7 +80,7 @@ pub fn compare_signal(
     let measured = folded(&acceleration, (rig.sampling_hz, -start_s), measured_hz, periods)?;
     let filter = Filter { order: rig.low_pass_order as usize, cut_off_hz: rig.low_pass_hz };
     let settings = OverlaySettings {
-        quantity: Quantity::Acceleration,
+        quantity: MeasuredQuantity::Acceleration,
         filter: Some((filter, false)),
         sought: Sought::Near { frequency_hz: factor * measured_hz, part: NEAR },
         branch: None,
@@ -114,5 +114,5 @@ fn measure(
     let course = follow(model, &mut simulation, frequency_hz, LEAD_IN + rig.recorded_periods, samples)?;
     let seed = u64::from(rig.seed) ^ frequency_hz.to_bits();
     let source = (samples as f64 * frequency_hz, seed);
-    Ok(record(rig, Quantity::Acceleration, &course.acceleration, source)?)
+    Ok(record(rig, MeasuredQuantity::Acceleration, &course.acceleration, source)?)
 }

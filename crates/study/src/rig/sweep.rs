@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use hammerbeam_attractor::{AttractorError, Simulation, distance, in_order, state_scales};
 use hammerbeam_motion::exact::{ExactSettings, MotionError};
 use hammerbeam_signal::{
-    Channel, Quantity, Record, SignalError,
-    chain::{MeasuringChain, Motion as Recorded},
-    classify::{Classification, ClassifySettings, Motion, classify},
+    Channel, MeasuredQuantity, Record, SignalError,
+    chain::{MeasuringChain, RecordCoverage},
+    classify::{Classification, ClassifySettings, MotionClass, classify},
     filter::{Band, butterworth},
-    points::{Kind, Maxima, MeasuredPoint},
+    points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
 };
 
 use super::{MotionExponents, RigError, chaos::exponents};
@@ -179,31 +179,33 @@ fn at(
     }
     let lead = LEAD_IN as usize * samples;
     let fine_hz = samples as f64 * frequency_hz;
-    let acceleration = measured(rig, Quantity::Acceleration, &course.acceleration, (fine_hz, seed))?;
-    let displacement = measured(rig, Quantity::Displacement, &course.displacement, (fine_hz, seed ^ 0x5555))?;
+    let acceleration = measured(rig, MeasuredQuantity::Acceleration, &course.acceleration, (fine_hz, seed))?;
+    let displacement =
+        measured(rig, MeasuredQuantity::Displacement, &course.displacement, (fine_hz, seed ^ 0x5555))?;
     let table: Vec<f64> = second_derivative(model, &course, samples, frequency_hz);
-    let table = measured(rig, Quantity::Acceleration, &table, (fine_hz, seed ^ 0xaaaa))?;
+    let table = measured(rig, MeasuredQuantity::Acceleration, &table, (fine_hz, seed ^ 0xaaaa))?;
     let settings = ClassifySettings::default();
     let classification = classify(&acceleration, rig.sampling_hz, frequency_hz, &settings)?;
     let kind = match classification.motion {
-        Motion::Periodic { period_multiple } => {
-            Kind::Periodic { period_multiple: Some(period_multiple as u32) }
+        MotionClass::Periodic { period_multiple } => {
+            MeasuredKind::Periodic { period_multiple: Some(period_multiple as u32) }
         }
-        Motion::Aperiodic => Kind::Aperiodic,
-        Motion::Doubtful { .. } => Kind::Doubtful,
+        MotionClass::Aperiodic => MeasuredKind::Aperiodic,
+        MotionClass::Doubtful { .. } => MeasuredKind::Doubtful,
     };
-    let mut maxima = Maxima::default();
-    maxima.set(Quantity::Acceleration, largest(&acceleration));
-    maxima.set(Quantity::Displacement, largest(&displacement));
+    let mut maxima = MeasuredMaxima::default();
+    maxima.set(MeasuredQuantity::Acceleration, largest(&acceleration));
+    maxima.set(MeasuredQuantity::Displacement, largest(&displacement));
     let amplitude = lock_in(&table, frequency_hz / rig.sampling_hz);
     let point = MeasuredPoint {
         origin: format!("{} {frequency_hz} Hz", direction.word()),
         frequency_hz,
         maxima,
         kind,
-        excitation: Some((Quantity::Acceleration, amplitude)).filter(|(_, amplitude)| *amplitude > 0.0),
+        excitation: Some((MeasuredQuantity::Acceleration, amplitude))
+            .filter(|(_, amplitude)| *amplitude > 0.0),
     };
-    let exponents = (kind == Kind::Aperiodic)
+    let exponents = (kind == MeasuredKind::Aperiodic)
         .then(|| exponents(model, frequency_hz, (&acceleration, rig.sampling_hz), simulation.state()));
     Ok(RigPoint {
         direction,
@@ -239,7 +241,7 @@ fn second_derivative(model: &Model, course: &Course, samples: usize, frequency_h
 /// lead-in.
 fn measured(
     rig: &Rig,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     samples: &[f64],
     source: (f64, u64),
 ) -> Result<Vec<f64>, SignalError> {
@@ -249,12 +251,12 @@ fn measured(
 /// The same, with the time of its first sample [s], counted from the beginning of the lead-in.
 pub(super) fn record(
     rig: &Rig,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     samples: &[f64],
     (fine_hz, seed): (f64, u64),
 ) -> Result<(Vec<f64>, f64), SignalError> {
     let band = Band::LowPass { cut_off_hz: rig.low_pass_hz };
-    let is_filtered = quantity == Quantity::Acceleration;
+    let is_filtered = quantity == MeasuredQuantity::Acceleration;
     let filter = butterworth(rig.low_pass_order as usize, band, fine_hz)?;
     let chain = MeasuringChain {
         sensor: quantity,
@@ -267,7 +269,7 @@ pub(super) fn record(
     let channel = Channel { name: "sensor".to_owned(), unit: None, quantity, samples: samples.to_vec() };
     let whole =
         Record { sampling_rate_hz: fine_hz, start_s: 0.0, channels: vec![channel], findings: Vec::new() };
-    let measured = chain.measure(&whole, Recorded::Stretch)?;
+    let measured = chain.measure(&whole, RecordCoverage::Excerpt)?;
     let lead_in = f64::from(LEAD_IN) / f64::from(LEAD_IN + rig.recorded_periods);
     let part = measured.part(lead_in * whole.duration_s(), f64::INFINITY)?;
     let samples = part.channels.into_iter().next().map_or_else(Vec::new, |channel| channel.samples);

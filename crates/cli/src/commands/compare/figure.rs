@@ -5,7 +5,7 @@ use hammerbeam_figure::{
     MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,
     ResponseSettings,
 };
-use hammerbeam_signal::{Quantity, points::Kind};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
 use hammerbeam_study::{
     StudyFile,
     comparison::{BranchCurve, PointOutcome},
@@ -18,8 +18,8 @@ use crate::figures::{Album, Drawn};
 pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) {
     let quantity = compared.comparison.quantity;
     let drawing = match quantity {
-        Quantity::Displacement => Drawing::Displacement,
-        Quantity::Acceleration => Drawing::Acceleration,
+        MeasuredQuantity::Displacement => Drawing::Displacement,
+        MeasuredQuantity::Acceleration => Drawing::Acceleration,
         _ => return,
     };
     let diagram = ResponseDiagram {
@@ -38,11 +38,11 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
     drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure);
 }
 
-fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
+fn curve(branch: &BranchCurve, quantity: MeasuredQuantity) -> ResponseCurve {
     let point = |point: &hammerbeam_study::comparison::CurvePoint| ResponsePoint {
         frequency_hz: point.frequency_hz,
-        displacement_m: if quantity == Quantity::Displacement { point.value } else { f64::NAN },
-        acceleration_m_s2: if quantity == Quantity::Acceleration { point.value } else { f64::NAN },
+        displacement_m: if quantity == MeasuredQuantity::Displacement { point.value } else { f64::NAN },
+        acceleration_m_s2: if quantity == MeasuredQuantity::Acceleration { point.value } else { f64::NAN },
         stable: point.stable,
         ..ResponsePoint::default()
     };
@@ -53,16 +53,16 @@ fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
 }
 
 /// A shifted point.
-fn mark(outcome: &PointOutcome, quantity: Quantity) -> MeasuredMark {
-    let value = |wanted: Quantity| (quantity == wanted).then_some(outcome.shifted_value);
+fn mark(outcome: &PointOutcome, quantity: MeasuredQuantity) -> MeasuredMark {
+    let value = |wanted: MeasuredQuantity| (quantity == wanted).then_some(outcome.shifted_value);
     MeasuredMark {
         frequency_hz: outcome.shifted_hz,
-        displacement_m: value(Quantity::Displacement),
-        acceleration_m_s2: value(Quantity::Acceleration),
+        displacement_m: value(MeasuredQuantity::Displacement),
+        acceleration_m_s2: value(MeasuredQuantity::Acceleration),
         motion: match outcome.point.kind {
-            Kind::Periodic { .. } => MeasuredMotion::Periodic,
-            Kind::Aperiodic => MeasuredMotion::Aperiodic,
-            Kind::Doubtful | Kind::Unknown => MeasuredMotion::Unknown,
+            MeasuredKind::Periodic { .. } => MeasuredMotion::Periodic,
+            MeasuredKind::Aperiodic => MeasuredMotion::Aperiodic,
+            MeasuredKind::Doubtful | MeasuredKind::Unknown => MeasuredMotion::Unknown,
         },
     }
 }

@@ -6,8 +6,8 @@ use std::{
 };
 
 use hammerbeam_signal::{
-    Finding, SignalError,
-    points::{self, MeasuredPoint, PointsError},
+    PointsError, RecordFinding, SignalError,
+    points::{self, MeasuredPoint},
 };
 
 use super::records;
@@ -17,7 +17,7 @@ use crate::failure::Failure;
 pub struct Measured {
     pub points: Vec<MeasuredPoint>,
     /// Name of the file and what was found in it.
-    pub findings: Vec<(String, Finding)>,
+    pub findings: Vec<(String, RecordFinding)>,
 }
 
 /// Reads files and folders.

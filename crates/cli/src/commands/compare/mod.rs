@@ -9,7 +9,7 @@ mod text;
 
 use std::path::PathBuf;
 
-use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 use hammerbeam_study::{
     Model, Store, StoredBranches, StudyFile,
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
@@ -73,12 +73,12 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let spacing_hz = SPACING * 0.5 * (low + high);
     let mut compared = Vec::new();
     for quantity in quantities {
-        let filter = filter.filter(|_| quantity != Quantity::Force);
+        let filter = filter.filter(|_| quantity != MeasuredQuantity::Force);
         let observation = Observation { quantity, at_response_point, filter, spacing_hz, samples: SAMPLES };
         let curves = curves(&branches, &model, &observation)?;
         let comparison = compare(&measured.points, &curves, quantity, &settings(options, &measured.points))?;
         let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
-        let of_point = quantity != Quantity::Force && !at_response_point;
+        let of_point = quantity != MeasuredQuantity::Force && !at_response_point;
         let point = of_point.then(|| point.clone());
         compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
     }
@@ -144,13 +144,18 @@ fn settings(options: &CompareOptions, points: &[MeasuredPoint]) -> FitSettings {
 }
 
 /// Those asked for, else those measured.
-fn quantities(options: &CompareOptions, points: &[MeasuredPoint]) -> Result<Vec<Quantity>, Failure> {
-    let all = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
-    let is_measured = |quantity: &Quantity| points.iter().any(|p| p.maxima.of(*quantity).is_some());
+fn quantities(options: &CompareOptions, points: &[MeasuredPoint]) -> Result<Vec<MeasuredQuantity>, Failure> {
+    let all = [
+        MeasuredQuantity::Displacement,
+        MeasuredQuantity::Velocity,
+        MeasuredQuantity::Acceleration,
+        MeasuredQuantity::Force,
+    ];
+    let is_measured = |quantity: &MeasuredQuantity| points.iter().any(|p| p.maxima.of(*quantity).is_some());
     if options.quantity.is_empty() {
         return Ok(all.into_iter().filter(is_measured).collect());
     }
-    let asked: Vec<Quantity> = options.quantity.iter().map(|name| (*name).into()).collect();
+    let asked: Vec<MeasuredQuantity> = options.quantity.iter().map(|name| (*name).into()).collect();
     match asked.iter().find(|quantity| !is_measured(quantity)) {
         Some(missing) => {
             let found: Vec<&str> = all.iter().filter(|q| is_measured(q)).map(|q| q.word()).collect();
@@ -161,7 +166,7 @@ fn quantities(options: &CompareOptions, points: &[MeasuredPoint]) -> Result<Vec<
     }
 }
 
-impl From<QuantityName> for Quantity {
+impl From<QuantityName> for MeasuredQuantity {
     fn from(name: QuantityName) -> Self {
         match name {
             QuantityName::Displacement => Self::Displacement,

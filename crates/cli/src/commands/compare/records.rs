@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use hammerbeam_signal::{
-    Channel, Finding, Quantity, Record, SignalError, Terms,
-    classify::{ClassifySettings, Motion, classify, excitation_frequency},
-    points::{Kind, Maxima, MeasuredPoint},
+    Channel, MeasuredQuantity, Record, RecordFinding, RecordOptions, SignalError,
+    classify::{ClassifySettings, MotionClass, classify, excitation_frequency},
+    points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
     read::read_raw,
     spectrum::{Window, amplitude_spectrum},
 };
@@ -16,13 +16,13 @@ use crate::failure::Failure;
 
 /// Whether a file can be read as a time series with times or a rate.
 pub fn looks_like_record(path: &Path) -> bool {
-    read_raw(path).is_ok_and(|(raw, _)| raw.judge(&Terms::default()).is_ok())
+    read_raw(path).is_ok_and(|(raw, _)| raw.validate(&RecordOptions::default()).is_ok())
 }
 
 /// Reduces a record.
 ///
 /// * `reference`: the channel that is excited.
-pub fn reduce(path: &Path, reference: Option<&str>) -> Result<(MeasuredPoint, Vec<Finding>), Failure> {
+pub fn reduce(path: &Path, reference: Option<&str>) -> Result<(MeasuredPoint, Vec<RecordFinding>), Failure> {
     let shown = path.display();
     let told = |error: SignalError| match Failure::from(error) {
         Failure::BadInput(message) if !message.starts_with(&shown.to_string()) => {
@@ -34,7 +34,7 @@ pub fn reduce(path: &Path, reference: Option<&str>) -> Result<(MeasuredPoint, Ve
     let (raw, _) = read_raw(path).map_err(told)?;
     let reference = reference.map(|text| raw.channel_name(text).map(str::to_owned)).transpose();
     let reference = reference.map_err(SignalError::from).map_err(told)?;
-    let record = raw.judge(&Terms::default()).map_err(SignalError::from).map_err(told)?;
+    let record = raw.validate(&RecordOptions::default()).map_err(SignalError::from).map_err(told)?;
     let reference = reference.map(|name| record.find(&name)).transpose();
     let reference = reference.map_err(SignalError::from).map_err(told)?;
     let frequency_hz = match reference {
@@ -64,10 +64,15 @@ fn point(
     frequency_hz: f64,
 ) -> Result<Option<MeasuredPoint>, SignalError> {
     let answers = |(index, channel): &(usize, &Channel)| {
-        let measured = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
+        let measured = [
+            MeasuredQuantity::Displacement,
+            MeasuredQuantity::Velocity,
+            MeasuredQuantity::Acceleration,
+            MeasuredQuantity::Force,
+        ];
         Some(*index) != reference && measured.contains(&channel.quantity)
     };
-    let mut maxima = Maxima::default();
+    let mut maxima = MeasuredMaxima::default();
     let mut first: Option<&Channel> = None;
     for (_, channel) in record.channels.iter().enumerate().filter(answers) {
         if maxima.of(channel.quantity).is_none() {
@@ -79,15 +84,15 @@ fn point(
     let found =
         classify(&first.samples, record.sampling_rate_hz, frequency_hz, &ClassifySettings::default())?;
     let kind = match found.motion {
-        Motion::Periodic { period_multiple } => {
-            Kind::Periodic { period_multiple: Some(period_multiple as u32) }
+        MotionClass::Periodic { period_multiple } => {
+            MeasuredKind::Periodic { period_multiple: Some(period_multiple as u32) }
         }
-        Motion::Aperiodic => Kind::Aperiodic,
-        Motion::Doubtful { .. } => Kind::Doubtful,
+        MotionClass::Aperiodic => MeasuredKind::Aperiodic,
+        MotionClass::Doubtful { .. } => MeasuredKind::Doubtful,
     };
     let excitation = reference
         .map(|index| &record.channels[index])
-        .filter(|channel| channel.quantity != Quantity::Other)
+        .filter(|channel| channel.quantity != MeasuredQuantity::Other)
         .map(|channel| amplitude(channel, record.sampling_rate_hz))
         .transpose()?;
     let origin = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -95,7 +100,7 @@ fn point(
 }
 
 /// Amplitude of the strongest line, by the flat-top window, which reads amplitudes to 0.1 %.
-fn amplitude(channel: &Channel, sampling_rate_hz: f64) -> Result<(Quantity, f64), SignalError> {
+fn amplitude(channel: &Channel, sampling_rate_hz: f64) -> Result<(MeasuredQuantity, f64), SignalError> {
     let spectrum = amplitude_spectrum(&channel.samples, sampling_rate_hz, Window::FlatTop)?;
     let line = spectrum.lines(1, 1).first().map_or(0.0, |line| line.value);
     Ok((channel.quantity, line))

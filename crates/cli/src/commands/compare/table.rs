@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 use hammerbeam_study::{
     comparison::{Comparison, PointOutcome},
     export::{Table, header, number, word},
@@ -93,14 +93,14 @@ const UNUSUAL: f64 = 6.0;
 /// Writes the measured amplitudes of the excitation as a study file takes them, if there are two at least:
 /// means of what was measured at the same frequency.
 pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Option<Amplitudes>, Failure> {
-    let all = |wanted: Quantity| -> Vec<(f64, f64)> {
+    let all = |wanted: MeasuredQuantity| -> Vec<(f64, f64)> {
         let of = |point: &MeasuredPoint| {
             let (quantity, amplitude) = point.excitation_amplitude()?;
             (quantity == wanted).then_some((point.frequency_hz, amplitude))
         };
         points.iter().filter_map(of).collect()
     };
-    let (moved, pushed) = (all(Quantity::Displacement), all(Quantity::Force));
+    let (moved, pushed) = (all(MeasuredQuantity::Displacement), all(MeasuredQuantity::Force));
     let (key, measured) = if moved.is_empty() { ("amplitude_n", pushed) } else { ("amplitude_m", moved) };
     let means = means(measured);
     if means.len() < 2 {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_signal::Quantity;
+use hammerbeam_signal::MeasuredQuantity;
 use hammerbeam_study::comparison::{Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
@@ -39,7 +39,7 @@ fn comparison(compared: &Compared, point: &str) -> Vec<String> {
     let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
     let frequency = if fit.offset { "frequency offset (Hz)" } else { "frequency factor" };
     let place = match quantity {
-        Quantity::Force => " of the contacts".to_owned(),
+        MeasuredQuantity::Force => " of the contacts".to_owned(),
         _ => format!(" at {point}"),
     };
     let mut lines = vec![
@@ -54,7 +54,7 @@ fn comparison(compared: &Compared, point: &str) -> Vec<String> {
             count("too-far"),
             count("only-unstable"),
             count("no-branch"),
-            if quantity == Quantity::Force {
+            if quantity == MeasuredQuantity::Force {
                 format!(", no contact {}", count("no-contact"))
             } else {
                 String::new()

@@ -6,8 +6,8 @@ mod notes;
 use std::path::Path;
 
 use hammerbeam_signal::{
-    Quantity,
-    classify::{Classification, ClassifySettings, Motion, classify, excitation_frequency},
+    MeasuredQuantity,
+    classify::{Classification, ClassifySettings, MotionClass, classify, excitation_frequency},
     waveform::{Shifts, Waveform, folded},
 };
 use hammerbeam_study::{
@@ -30,7 +30,7 @@ const SHOWN: usize = 1024;
 /// What was laid over what.
 struct Laid {
     input: Input,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     /// Name of the point where the sensor is.
     point: String,
     classification: Classification,
@@ -51,7 +51,9 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let samples = &input.channel().samples;
     let frequency_hz = frequency(&input, options)?;
     let settings = ClassifySettings {
-        most: ClassifySettings::default().most.max(options.period.unwrap_or(1) as usize),
+        max_period_multiple: ClassifySettings::default()
+            .max_period_multiple
+            .max(options.period.unwrap_or(1) as usize),
         ..ClassifySettings::default()
     };
     let classification = classify(samples, rate, frequency_hz, &settings)?;
@@ -77,12 +79,12 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// What the channel shows: its unit says so, or the user.
-fn sensor(input: &Input, options: &OverlayOptions) -> Result<Quantity, Failure> {
+fn sensor(input: &Input, options: &OverlayOptions) -> Result<MeasuredQuantity, Failure> {
     let channel = input.channel();
     let told = options.sensor.map(quantity);
     match (channel.quantity, told) {
-        (Quantity::Other, Some(told)) => Ok(told),
-        (Quantity::Other, None) => Err(Failure::BadInput(format!(
+        (MeasuredQuantity::Other, Some(told)) => Ok(told),
+        (MeasuredQuantity::Other, None) => Err(Failure::BadInput(format!(
             "the unit of channel {} does not tell what it measures: give --sensor",
             channel.name
         ))),
@@ -118,9 +120,9 @@ fn period(found: &Classification, options: &OverlayOptions) -> Result<u32, Failu
         return Ok(period);
     }
     let kind = match found.motion {
-        Motion::Periodic { period_multiple } => return Ok(period_multiple as u32),
-        Motion::Aperiodic => "the measured motion is aperiodic".to_owned(),
-        Motion::Doubtful { reason } => {
+        MotionClass::Periodic { period_multiple } => return Ok(period_multiple as u32),
+        MotionClass::Aperiodic => "the measured motion is aperiodic".to_owned(),
+        MotionClass::Doubtful { reason } => {
             format!("it is doubtful whether the measured motion repeats ({reason})")
         }
     };
@@ -129,7 +131,7 @@ fn period(found: &Classification, options: &OverlayOptions) -> Result<u32, Failu
     )))
 }
 
-fn settings_of(options: &OverlayOptions, quantity: Quantity, measured_hz: f64) -> OverlaySettings {
+fn settings_of(options: &OverlayOptions, quantity: MeasuredQuantity, measured_hz: f64) -> OverlaySettings {
     let filter = |cut_off_hz| (Filter { order: options.order as usize, cut_off_hz }, options.zero_phase);
     let near = || Sought::Near {
         frequency_hz: options.frequency_factor * measured_hz,

@@ -1,7 +1,7 @@
 //! What has to be known of a waveform that is laid over an orbit.
 
 use hammerbeam_signal::{
-    classify::{Classification, Motion},
+    classify::{Classification, MotionClass},
     waveform::Waveform,
 };
 use hammerbeam_study::comparison::Overlay;
@@ -98,10 +98,10 @@ impl Laying<'_> {
     fn motion(&self) -> Option<String> {
         let period = self.period_multiple;
         let found = match self.classification.motion {
-            Motion::Periodic { period_multiple } if period_multiple as u32 == period => return None,
-            Motion::Periodic { period_multiple } => format!("of {period_multiple} excitation period(s)"),
-            Motion::Aperiodic => "aperiodic".to_owned(),
-            Motion::Doubtful { reason } => format!("doubtful: {reason}"),
+            MotionClass::Periodic { period_multiple } if period_multiple as u32 == period => return None,
+            MotionClass::Periodic { period_multiple } => format!("of {period_multiple} excitation period(s)"),
+            MotionClass::Aperiodic => "aperiodic".to_owned(),
+            MotionClass::Doubtful { reason } => format!("doubtful: {reason}"),
         };
         Some(format!("the measured motion is {found}; its mean over {period} period(s) is compared"))
     }

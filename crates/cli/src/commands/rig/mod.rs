@@ -6,7 +6,7 @@ mod report;
 mod signals;
 mod tables;
 
-use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 use hammerbeam_study::{
     Model, OrbitSolver, Store, StoredBranches, StudyFile,
     comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
@@ -149,7 +149,7 @@ fn comparisons(
     filtered: &Filtered,
 ) -> Result<Vec<(&'static str, Curves, Comparison)>, Failure> {
     let measured: Vec<MeasuredPoint> = points.iter().map(|point| point.point.clone()).collect();
-    let stored_curves = |quantity: Quantity| {
+    let stored_curves = |quantity: MeasuredQuantity| {
         // Stored maxima need no orbit, and so no spacing.
         let observation = Observation {
             quantity,
@@ -161,12 +161,12 @@ fn comparisons(
         curves(stored, model, &observation)
     };
     let all = [
-        ("acceleration", Quantity::Acceleration, stored_curves(Quantity::Acceleration)?),
-        ("filtered_acceleration", Quantity::Acceleration, acceleration_curves(&filtered.branches, 0)),
-        ("displacement", Quantity::Displacement, stored_curves(Quantity::Displacement)?),
+        ("acceleration", MeasuredQuantity::Acceleration, stored_curves(MeasuredQuantity::Acceleration)?),
+        ("filtered_acceleration", MeasuredQuantity::Acceleration, acceleration_curves(&filtered.branches, 0)),
+        ("displacement", MeasuredQuantity::Displacement, stored_curves(MeasuredQuantity::Displacement)?),
     ];
     let settings = FitSettings::default();
-    let one = |(name, quantity, curves): (&'static str, Quantity, Curves)| {
+    let one = |(name, quantity, curves): (&'static str, MeasuredQuantity, Curves)| {
         let comparison = compare(&measured, &curves, quantity, &settings)?;
         Ok((name, curves, comparison))
     };

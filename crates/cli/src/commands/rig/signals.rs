@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use hammerbeam_signal::classify::{Classification, Motion};
+use hammerbeam_signal::classify::{Classification, MotionClass};
 use hammerbeam_study::{comparison::Overlay, rig::SignalPair};
 use serde_json::{Value, json};
 
@@ -35,9 +35,9 @@ fn notes(signal: &SignalPair) -> Vec<String> {
 /// The kind of a motion in a word.
 fn classified(classification: &Classification) -> String {
     match classification.motion {
-        Motion::Periodic { period_multiple } => format!("periodic, {period_multiple}"),
-        Motion::Aperiodic => "aperiodic".to_owned(),
-        Motion::Doubtful { .. } => "doubtful".to_owned(),
+        MotionClass::Periodic { period_multiple } => format!("periodic, {period_multiple}"),
+        MotionClass::Aperiodic => "aperiodic".to_owned(),
+        MotionClass::Doubtful { .. } => "doubtful".to_owned(),
     }
 }
 
@@ -145,7 +145,7 @@ mod tests {
             measured_hz: 4.8,
             period_multiple: 2,
             classification: Classification {
-                motion: Motion::Aperiodic,
+                motion: MotionClass::Aperiodic,
                 repetitions: Vec::new(),
                 frequency_hz: 4.8,
                 correction_hz: 0.0,

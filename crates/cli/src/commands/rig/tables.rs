@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_signal::{Quantity, points::Kind};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
 use hammerbeam_study::{
     export::{Table, header, number},
     file::HarmonicExcitation,
@@ -185,9 +185,9 @@ pub fn agreement(found: &Found) -> [usize; 3] {
     let mut counts = [0; 3];
     for point in &found.points {
         let right = match point.point.kind {
-            Kind::Periodic { period_multiple } => point.period_of_states == period_multiple,
-            Kind::Aperiodic => point.period_of_states.is_none(),
-            Kind::Doubtful | Kind::Unknown => {
+            MeasuredKind::Periodic { period_multiple } => point.period_of_states == period_multiple,
+            MeasuredKind::Aperiodic => point.period_of_states.is_none(),
+            MeasuredKind::Doubtful | MeasuredKind::Unknown => {
                 counts[2] += 1;
                 continue;
             }
@@ -199,7 +199,8 @@ pub fn agreement(found: &Found) -> [usize; 3] {
 
 /// Largest ratio of measured displacement to what a sensor range would have to be: told in millimetres.
 pub fn largest_displacement(found: &Found) -> f64 {
-    let values = found.points.iter().filter_map(|point| point.point.maxima.of(Quantity::Displacement));
+    let values =
+        found.points.iter().filter_map(|point| point.point.maxima.of(MeasuredQuantity::Displacement));
     values.fold(0.0, f64::max)
 }
 

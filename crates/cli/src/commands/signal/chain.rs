@@ -2,8 +2,8 @@
 
 use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
-    Quantity, Record,
-    chain::{Converter, MeasuringChain, Motion},
+    MeasuredQuantity, Record,
+    chain::{Converter, MeasuringChain, RecordCoverage},
 };
 use serde_json::json;
 
@@ -28,7 +28,7 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
         seed: options.seed,
         converter: options.range.zip(options.bits).map(|(range, bits)| Converter { range, bits }),
     };
-    let motion = if options.periodic { Motion::Periodic } else { Motion::Stretch };
+    let motion = if options.periodic { RecordCoverage::WholePeriods } else { RecordCoverage::Excerpt };
     let measured = chain.measure(&input.record, motion)?;
     let path =
         options.out.as_ref().map(|folder| write_record(&measured, folder, "measured.csv")).transpose()?;
@@ -51,11 +51,11 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// What a sensor measures.
-pub const fn quantity(sensor: Sensor) -> Quantity {
+pub const fn quantity(sensor: Sensor) -> MeasuredQuantity {
     match sensor {
-        Sensor::Displacement => Quantity::Displacement,
-        Sensor::Velocity => Quantity::Velocity,
-        Sensor::Acceleration => Quantity::Acceleration,
+        Sensor::Displacement => MeasuredQuantity::Displacement,
+        Sensor::Velocity => MeasuredQuantity::Velocity,
+        Sensor::Acceleration => MeasuredQuantity::Acceleration,
     }
 }
 

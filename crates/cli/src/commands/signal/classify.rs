@@ -1,6 +1,8 @@
 //! `hammerbeam signal classify`: periodic or not, and in which multiple of the excitation period.
 
-use hammerbeam_signal::classify::{Classification, ClassifySettings, Motion, classify, excitation_frequency};
+use hammerbeam_signal::classify::{
+    Classification, ClassifySettings, MotionClass, classify, excitation_frequency,
+};
 use serde_json::{Value, json};
 
 use super::input::{self, Input, named};
@@ -22,7 +24,7 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
         }
     };
     let settings = ClassifySettings {
-        most: options.multiples as usize,
+        max_period_multiple: options.multiples as usize,
         periodic_below: options.periodic_below,
         aperiodic_above: options.aperiodic_above,
         ..ClassifySettings::default()
@@ -33,24 +35,24 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// The kind of a motion.
-pub const fn word(motion: Motion) -> &'static str {
+pub const fn word(motion: MotionClass) -> &'static str {
     match motion {
-        Motion::Periodic { .. } => "periodic",
-        Motion::Aperiodic => "aperiodic",
-        Motion::Doubtful { .. } => "doubtful",
+        MotionClass::Periodic { .. } => "periodic",
+        MotionClass::Aperiodic => "aperiodic",
+        MotionClass::Doubtful { .. } => "doubtful",
     }
 }
 
-fn reason(motion: Motion) -> Option<String> {
+fn reason(motion: MotionClass) -> Option<String> {
     match motion {
-        Motion::Doubtful { reason } => Some(reason.to_string()),
+        MotionClass::Doubtful { reason } => Some(reason.to_string()),
         _ => None,
     }
 }
 
 fn document(input: &Input, found: &Classification) -> Value {
     let multiple = match found.motion {
-        Motion::Periodic { period_multiple } => Some(period_multiple),
+        MotionClass::Periodic { period_multiple } => Some(period_multiple),
         _ => None,
     };
     let repetitions = found.repetitions.iter().map(|repetition| {
@@ -94,12 +96,14 @@ fn text(input: &Input, found: &Classification) -> String {
     }
     lines.extend(input.notes());
     lines.push(match found.motion {
-        Motion::Periodic { period_multiple: 1 } => "periodic, with the period of the excitation".to_owned(),
-        Motion::Periodic { period_multiple } => {
+        MotionClass::Periodic { period_multiple: 1 } => {
+            "periodic, with the period of the excitation".to_owned()
+        }
+        MotionClass::Periodic { period_multiple } => {
             format!("periodic, with {period_multiple} excitation periods")
         }
-        Motion::Aperiodic => "aperiodic".to_owned(),
-        Motion::Doubtful { reason } => format!("doubtful: {reason}"),
+        MotionClass::Aperiodic => "aperiodic".to_owned(),
+        MotionClass::Doubtful { reason } => format!("doubtful: {reason}"),
     });
     lines.join("\n")
 }

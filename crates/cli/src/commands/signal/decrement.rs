@@ -1,6 +1,8 @@
 //! `hammerbeam signal decrement`: eigenfrequencies and damping of a free decay.
 
-use hammerbeam_signal::decay::{Decay, DecayMode, DecaySettings, Decrement, Estimate, decrement, free_decay};
+use hammerbeam_signal::decay::{
+    Decay, DecayEstimate, DecayMode, DecaySettings, Decrement, decrement, free_decay,
+};
 use serde_json::{Value, json};
 
 use super::input::{self, Input, named};
@@ -36,7 +38,7 @@ fn document(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> Valu
         })
     };
     let estimate =
-        |estimate: &Estimate| json!({ "value": estimate.value, "half_width": estimate.half_width });
+        |estimate: &DecayEstimate| json!({ "value": estimate.value, "half_width": estimate.half_width });
     let classical = classical.map(|classical| {
         json!({
             "frequency_hz": classical.frequency_hz,

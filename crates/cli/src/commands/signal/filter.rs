@@ -3,7 +3,7 @@
 use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
     Channel, Record,
-    filter::Sections,
+    filter::DigitalFilter,
     resample::{Ratio, resample},
 };
 use hammerbeam_study::export::{Table, number};
@@ -48,7 +48,7 @@ pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
 
 fn filtered(
     record: &Record,
-    sections: Option<&Sections>,
+    sections: Option<&DigitalFilter>,
     options: &FilterOptions,
 ) -> Result<Record, Failure> {
     let ratio = options.resample.map(|rate| Ratio::of_rates(rate, record.sampling_rate_hz)).transpose()?;

@@ -2,8 +2,9 @@
 
 use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
-    Channel, Finding, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
-    filter::{Band, Sections, butterworth},
+    Channel, MeasuredQuantity, Record, RecordError, RecordFinding, RecordFormat, RecordOptions, Repairs,
+    SignalError,
+    filter::{Band, DigitalFilter, butterworth},
     read::read_raw,
 };
 use hammerbeam_study::export::word;
@@ -19,7 +20,7 @@ pub struct Input {
     pub record: Record,
     channel: usize,
     reference: Option<usize>,
-    format: Format,
+    format: RecordFormat,
     file: String,
 }
 
@@ -36,8 +37,8 @@ pub fn open(options: &InputOptions, reference: Option<&str>) -> Result<Input, Fa
     let reference = reference.map(name).transpose()?;
     let channels =
         if chosen.is_empty() { Vec::new() } else { chosen.iter().chain(&reference).cloned().collect() };
-    let terms = Terms { sampling_rate_hz: options.rate, repairs: repairs(&options.repair), channels };
-    let record = raw.judge(&terms).map_err(with_hint)?;
+    let terms = RecordOptions { sampling_rate_hz: options.rate, repairs: repairs(&options.repair), channels };
+    let record = raw.validate(&terms).map_err(with_hint)?;
     let record = if options.from.is_some() || options.to.is_some() {
         record.part(options.from.unwrap_or(f64::NEG_INFINITY), options.to.unwrap_or(f64::INFINITY))?
     } else {
@@ -59,7 +60,10 @@ fn usual_channel(channels: &[Channel], reference: Option<usize>) -> usize {
         let quantity = channels[*index].quantity;
         matches!(
             quantity,
-            Quantity::Displacement | Quantity::Velocity | Quantity::Acceleration | Quantity::Force
+            MeasuredQuantity::Displacement
+                | MeasuredQuantity::Velocity
+                | MeasuredQuantity::Acceleration
+                | MeasuredQuantity::Force
         )
     };
     let mut indices = (0..channels.len()).filter(free);
@@ -152,7 +156,7 @@ impl Input {
 
 /// Findings about a record, for documents.
 pub fn findings(record: &Record) -> Vec<Value> {
-    let finding = |finding: &Finding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
+    let finding = |finding: &RecordFinding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
     record.findings.iter().map(finding).collect()
 }
 
@@ -164,7 +168,7 @@ pub fn notes(record: &Record) -> Vec<String> {
 /// Unit in which a channel's samples are.
 pub fn unit(channel: &Channel) -> Option<&str> {
     match channel.quantity {
-        Quantity::Other => channel.unit.as_deref(),
+        MeasuredQuantity::Other => channel.unit.as_deref(),
         quantity => Some(quantity.symbol()),
     }
 }
@@ -183,7 +187,10 @@ pub fn title(channel: &Channel) -> String {
 }
 
 /// The filter that is asked for, if any.
-pub fn filter(options: &BandOptions, sampling_rate_hz: f64) -> Result<Option<(Band, Sections)>, Failure> {
+pub fn filter(
+    options: &BandOptions,
+    sampling_rate_hz: f64,
+) -> Result<Option<(Band, DigitalFilter)>, Failure> {
     let band = match (options.low_pass, options.high_pass) {
         (None, None) => return Ok(None),
         (Some(cut_off_hz), None) => Band::LowPass { cut_off_hz },

@@ -3,8 +3,8 @@
 use hammerbeam_signal::{
     SignalError,
     exponent::{
-        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, Scattered, WolfExponent, WolfSettings,
-        embedding, kantz, rosenstein, wolf,
+        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, ExponentEstimate, WolfExponent,
+        WolfSettings, embedding, kantz, rosenstein, wolf,
     },
 };
 use hammerbeam_study::export::{Table, header, number};
@@ -52,7 +52,7 @@ type Tried<T> = Option<Result<T, SignalError>>;
 /// What a method gave: the exponent, or why there is none.
 struct Outcome {
     name: &'static str,
-    exponent: Result<Scattered, String>,
+    exponent: Result<ExponentEstimate, String>,
 }
 
 struct Found {
@@ -88,7 +88,7 @@ impl Found {
 
     /// What each method that was tried gave.
     fn outcomes(&self) -> Vec<Outcome> {
-        let outcome = |name, exponent: Result<Scattered, &SignalError>| Outcome {
+        let outcome = |name, exponent: Result<ExponentEstimate, &SignalError>| Outcome {
             name,
             exponent: exponent.map_err(SignalError::to_string),
         };
@@ -120,7 +120,7 @@ impl Found {
                 "exponent_per_s": found.exponent.value,
                 "scatter_per_s": found.exponent.scatter,
                 "evolution_samples": found.evolution,
-                "stretches": found.stretches,
+                "stretches": found.evolutions,
                 "kept": found.kept,
             })
         });
@@ -151,7 +151,7 @@ impl Found {
         ));
         for Outcome { name, exponent } in self.outcomes() {
             lines.push(match exponent {
-                Ok(Scattered { value, scatter }) => {
+                Ok(ExponentEstimate { value, scatter }) => {
                     format!("  {name:<10} {value:>12.5} 1/s  standard error of ten parts of the record {scatter:.5}")
                 }
                 Err(reason) => format!("  {name:<10} no result: {reason}"),

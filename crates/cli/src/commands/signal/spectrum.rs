@@ -2,7 +2,9 @@
 
 use hammerbeam_signal::{
     Channel, Record,
-    spectrum::{Detrend, Line, Scaling, Spectrum, WelchSettings, Window, amplitude_spectrum, welch},
+    spectrum::{
+        Detrend, FrequencySpectrum, Scaling, SpectralLine, WelchSettings, Window, amplitude_spectrum, welch,
+    },
 };
 use hammerbeam_study::export::{Table, header, number};
 use serde_json::json;
@@ -37,7 +39,11 @@ pub fn run(options: &SpectrumOptions, output: Output) -> Result<(), Failure> {
     Ok(())
 }
 
-fn spectrum(record: &Record, channel: &Channel, options: &SpectrumOptions) -> Result<Spectrum, Failure> {
+fn spectrum(
+    record: &Record,
+    channel: &Channel,
+    options: &SpectrumOptions,
+) -> Result<FrequencySpectrum, Failure> {
     let window = match options.window {
         WindowName::Rectangular => Window::Rectangular,
         WindowName::Hann => Window::Hann,
@@ -91,7 +97,7 @@ fn root_mean_square(samples: &[f64]) -> f64 {
     (samples.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-fn write(spectrum: &Spectrum, options: &SpectrumOptions) -> Result<Option<String>, Failure> {
+fn write(spectrum: &FrequencySpectrum, options: &SpectrumOptions) -> Result<Option<String>, Failure> {
     let Some(folder) = &options.out else { return Ok(None) };
     let mut table = Table::begin(folder, "spectrum.csv", &header(&["frequency_hz", key(options.kind)]))?;
     for (index, value) in spectrum.values.iter().enumerate() {
@@ -102,7 +108,7 @@ fn write(spectrum: &Spectrum, options: &SpectrumOptions) -> Result<Option<String
 
 fn text(
     input: &Input,
-    (spectrum, lines): (&Spectrum, &[Line]),
+    (spectrum, lines): (&FrequencySpectrum, &[SpectralLine]),
     options: &SpectrumOptions,
     path: Option<&str>,
 ) -> String {

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, anyhow};
 use hammerbeam_figure::{MeasuredMotion, PageMeasured, PageMeasuredPoint, Quantity as Drawing, plain_number};
 use hammerbeam_signal::{
-    Quantity,
+    MeasuredQuantity,
     limits::{self, LARGEST_FILE},
 };
 
@@ -13,12 +13,12 @@ use super::Drawn;
 
 /// Tables of `compare` in its own folder, and of `rig`, with what they are called: of what `rig` compares,
 /// that over branches without a filter.
-const TABLES: [(&str, &str, Quantity, Drawing); 5] = [
-    ("compare/points_displacement.csv", "compare", Quantity::Displacement, Drawing::Displacement),
-    ("compare/points_acceleration.csv", "compare", Quantity::Acceleration, Drawing::Acceleration),
-    ("compare/points_force.csv", "compare", Quantity::Force, Drawing::ContactForce),
-    ("points_displacement.csv", "virtual rig", Quantity::Displacement, Drawing::Displacement),
-    ("figure_06_points.csv", "virtual rig", Quantity::Acceleration, Drawing::Acceleration),
+const TABLES: [(&str, &str, MeasuredQuantity, Drawing); 5] = [
+    ("compare/points_displacement.csv", "compare", MeasuredQuantity::Displacement, Drawing::Displacement),
+    ("compare/points_acceleration.csv", "compare", MeasuredQuantity::Acceleration, Drawing::Acceleration),
+    ("compare/points_force.csv", "compare", MeasuredQuantity::Force, Drawing::ContactForce),
+    ("points_displacement.csv", "virtual rig", MeasuredQuantity::Displacement, Drawing::Displacement),
+    ("figure_06_points.csv", "virtual rig", MeasuredQuantity::Acceleration, Drawing::Acceleration),
 ];
 
 /// The points of every comparison; one whose table cannot be read is named with the reason.
@@ -48,7 +48,7 @@ fn note(cut_off_hz: f64) -> String {
 }
 
 /// Points of a table, and the cut-off of the filter that the branches were behind (Hz), if there was one.
-fn read(path: &Path, quantity: Quantity) -> anyhow::Result<(Vec<PageMeasuredPoint>, Option<f64>)> {
+fn read(path: &Path, quantity: MeasuredQuantity) -> anyhow::Result<(Vec<PageMeasuredPoint>, Option<f64>)> {
     let shown = path.display();
     let text = limits::read_text(path, LARGEST_FILE).with_context(|| format!("cannot read {shown}"))?;
     let mut lines = text.lines();

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Line, number};
+use super::{lines::NumberedLine, number};
 
 /// How rows are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub(super) struct Dialect {
     pub decimal_comma: bool,
 }
 
-/// In the order in which they are preferred where a file reads the same with several.
+/// All dialects, in order of preference where several suit a file equally well.
 const DIALECTS: [Dialect; 7] = [
     Dialect { separator: Some('\t'), decimal_comma: false },
     Dialect { separator: Some('\t'), decimal_comma: true },
@@ -24,12 +24,12 @@ const DIALECTS: [Dialect; 7] = [
     Dialect { separator: None, decimal_comma: true },
 ];
 
-/// Rows that are looked at.
-const LOOKED_AT: usize = 200;
+/// Rows that are examined.
+const EXAMINED: usize = 200;
 
 impl Dialect {
-    /// That of a table whose titles are known: the separator that stands in them most often. A decimal comma
-    /// is read wherever it does not separate.
+    /// The dialect of a table with known titles: the separator that is most frequent in them. The decimal
+    /// sign may be a comma unless it separates.
     pub(super) fn of_titles(titles: &str) -> Self {
         let count = |separator: char| titles.matches(separator).count();
         let most = ['\t', ';', ','].into_iter().rev().max_by_key(|separator| count(*separator));
@@ -46,7 +46,7 @@ impl Dialect {
         }
     }
 
-    /// Number of fields, if all of them are numbers or nothing and at least one is a number.
+    /// Number of fields, if all of them are numbers or missing and at least one is a number.
     pub(super) fn width_of_row(self, line: &str) -> Option<usize> {
         let fields = self.split(line);
         let mut numbers = false;
@@ -56,22 +56,22 @@ impl Dialect {
         numbers.then_some(fields.len())
     }
 
-    /// Whether rows of two columns, separated by commas, could as well be one column of numbers with decimal
+    /// Whether rows of two columns separated by commas could also be one column of numbers with decimal
     /// commas.
-    pub(super) fn may_be_decimal(self, rows: &[Line]) -> bool {
+    pub(super) fn may_be_decimal(self, rows: &[NumberedLine]) -> bool {
         self.separator == Some(',') && rows.iter().all(|(_, line)| halves(line).is_some())
     }
 
-    /// Whether they must be: no whole number is written as 007.
-    fn is_decimal(self, rows: &[Line]) -> bool {
+    /// Whether they must be one column: no whole number is written as 007.
+    fn is_decimal(self, rows: &[NumberedLine]) -> bool {
         self.may_be_decimal(rows)
             && rows.iter().any(|(_, line)| {
                 halves(line).is_some_and(|[_, decimals]| decimals.len() > 1 && decimals.starts_with('0'))
             })
     }
 
-    /// Whether a line has the titles of so many columns: it is no row of numbers in any dialect, and has no
-    /// commas over a single column.
+    /// Whether a line holds the titles of `width` columns: it is not a row of numbers in any dialect, and has
+    /// no commas above a single column.
     fn has_titles(self, line: &str, width: usize) -> bool {
         self.split(line).len() == width
             && !(width == 1 && line.contains(','))
@@ -79,14 +79,14 @@ impl Dialect {
     }
 }
 
-/// Digits before and behind the comma of a line that has no more.
+/// Digits before and after the comma of a line that holds nothing else.
 fn halves(line: &str) -> Option<[&str; 2]> {
     let (whole, decimals) = line.trim().split_once(',')?;
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     (digits(whole.strip_prefix('-').unwrap_or(whole)) && digits(decimals)).then_some([whole, decimals])
 }
 
-/// Fields that may stand in quotation marks; a mark within is doubled.
+/// Fields that may be in quotation marks; a mark within is doubled.
 fn quoted(line: &str, separator: char) -> Vec<Cow<'_, str>> {
     let mut fields = Vec::new();
     let mut field = String::new();
@@ -112,28 +112,28 @@ fn quoted(line: &str, separator: char) -> Vec<Cow<'_, str>> {
 
 /// The dialect of a file.
 ///
-/// Each dialect is judged by whether the line before its first row of numbers has as many fields (the
-/// titles), then by the length of its longest stretch of rows among the first lines, then by the width.
+/// The best dialect is chosen by three criteria in this order: the line before its first row of numbers has
+/// as many fields (the titles); the longest run of rows among the first lines; the width.
 ///
 /// # Returns
-/// The dialect, the index of the first row of numbers that has the width of the longest stretch, and that
-/// width. What breaks the rows apart between is for the reader to refuse.
-pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
-    let looked_at = &lines[..lines.len().min(LOOKED_AT)];
+/// The dialect, the index of the first row of numbers with the width of the longest run, and that width. The
+/// reader refuses lines that interrupt the rows after it.
+pub(super) fn detect(lines: &[NumberedLine]) -> Option<(Dialect, usize, usize)> {
+    let examined = &lines[..lines.len().min(EXAMINED)];
     let mut best: Option<((bool, usize, usize), Dialect, usize)> = None;
     for dialect in DIALECTS {
-        let Some((length, width)) = stretch(looked_at, dialect) else { continue };
-        let Some(first) = looked_at.iter().position(|(_, line)| dialect.width_of_row(line) == Some(width))
+        let Some((length, width)) = longest_run(examined, dialect) else { continue };
+        let Some(first) = examined.iter().position(|(_, line)| dialect.width_of_row(line) == Some(width))
         else {
             continue;
         };
-        let above = first.checked_sub(1).map(|before| looked_at[before].1);
-        // Commas in the line above separate: as decimal signs of a single column they would hide that a row
-        // of two is too short.
+        let above = first.checked_sub(1).map(|before| examined[before].1);
+        // Commas in the line above are separators. As decimal signs of a single column they would hide that a
+        // row of two is too short.
         if width == 1 && dialect.decimal_comma && above.is_some_and(|above| above.contains(',')) {
             continue;
         }
-        if above.is_none() && dialect.is_decimal(looked_at) {
+        if above.is_none() && dialect.is_decimal(examined) {
             continue;
         }
         let titles = above.is_some_and(|above| dialect.has_titles(above, width));
@@ -145,8 +145,8 @@ pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
     best.map(|((_, _, width), dialect, first)| (dialect, first, width))
 }
 
-/// Number of rows and width of the longest stretch of rows of numbers.
-fn stretch(lines: &[Line], dialect: Dialect) -> Option<(usize, usize)> {
+/// Number of rows and width of the longest run of rows of numbers.
+fn longest_run(lines: &[NumberedLine], dialect: Dialect) -> Option<(usize, usize)> {
     let mut longest: Option<(usize, usize)> = None;
     let mut current: Option<(usize, usize)> = None;
     for (_, line) in lines {

@@ -1,48 +1,52 @@
-//! What stands before the first row of numbers: titles, units, comments, a sampling rate.
+//! The lines before the first row of numbers: titles, units, comments, a sampling rate.
 //!
 //! The titles are the last line with as many fields as the rows. If all its fields are units (known ones, in
-//! brackets, or empty) and the line before it has as many fields too, it is the row of units and the line
-//! before it the titles. Without such a line the last comment is taken if it has as many fields, separated as
-//! the rows or by blanks. Without titles, channels are `column 1`, `column 2`, ...
+//! brackets, or empty) and the line before it has as many fields too, it is the row of units and that line
+//! holds the titles. Without such a line the last comment is used if it has as many fields, separated like
+//! the rows or by blanks. Without titles, channels are named `column 1`, `column 2`, ...
 
-use super::{Line, dialect::Dialect, is_comment};
-use crate::unit::{split_title, unit};
+use super::{
+    dialect::Dialect,
+    lines::{NumberedLine, is_comment},
+};
+use crate::{title::split_title, unit::unit};
 
-/// What the header says.
+/// The header of a table.
 #[derive(Debug)]
-pub(super) struct Header {
+pub(super) struct TableHeader {
     /// Name and unit of each column.
     pub titles: Vec<(String, Option<String>)>,
-    /// Whether the titles stand in the file.
+    /// Whether the file has titles.
     pub titled: bool,
-    /// A sampling rate that is named in words [Hz].
+    /// A sampling rate given in words [Hz].
     pub rate_hz: Option<f64>,
 }
 
-pub(super) fn read(before: &[Line], dialect: Dialect, width: usize) -> Header {
+/// Reads the header from the lines before the first row.
+pub(super) fn read(before: &[NumberedLine], dialect: Dialect, width: usize) -> TableHeader {
     let rate_hz = before.iter().find_map(|(_, line)| sampling_rate(line));
     let Some((fields, units)) = title_fields(before, dialect, width) else {
         let titles = (1..=width).map(|number| (format!("column {number}"), None)).collect();
-        return Header { titles, titled: false, rate_hz };
+        return TableHeader { titles, titled: false, rate_hz };
     };
     let title = |(index, field): (usize, String)| {
         let (name, own) = split_title(&field);
         let below = units.as_ref().map(|units| bare(&units[index])).filter(|unit| !unit.is_empty());
         let name = if name.is_empty() { format!("column {}", index + 1) } else { name };
         match below {
-            // With a row of units the title is the name as it stands, unless it repeats the unit.
+            // With a row of units the whole title is the name, unless it repeats the unit.
             Some(below) if own.as_deref().is_none_or(|own| own != below) => (field, Some(below)),
             Some(below) => (name, Some(below)),
             None => (name, own),
         }
     };
-    Header { titles: fields.into_iter().enumerate().map(title).collect(), titled: true, rate_hz }
+    TableHeader { titles: fields.into_iter().enumerate().map(title).collect(), titled: true, rate_hz }
 }
 
 type Fields = Vec<String>;
 
-/// Titles and the row of units, if they are there.
-fn title_fields(before: &[Line], dialect: Dialect, width: usize) -> Option<(Fields, Option<Fields>)> {
+/// Titles and the row of units, if there are any.
+fn title_fields(before: &[NumberedLine], dialect: Dialect, width: usize) -> Option<(Fields, Option<Fields>)> {
     let split =
         |line: &str| -> Fields { dialect.split(line).iter().map(|field| field.to_string()).collect() };
     let mut rows = before
@@ -67,6 +71,7 @@ fn title_fields(before: &[Line], dialect: Dialect, width: usize) -> Option<(Fiel
         .map(|fields| (fields, None))
 }
 
+/// Text without brackets around it.
 fn bare(text: &str) -> String {
     let text = text.trim();
     let inside = [('[', ']'), ('(', ')'), ('{', '}')]

@@ -1,60 +1,37 @@
 //! Separated values with a header.
 //!
-//! Nothing about the dialect has to be said: separator and decimal sign are those with which the most lines
-//! are rows of numbers (`dialect.rs`). The first row of numbers as wide as most is the beginning of the
-//! table; no line behind it is passed over. What stands before it is the header (`header.rs`): titles with
-//! units, a row of units, comments, a sampling rate. Lines that begin with `#`, `%` or `//` are comments
-//! anywhere. Empty fields and words like `NaN` are missing samples. A field that ends rows of a file from
-//! some row on is the end of a shorter channel.
+//! The dialect is found automatically: the separator and the decimal sign with which the most lines are rows
+//! of numbers. The table starts at the first row of numbers with the width of most rows; no line after it is
+//! skipped. The lines before it are the header: titles with units, a row of units, comments, a sampling rate.
+//! Lines that start with `#`, `%`, `!` or `//` are comments anywhere. Empty fields and words like `NaN` are
+//! missing samples. A column that is empty from some row to the end of the file is a shorter channel.
+//!
+//! | file | what |
+//! |---|---|
+//! | `lines.rs` | decoding, numbered lines, comments |
+//! | `number.rs` | numbers, clock times and missing values in a field |
+//! | `dialect.rs` | separator and decimal sign |
+//! | `header.rs` | titles, units, a sampling rate |
+//! | `table.rs` | tables with words, for other readers |
 
 mod dialect;
 mod header;
+mod lines;
 mod number;
+mod table;
 
-use std::collections::{HashMap, HashSet};
+pub(crate) use lines::{NumberedLine, content_lines, decode, excerpt};
+pub(crate) use table::TextTable;
 
 use dialect::Dialect;
+use lines::numbered;
 
 use crate::{
-    finding::Finding,
-    raw::{Axis, RawChannel, RawRecord, TimeColumn},
-    read::{
-        ReadError,
-        time::{compare_rates, rises_evenly, time_column},
-    },
+    error::ReadError,
+    finding::RecordFinding,
+    raw::{RawChannel, RawRecord, TimeAxis, TimeColumn, number_repeated_names},
+    read::time::{compare_rates, rises_evenly, time_column},
 };
-
-/// A line of text with its number, from 1 on.
-pub(crate) type Line<'a> = (usize, &'a str);
-
-/// Characters of a field that a message shows.
-const LONGEST_EXCERPT: usize = 60;
-
-/// How the fields of a table with words in it are separated.
-pub(crate) struct TextTable(Dialect);
-
-impl TextTable {
-    /// By its line of titles.
-    pub(crate) fn of_titles(titles: &str) -> Self {
-        Self(Dialect::of_titles(titles))
-    }
-
-    /// Fields of a line.
-    pub(crate) fn fields(&self, line: &str) -> Vec<String> {
-        self.0.split(line).iter().map(|field| field.to_string()).collect()
-    }
-
-    /// Value of a field: NaN if it is empty or says that there is nothing, `None` if it is no number.
-    pub(crate) fn number(&self, field: &str) -> Option<f64> {
-        number::parse(field, self.0.decimal_comma)
-    }
-}
-
-/// Lines that are neither empty nor comments.
-pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
-    let numbered = text.lines().enumerate().map(|(k, line)| (k + 1, line));
-    numbered.filter(|(_, line)| !line.trim().is_empty() && !is_comment(line))
-}
 
 /// Reads separated values.
 ///
@@ -63,18 +40,16 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
 pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut findings = Vec::new();
     let mut text = decode(bytes, &mut findings)?;
-    // As programs of the old Macintosh end lines.
+    // Line endings of the classic Mac OS.
     if !text.contains('\n') {
         text = text.replace('\r', "\n");
     }
-    let lines: Vec<Line> = text.lines().enumerate().map(|(k, line)| (k + 1, line)).collect();
-    let rows: Vec<Line> =
-        lines.iter().copied().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
+    let rows: Vec<NumberedLine> = content_lines(&text).collect();
     let (dialect, first, width) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
     let first_line = rows[first].0;
     ensure_no_rows(&rows[..first], dialect, width)?;
-    let before: Vec<Line> =
-        lines.iter().copied().filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
+    let before: Vec<NumberedLine> =
+        numbered(&text).filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
     let header = header::read(&before, dialect, width);
     let values = columns(&rows[first..], dialect, width)?;
     let titled = header.titled;
@@ -83,44 +58,17 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         unit,
         samples,
     });
-    // A separator at the end of each line makes a column of nothing.
+    // A separator at the end of each line gives an empty column.
     let columns: Vec<RawChannel> = columns.filter(|column| !column.samples.is_empty()).collect();
     if !titled && !rises_evenly(&columns[0].samples) && dialect.may_be_decimal(&rows[first..]) {
-        findings.push(Finding::CommasSeparate);
+        findings.push(RecordFinding::CommasSeparate);
     }
     arrange(columns, titled, header.rate_hz, findings)
 }
 
-/// Text of the file: UTF-8, UTF-16 with its mark, or else Latin-1.
-pub(crate) fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, ReadError> {
-    let wide = |order: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| order([pair[0], pair[1]])).collect();
-        String::from_utf16_lossy(&units)
-    };
-    if bytes.starts_with(&[0xff, 0xfe]) {
-        return Ok(wide(u16::from_le_bytes));
-    }
-    if bytes.starts_with(&[0xfe, 0xff]) {
-        return Ok(wide(u16::from_be_bytes));
-    }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if bytes.contains(&0) {
-        return Err(ReadError::UnknownFormat);
-    }
-    Ok(str::from_utf8(bytes).map(str::to_owned).unwrap_or_else(|_| {
-        findings.push(Finding::Latin1);
-        bytes.iter().map(|&byte| char::from(byte)).collect()
-    }))
-}
-
-fn is_comment(line: &str) -> bool {
-    let line = line.trim_start();
-    line.starts_with(['#', '%', '!']) || line.starts_with("//")
-}
-
 /// Refuses rows of numbers before the first row of the table. A single number above the titles of several
-/// columns is no row: a count, a time of day.
-fn ensure_no_rows(before: &[Line], dialect: Dialect, width: usize) -> Result<(), ReadError> {
+/// columns is not a row, but a count or a time of day.
+fn ensure_no_rows(before: &[NumberedLine], dialect: Dialect, width: usize) -> Result<(), ReadError> {
     let mut titles = false;
     for &(line, text) in before {
         match dialect.width_of_row(text) {
@@ -134,16 +82,8 @@ fn ensure_no_rows(before: &[Line], dialect: Dialect, width: usize) -> Result<(),
     Ok(())
 }
 
-/// The beginning of a field, for a message: a damaged file may be one line.
-pub(crate) fn excerpt(field: &str) -> String {
-    match field.char_indices().nth(LONGEST_EXCERPT) {
-        Some((end, _)) => format!("{}...", &field[..end]),
-        None => field.to_owned(),
-    }
-}
-
-/// Values by columns. Empty ends of columns are cut off.
-fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>>, ReadError> {
+/// Values by columns, without empty ends.
+fn columns(rows: &[NumberedLine], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>>, ReadError> {
     let mut columns = vec![Vec::with_capacity(rows.len()); width];
     for &(line, text) in rows {
         let mut found = 0;
@@ -171,51 +111,32 @@ fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>
     Ok(columns)
 }
 
-/// Which column is the time, and the others.
+/// A record from columns, of which one may be the time.
 fn arrange(
     mut columns: Vec<RawChannel>,
     titled: bool,
     rate_hz: Option<f64>,
-    mut findings: Vec<Finding>,
+    mut findings: Vec<RecordFinding>,
 ) -> Result<RawRecord, ReadError> {
-    unique(&mut columns);
-    let kinds: Vec<(&str, Option<&str>)> =
+    number_repeated_names(&mut columns);
+    let titles: Vec<(&str, Option<&str>)> =
         columns.iter().map(|column| (column.name.as_str(), column.unit.as_deref())).collect();
     let assumed = !titled && columns.len() > 1 && rises_evenly(&columns[0].samples);
-    let place = time_column(&kinds).or(assumed.then_some(0));
-    let time = place.map(|place| TimeColumn { channel: columns.remove(place), place });
+    let index = time_column(&titles).or(assumed.then_some(0));
+    let time = index.map(|index| TimeColumn { channel: columns.remove(index), index });
     let axis = match &time {
         Some(TimeColumn { channel, .. }) => {
-            let (times, told) = channel.times();
-            findings.extend(told.map(|told| if titled { told } else { Finding::TimeAssumed }));
+            let (times, finding) = channel.times();
+            findings.extend(finding.map(|finding| if titled { finding } else { RecordFinding::TimeAssumed }));
             compare_rates(rate_hz, &times, &mut findings);
-            Axis::Times(times)
+            TimeAxis::Times(times)
         }
-        None => rate_hz.map_or(Axis::Unknown, |rate| Axis::Even { step_s: 1.0 / rate, start_s: 0.0 }),
+        None => rate_hz.map_or(TimeAxis::Unknown, |rate| TimeAxis::Even { step_s: 1.0 / rate, start_s: 0.0 }),
     };
     if columns.is_empty() {
         return Err(ReadError::NoNumbers);
     }
     Ok(RawRecord { time, ..RawRecord::single(axis, columns, findings) })
-}
-
-/// Names that stand twice get a number.
-pub(crate) fn unique(channels: &mut [RawChannel]) {
-    let mut taken = HashSet::new();
-    // The next number of each name: all below are taken.
-    let mut next: HashMap<String, usize> = HashMap::new();
-    for channel in channels {
-        if !taken.insert(channel.name.clone()) {
-            let number = next.entry(channel.name.clone()).or_insert(2);
-            let mut name = format!("{} ({number})", channel.name);
-            while !taken.insert(name.clone()) {
-                *number += 1;
-                name = format!("{} ({number})", channel.name);
-            }
-            *number += 1;
-            channel.name = name;
-        }
-    }
 }
 
 #[cfg(test)]

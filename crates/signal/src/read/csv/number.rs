@@ -1,9 +1,9 @@
-//! Numbers, clock times and words for nothing in a field.
+//! Numbers, clock times and missing values in a field.
 
-/// Value of a field: NaN if it is empty or says that there is nothing, `None` if it is no number.
+/// Value of a field: NaN if it is empty or marked as missing, `None` if it is not a number.
 pub(super) fn parse(field: &str, decimal_comma: bool) -> Option<f64> {
     let field = field.trim();
-    if field.is_empty() || is_nothing(field) {
+    if field.is_empty() || is_missing(field) {
         return Some(f64::NAN);
     }
     let number: Option<f64> = if decimal_comma && field.contains(',') {
@@ -19,20 +19,20 @@ pub(super) fn parse(field: &str, decimal_comma: bool) -> Option<f64> {
         .or_else(|| clock(field, decimal_comma))
 }
 
-/// Numbers that instruments send for what is out of range or no number (SCPI 1999, volume 1, 7.2.1.4 and
+/// Numbers that instruments send for values out of range or undefined (SCPI 1999, volume 1, 7.2.1.4 and
 /// 7.2.1.5).
 fn is_overflow(value: f64) -> bool {
     [9.9e37, 9.91e37].contains(&value.abs())
 }
 
-/// A number, its exponent also behind the D of Fortran.
+/// A number; its exponent letter may be the D of Fortran.
 fn decimal(field: &str) -> Option<f64> {
     let with_e = || field.contains(['d', 'D']).then(|| field.replacen(['d', 'D'], "e", 1));
     field.parse().ok().or_else(|| with_e()?.parse().ok())
 }
 
 /// Words that measuring programs and spreadsheets write for a missing value.
-fn is_nothing(field: &str) -> bool {
+fn is_missing(field: &str) -> bool {
     [
         "nan", "-", "--", "n/a", "na", "#n/a", "#nv", "null", "none", "#div/0!", "#value!", "1.#qnan",
         "-nan", "missing",
@@ -41,7 +41,7 @@ fn is_nothing(field: &str) -> bool {
     .any(|word| word.eq_ignore_ascii_case(field))
 }
 
-/// Seconds of `12:34:56.789`, counted from 1970 if a date `2024-05-17` stands before it.
+/// Seconds of `12:34:56.789`, counted from 1970 if a date `2024-05-17` precedes it.
 fn clock(field: &str, decimal_comma: bool) -> Option<f64> {
     let (date, time) = match field.split_once(['T', ' ']) {
         Some((date, time)) => (Some(date), time),
@@ -70,7 +70,7 @@ fn days_since_1970(date: &str) -> Option<f64> {
     }
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    // Months from March on have 31, 30, 31, 30, 31 days over and over: 153 in five. 719 468 days lie between
+    // From March on, months have 31, 30, 31, 30, 31 days repeatedly: 153 in five. 719 468 days lie between
     // 0000-03-01 and 1970-01-01.
     Some((365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468) as f64)
 }
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn overflow_of_an_instrument_is_nothing() {
+    fn overflow_of_an_instrument_is_missing() {
         for text in ["9.9E37", "-9.9e37", "9.91E+37"] {
             assert!(parse(text, false).unwrap().is_nan(), "{text}");
         }

@@ -16,7 +16,7 @@ fn assert_read(text: &str, names: &[(&str, Option<&str>)], times: &[f64], first:
     let found: Vec<(&str, Option<&str>)> =
         group.channels.iter().map(|channel| (channel.name.as_str(), channel.unit.as_deref())).collect();
     assert_eq!(found, names);
-    assert_eq!(group.axis, Axis::Times(times.to_vec()));
+    assert_eq!(group.axis, TimeAxis::Times(times.to_vec()));
     assert_eq!(group.channels[0].samples, first);
 }
 
@@ -47,17 +47,20 @@ fn lines_that_end_in_carriage_returns_alone_are_read() {
 }
 
 #[test]
-fn commas_without_titles_are_decimal_signs_or_told() {
+fn commas_without_titles_are_decimal_signs_or_reported() {
     // No whole number is written as 00.
     let decimal = read_text("0,00\n1,37\n0,02\n");
     assert_eq!((decimal.groups[0].channels.len(), &decimal.findings[..]), (1, &[][..]));
     assert_eq!(decimal.groups[0].channels[0].samples, [0.0, 1.37, 0.02]);
     let either = read_text("3,10\n1,37\n2,42\n");
-    assert_eq!((either.groups[0].channels.len(), &either.findings[..]), (2, &[Finding::CommasSeparate][..]));
+    assert_eq!(
+        (either.groups[0].channels.len(), &either.findings[..]),
+        (2, &[RecordFinding::CommasSeparate][..])
+    );
 }
 
 #[test]
-fn column_that_begins_with_minus_one_or_a_title_with_matlab_is_read() {
+fn column_that_starts_with_minus_one_or_a_title_with_matlab_is_read() {
     for text in ["-1\n0.5\n1.5\n", "-1\n3\n4\n", "MATLAB export\n-1\n3\n4\n"] {
         let raw = crate::read::parse(text.as_bytes()).unwrap();
         assert_eq!(raw.groups[0].channels[0].samples[0], -1.0, "{text}");
@@ -68,14 +71,14 @@ fn column_that_begins_with_minus_one_or_a_title_with_matlab_is_read() {
 fn time_can_be_named() {
     let text = "clock [ms],x [mm],a\n0,1,5\n1000,2,7\n2000,4,9\n";
     let named = |name: &str| read_text(text).with_time(name).unwrap();
-    assert_eq!(named("clock"), read_text(text), "what is taken already");
+    assert_eq!(named("clock"), read_text(text), "already the time");
     let by_x = named("x");
-    assert_eq!(by_x.groups[0].axis, Axis::Times(vec![1.0, 2.0, 4.0]));
+    assert_eq!(by_x.groups[0].axis, TimeAxis::Times(vec![1.0, 2.0, 4.0]));
     let clock = &by_x.groups[0].channels[0];
     // As it stands in the file, with its unit.
     assert_eq!((clock.name.as_str(), clock.unit.as_deref()), ("clock", Some("ms")));
     assert_eq!(clock.samples, [0.0, 1000.0, 2000.0]);
-    assert_eq!(by_x.findings, [Finding::TimeUnitAssumed { name: "x".to_owned() }]);
+    assert_eq!(by_x.findings, [RecordFinding::TimeUnitAssumed { name: "x".to_owned() }]);
     assert!(read_text(text).with_time("b").is_err());
     // By their numbers among all columns; afterwards channels are counted in the order of the file.
     assert_eq!(named("1"), read_text(text));
@@ -89,7 +92,7 @@ fn time_can_be_named() {
 }
 
 #[test]
-fn rate_that_disagrees_is_told_as_it_is_between_gaps() {
+fn rate_that_disagrees_is_reported_with_the_rate_between_gaps() {
     // 10 Hz with a gap of 30 s among a hundred samples.
     let mut text = "Sampling rate: 20 Hz\ntime [s],x [m]\n".to_owned();
     for k in 0..100 {
@@ -97,10 +100,8 @@ fn rate_that_disagrees_is_told_as_it_is_between_gaps() {
         text.push_str(&format!("{t:.3},{k}\n"));
     }
     let found = read_text(&text).findings;
-    assert!(
-        matches!(found[..], [Finding::NamedRateDisagrees { found_hz, .. }] if (found_hz - 10.0).abs() < 1e-6),
-        "{found:?}"
-    );
+    let [RecordFinding::NamedRateDisagrees { found_hz, .. }] = found[..] else { panic!("{found:?}") };
+    assert!((found_hz - 10.0).abs() < 1e-6, "{found:?}");
 }
 
 #[test]
@@ -115,20 +116,23 @@ fn text_in_other_encodings() {
     let latin: Vec<u8> = text.chars().map(|character| character as u8).collect();
     let raw = read(&latin).unwrap();
     assert_eq!(raw.groups[0].channels[0].unit.as_deref(), Some("µm"));
-    assert_eq!(raw.findings, [Finding::Latin1]);
+    assert_eq!(raw.findings, [RecordFinding::Latin1]);
     let wide: Vec<u8> = [0xfeff].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
     assert_eq!(read(&wide).unwrap().groups[0].channels[0].unit.as_deref(), Some("µm"));
 }
 
 #[test]
-fn time_without_title_or_unit_is_told() {
-    assert_eq!(read_text("0,1\n1,5\n2,4\n").findings, [Finding::TimeAssumed]);
-    assert_eq!(read_text("t,x\n0,1\n1,5\n").findings, [Finding::TimeUnitAssumed { name: "t".to_owned() }]);
+fn time_without_title_or_unit_is_reported() {
+    assert_eq!(read_text("0,1\n1,5\n2,4\n").findings, [RecordFinding::TimeAssumed]);
+    assert_eq!(
+        read_text("t,x\n0,1\n1,5\n").findings,
+        [RecordFinding::TimeUnitAssumed { name: "t".to_owned() }]
+    );
     // Two channels without a time: neither rises evenly.
-    assert_eq!(read_text("3,1\n1,5\n2,4\n").groups[0].axis, Axis::Unknown);
+    assert_eq!(read_text("3,1\n1,5\n2,4\n").groups[0].axis, TimeAxis::Unknown);
 }
 
-/// Velocities and other rates end in `/s`: they are no times, and a column named time comes first.
+/// Velocities and other rates end in `/s`: they are not times, and a column named time comes first.
 #[test]
 fn column_named_time_is_the_time_whatever_is_measured_per_second() {
     for (titles, name, unit) in [
@@ -150,12 +154,12 @@ fn column_named_time_is_the_time_whatever_is_measured_per_second() {
             &[5.0, 7.0, 9.0],
         );
     }
-    // Without a name the unit says it.
+    // Without a name the unit decides.
     assert_read("v m/s,delay ms\n5,0\n7,1000\n", &[("v", Some("m/s"))], &[0.0, 1.0], &[5.0, 7.0]);
 }
 
 #[test]
-fn rate_that_is_not_that_of_the_times_is_told() {
+fn rate_that_differs_from_that_of_the_times_is_reported() {
     let rows =
         |step: f64| -> String { (0..50).map(|k| format!("{},{}\n", step * f64::from(k), k % 7)).collect() };
     for (step, header, found) in [
@@ -165,11 +169,12 @@ fn rate_that_is_not_that_of_the_times_is_told() {
         (0.002, "# fs = 501", false),
     ] {
         let findings = read_text(&format!("{header}\nt [s],a\n{}", rows(step))).findings;
-        let told = matches!(
+        let reported = matches!(
             findings[..],
-            [Finding::NamedRateDisagrees { named_hz: 1000.0, found_hz }] if (found_hz - 500.0).abs() < 1e-9
+            [RecordFinding::NamedRateDisagrees { named_hz: 1000.0, found_hz }]
+                if (found_hz - 500.0).abs() < 1e-9
         );
-        assert_eq!((told, findings.len()), (found, usize::from(found)), "{header}: {findings:?}");
+        assert_eq!((reported, findings.len()), (found, usize::from(found)), "{header}: {findings:?}");
     }
     // A gap moves the mean rate, rounded times the median: neither is another rate.
     let gap = "# fs = 1\nt [s],a\n0,1\n1,2\n2,1\n3,2\n9,1\n";
@@ -181,7 +186,7 @@ fn rate_that_is_not_that_of_the_times_is_told() {
 #[test]
 fn sampling_rate_in_the_header_is_the_rate() {
     let raw = read_text("Sampling rate: 2 kHz\na [g]\n1.0\n2.0\n");
-    assert_eq!(raw.groups[0].axis, Axis::Even { step_s: 0.0005, start_s: 0.0 });
+    assert_eq!(raw.groups[0].axis, TimeAxis::Even { step_s: 0.0005, start_s: 0.0 });
     assert_eq!(raw.groups[0].channels[0].unit.as_deref(), Some("g"));
 }
 
@@ -197,7 +202,7 @@ fn missing_values_are_nan_and_missing_ends_are_the_end() {
 }
 
 #[test]
-fn text_among_numbers_is_refused_with_its_place() {
+fn text_among_numbers_is_refused_with_its_position() {
     assert_eq!(
         refused("time [s],a\n0,1\n1,2\n2,overload\n3,4\n"),
         ReadError::NotANumber { line: 4, column: 2, text: "overload".to_owned() }
@@ -210,16 +215,16 @@ fn rows_of_other_lengths_are_refused_with_their_line() {
     assert_eq!(refused("t,a\n0,1\n1,2\n2,3,9\n"), ReadError::RaggedRow { line: 4, found: 3, expected: 2 });
 }
 
-/// A table of 400 rows of two columns with a line put in before row `row`, from 1 on.
+/// A table of 400 rows of two columns with a line inserted before row `row`, from 1 on.
 fn with_line(titles: &str, row: usize, line: &str) -> String {
     let mut rows: Vec<String> = (0..400).map(|k| format!("{}.5,{}.25", k, k % 7)).collect();
     rows.insert(row - 1, line.to_owned());
     format!("{titles}{}\n", rows.join("\n"))
 }
 
-/// Wherever the line stands: nothing before it is taken for a header.
+/// At any line: the rows before it are not mistaken for a header.
 #[test]
-fn line_that_breaks_the_rows_is_refused_and_no_row_is_swallowed() {
+fn line_that_breaks_the_rows_is_refused_and_no_row_is_skipped() {
     for row in [2, 60, 150, 199, 250, 399] {
         for (titles, before) in [("time [s],a [g]\n", 1), ("", 0)] {
             let line = row + before;
@@ -266,7 +271,7 @@ fn single_number_above_the_titles_is_header() {
 }
 
 #[test]
-fn row_of_nothing_between_rows_is_a_missing_sample() {
+fn empty_row_between_rows_is_a_missing_sample() {
     let raw = read_text("t [s],a\n0,1\n1,2\n,\n3,4\n4,5\n5,6\n6,7\n");
     assert_eq!(raw.groups[0].channels[0].samples.len(), 7);
     assert!(raw.groups[0].channels[0].samples[2].is_nan());
@@ -286,7 +291,7 @@ fn equal_names_get_numbers() {
 }
 
 #[test]
-fn messages_show_the_beginning_of_a_long_field() {
+fn messages_show_the_start_of_a_long_field() {
     let error = refused(&format!("t,a\n0,1\n1,{}\n", "x".repeat(100_000)));
     assert_eq!(error, ReadError::NotANumber { line: 3, column: 2, text: format!("{}...", "x".repeat(60)) });
 }

@@ -1,7 +1,7 @@
 //! MATLAB files of level 5 (`save -v6` and `-v7`, also what SciPy writes).
 //!
 //! Numeric arrays are read, compressed or not, also as fields of structures (`data.acc`). Cells, texts,
-//! sparse matrices and objects are left out and told. Files of version 7.3 are HDF5 and are refused.
+//! sparse matrices and objects are left out, with a finding. Files of version 7.3 are HDF5 and are refused.
 //!
 //! # Source
 //! The MathWorks, "MAT-File Format", chapter 1, "Level 5 MAT-File Format".
@@ -9,19 +9,18 @@
 mod element;
 
 use super::{
-    ReadError,
     arrays::{Array, arrange},
-    bytes::{Bytes, Stored},
+    bytes::ByteReader,
 };
-use crate::{finding::Finding, limits::LARGEST_FILE, raw::RawRecord};
-use element::{Element, Kind, next, numbers};
+use crate::{error::ReadError, finding::RecordFinding, limits::LARGEST_FILE, raw::RawRecord};
+use element::{Element, ElementType, next, numbers};
 
 const STRUCTURE: u32 = 2;
 const NUMERIC: std::ops::RangeInclusive<u32> = 6..=15;
 const COMPLEX: u32 = 0x0800;
 
-/// Whether a file is one of MATLAB's, of any level, or HDF5.
-pub(super) fn begins(bytes: &[u8]) -> bool {
+/// Whether a file is a MATLAB file of any level, or HDF5.
+pub(super) fn is_matlab(bytes: &[u8]) -> bool {
     let text = &bytes[..bytes.len().min(116)];
     let level_5 = text.starts_with(b"MATLAB") && text.windows(8).any(|part| part == b"MAT-file");
     level_5 || bytes.starts_with(HDF) || is_level_4(bytes)
@@ -29,8 +28,8 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
 
 const HDF: &[u8] = b"\x89HDF";
 
-/// Level 4 begins with five whole numbers: a type in decimal digits, rows, columns, whether it is complex,
-/// and the length of the name with its ending zero.
+/// Level 4 starts with five whole numbers: a type in decimal digits, rows, columns, whether it is complex,
+/// and the length of the name with its terminating zero.
 fn is_level_4(bytes: &[u8]) -> bool {
     let Some((header, rest)) = bytes.split_at_checked(20) else { return false };
     let number = |k: usize| u32::from_le_bytes([header[k], header[k + 1], header[k + 2], header[k + 3]]);
@@ -61,14 +60,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         b"MI" => true,
         _ => return Err(ReadError::Malformed { what: "the header names no byte order".to_owned() }),
     };
-    let mut rest = Bytes::new(&bytes[128..], big_endian);
-    let mut content = Content::default();
+    let mut rest = ByteReader::new(&bytes[128..], big_endian);
+    let mut content = MatContent::default();
     let mut room = LARGEST_FILE;
     while rest.len() >= 8 {
         match next(&mut rest)? {
-            Element { kind: Kind::Compressed, data } => {
+            Element { kind: ElementType::Compressed, data } => {
                 let inflated = element::inflate(data, &mut room)?;
-                let inner = next(&mut Bytes::new(&inflated, big_endian))?;
+                let inner = next(&mut ByteReader::new(&inflated, big_endian))?;
                 content.take(&inner, big_endian, "")?;
             }
             plain => content.take(&plain, big_endian, "")?,
@@ -77,20 +76,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     arrange(content.arrays, content.findings)
 }
 
-/// What was found.
+/// Arrays and findings of a file.
 #[derive(Default)]
-struct Content {
+struct MatContent {
     arrays: Vec<Array>,
-    findings: Vec<Finding>,
+    findings: Vec<RecordFinding>,
 }
 
-impl Content {
-    /// Takes a variable; `within` is the name of the structure it is a field of, with a point.
+impl MatContent {
+    /// Adds a variable.
+    ///
+    /// * `within`: name of the structure of which it is a field, with a point; else empty.
     fn take(&mut self, element: &Element, big_endian: bool, within: &str) -> Result<(), ReadError> {
-        if element.kind != Kind::Matrix || element.data.is_empty() {
+        if element.kind != ElementType::Matrix || element.data.is_empty() {
             return Ok(());
         }
-        let mut bytes = Bytes::new(element.data, big_endian);
+        let mut bytes = ByteReader::new(element.data, big_endian);
         let flags = numbers(&next(&mut bytes)?, big_endian)?.first().map_or(0, |flags| *flags as u32);
         let shape: Vec<usize> =
             numbers(&next(&mut bytes)?, big_endian)?.iter().map(|side| *side as usize).collect();
@@ -100,9 +101,9 @@ impl Content {
             STRUCTURE if shape.iter().all(|side| *side == 1) => self.fields(&mut bytes, &name),
             class if NUMERIC.contains(&class) => self.numeric(&mut bytes, name, shape, flags & COMPLEX != 0),
             class => {
-                // Texts and empty helpers of MATLAB's own have no name.
+                // Texts and empty auxiliary variables of MATLAB have no name.
                 if !own.is_empty() || !within.is_empty() {
-                    self.findings.push(Finding::LeftOut { name, reason: reason(class).to_owned() });
+                    self.findings.push(RecordFinding::LeftOut { name, reason: reason(class).to_owned() });
                 }
                 Ok(())
             }
@@ -111,7 +112,7 @@ impl Content {
 
     fn numeric(
         &mut self,
-        bytes: &mut Bytes,
+        bytes: &mut ByteReader,
         name: String,
         shape: Vec<usize>,
         complex: bool,
@@ -135,8 +136,8 @@ impl Content {
         Ok(())
     }
 
-    /// Fields of a single structure. Their names stand before them; their own are empty.
-    fn fields(&mut self, bytes: &mut Bytes, name: &str) -> Result<(), ReadError> {
+    /// Fields of a single structure. Their names precede them; the names within are empty.
+    fn fields(&mut self, bytes: &mut ByteReader, name: &str) -> Result<(), ReadError> {
         let big_endian = bytes.is_big_endian();
         let length = numbers(&next(bytes)?, big_endian)?.first().map_or(32, |length| *length as usize).max(1);
         let names = next(bytes)?.data;

@@ -1,25 +1,29 @@
 //! The values of a function.
 
-use super::{Binary, Header, Lines, ReadError};
+use super::{
+    header::{BinaryLayout, FunctionHeader},
+    lines::DatasetLines,
+};
 use crate::{
-    finding::Finding,
-    raw::{Axis, RawChannel, RawRecord},
-    read::bytes::Stored,
-    unit::{Quantity, unit},
+    error::ReadError,
+    finding::RecordFinding,
+    raw::{RawChannel, RawRecord, TimeAxis},
+    read::bytes::NumberFormat,
+    unit::{MeasuredQuantity, unit},
 };
 
 /// Values point by point, in the order in which they are stored.
-pub(super) fn of_bytes(bytes: &[u8], header: &Header, binary: &Binary) -> Vec<f64> {
-    let stored = if header.double { Stored::F64 } else { Stored::F32 };
-    if header.even || header.abscissa_size(binary) == stored.size() {
-        return stored.values(bytes, binary.big_endian);
+pub(super) fn of_bytes(bytes: &[u8], header: &FunctionHeader, binary: &BinaryLayout) -> Vec<f64> {
+    let format = if header.double { NumberFormat::F64 } else { NumberFormat::F32 };
+    if header.even || header.abscissa_size(binary) == format.size() {
+        return format.values(bytes, binary.big_endian);
     }
     let point = 4 + (header.values_per_point() - 1) * 8;
     bytes
         .chunks_exact(point)
         .flat_map(|point| {
-            let mut values = Stored::F32.values(&point[..4], binary.big_endian);
-            values.extend(Stored::F64.values(&point[4..], binary.big_endian));
+            let mut values = NumberFormat::F32.values(&point[..4], binary.big_endian);
+            values.extend(NumberFormat::F64.values(&point[4..], binary.big_endian));
             values
         })
         .collect()
@@ -27,9 +31,13 @@ pub(super) fn of_bytes(bytes: &[u8], header: &Header, binary: &Binary) -> Vec<f6
 
 /// Values of the text form, up to the line that ends the dataset.
 ///
-/// Columns may touch where a number has a sign; a sign that does not follow an exponent's letter begins a
+/// Columns may touch where a number has a sign: a sign that does not follow an exponent letter starts a new
 /// number.
-pub(super) fn of_text(file: &mut Lines, header: &Header, number: usize) -> Result<Vec<f64>, ReadError> {
+pub(super) fn of_text(
+    file: &mut DatasetLines,
+    header: &FunctionHeader,
+    number: usize,
+) -> Result<Vec<f64>, ReadError> {
     let expected = header.points * header.values_per_point();
     let mut values = Vec::with_capacity(expected.min(1 << 24));
     while values.len() < expected {
@@ -65,24 +73,24 @@ fn fields(line: &str) -> Vec<&str> {
     fields
 }
 
-/// Adds a function over time to what was read.
-pub(super) fn add(values: Vec<f64>, header: Header, raw: &mut RawRecord) {
+/// Adds a function of time to the record.
+pub(super) fn add(values: Vec<f64>, header: FunctionHeader, raw: &mut RawRecord) {
     let per_point = header.values_per_point();
     let column = |index: usize| values.iter().skip(index).step_by(per_point).copied().collect::<Vec<_>>();
     let factor = header
         .abscissa_unit
         .as_deref()
         .and_then(unit)
-        .filter(|unit| unit.quantity == Quantity::Time)
+        .filter(|unit| unit.quantity == MeasuredQuantity::Time)
         .map_or(1.0, |unit| unit.factor);
     let (axis, first) = if header.even {
-        (Axis::Even { step_s: factor * header.step, start_s: factor * header.start }, 0)
+        (TimeAxis::Even { step_s: factor * header.step, start_s: factor * header.start }, 0)
     } else {
-        (Axis::Times(column(0).iter().map(|value| factor * value).collect()), 1)
+        (TimeAxis::Times(column(0).iter().map(|value| factor * value).collect()), 1)
     };
     let (unit, assumed) = header.unit();
     if let Some(unit) = unit.clone().filter(|_| assumed) {
-        raw.findings.push(Finding::UnitAssumed { channel: header.name.clone(), unit });
+        raw.findings.push(RecordFinding::UnitAssumed { channel: header.name.clone(), unit });
     }
     let parts: &[&str] = if header.complex { &[" (real)", " (imaginary)"] } else { &[""] };
     for (index, part) in parts.iter().enumerate() {

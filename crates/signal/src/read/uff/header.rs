@@ -1,16 +1,19 @@
 //! The eleven lines before the values of a function.
 
-use super::ReadError;
+use crate::error::ReadError;
 
-/// Numbers of the binary form that follow `58b`.
+/// Lines between the type of a dataset and its values.
+pub(super) const HEADER_LINES: usize = 11;
+
+/// Layout of binary values, given after `58b`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Binary {
+pub(super) struct BinaryLayout {
     pub big_endian: bool,
-    /// Number of bytes the file declares; programs do not agree on how they count them.
+    /// Number of bytes the file declares; programs count them differently.
     pub declared: usize,
 }
 
-impl Binary {
+impl BinaryLayout {
     /// From the line with the type; `None` if the values are text.
     pub(super) fn of(kind: &str, number: usize) -> Result<Option<Self>, ReadError> {
         let Some(rest) = kind.trim_start().strip_prefix("58").and_then(|rest| rest.strip_prefix(['b', 'B']))
@@ -29,7 +32,7 @@ impl Binary {
                 instead: "write it with IEEE 754 numbers (format 2)",
             });
         }
-        if lines != super::HEADER_LINES {
+        if lines != HEADER_LINES {
             return Err(ReadError::Malformed {
                 what: format!("function {number} has {lines} header lines, not 11"),
             });
@@ -38,9 +41,9 @@ impl Binary {
     }
 }
 
-/// What the header says.
+/// The header of a function.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Header {
+pub(super) struct FunctionHeader {
     pub name: String,
     pub number: usize,
     function_type: i64,
@@ -56,7 +59,7 @@ pub(super) struct Header {
     ordinate_unit: Option<String>,
 }
 
-impl Header {
+impl FunctionHeader {
     pub(super) fn of(lines: &[String], number: usize) -> Result<Self, ReadError> {
         let function = &lines[5];
         let whole = |field: &str, what: &str| {
@@ -92,12 +95,12 @@ impl Header {
         })
     }
 
-    /// Whether it is a function of time: by its abscissa, or by its type if that does not say.
+    /// Whether it is a function of time: by its abscissa, or by its type if the abscissa is unspecified.
     pub(super) const fn is_over_time(&self) -> bool {
         self.abscissa == 17 || (self.abscissa == 0 && matches!(self.function_type, 0 | 1))
     }
 
-    pub(super) const fn abscissa_word(&self) -> &'static str {
+    pub(super) const fn abscissa_name(&self) -> &'static str {
         match self.abscissa {
             18 => "frequency",
             17 => "time",
@@ -107,7 +110,7 @@ impl Header {
         }
     }
 
-    /// Unit of the ordinate; if the file names none but what it measures, that of SI, as the format has it.
+    /// Unit of the ordinate; if the file names only the quantity, its SI unit, as the format specifies.
     ///
     /// # Returns
     /// The unit, and whether it is assumed.
@@ -125,7 +128,7 @@ impl Header {
         (Some(unit.to_owned()), true)
     }
 
-    /// Values a point has: abscissa if it is uneven, and one or two for the ordinate.
+    /// Values per point: the abscissa if it is uneven, and one or two for the ordinate.
     pub(super) const fn values_per_point(&self) -> usize {
         (if self.complex { 2 } else { 1 }) + (if self.even { 0 } else { 1 })
     }
@@ -135,13 +138,13 @@ impl Header {
     }
 
     /// Bytes of an abscissa in the binary form.
-    pub(super) const fn abscissa_size(&self, binary: &Binary) -> usize {
+    pub(super) const fn abscissa_size(&self, binary: &BinaryLayout) -> usize {
         let short = self.points * (4 + (self.values_per_point() - 1) * self.size());
         if !self.even && binary.declared == short { 4 } else { self.size() }
     }
 
     /// Bytes of all values in the binary form.
-    pub(super) const fn bytes(&self, binary: &Binary) -> usize {
+    pub(super) const fn bytes(&self, binary: &BinaryLayout) -> usize {
         let ordinates = if self.complex { 2 } else { 1 } * self.size();
         let abscissa = if self.even { 0 } else { self.abscissa_size(binary) };
         self.points * (ordinates + abscissa)

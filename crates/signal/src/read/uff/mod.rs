@@ -1,16 +1,16 @@
 //! Universal files: functions at nodal degrees of freedom, dataset 58 (text) and 58b (binary).
 //!
-//! A file is a row of datasets, each between two lines with `-1`. Functions over time become channels; other
-//! functions (over frequency, say) and other datasets are left out, the former told. Values are text in
-//! columns of 13 or 20 characters, or binary of 4 or 8 bytes:
+//! A file is a sequence of datasets, each between two lines with `-1`. Functions of time become channels.
+//! Other functions (of frequency, say) are left out with a finding, other datasets without. Values are text
+//! in columns of 13 or 20 characters, or binary numbers of 4 or 8 bytes:
 //!
 //! | ordinate | even abscissa | uneven abscissa |
 //! |---|---|---|
 //! | real | `y` | `x, y` |
 //! | complex | `re, im` | `x, re, im` |
 //!
-//! In binary data of 8 bytes the abscissa has 8 bytes too, as the programs write it; whether it has 4 instead
-//! (as the text form suggests) is told by the number of bytes.
+//! In binary data of 8 bytes the abscissa has 8 bytes too, as programs write it. The declared number of bytes
+//! shows whether it has 4 instead, as the text form suggests.
 //!
 //! # Source
 //! Structural Dynamics Research Laboratory, University of Cincinnati, "Universal file format, dataset 58",
@@ -18,18 +18,21 @@
 
 mod data;
 mod header;
+mod lines;
 
-use super::{ReadError, csv::unique};
-use crate::{finding::Finding, raw::RawRecord};
-use header::{Binary, Header};
+use crate::{
+    error::ReadError,
+    finding::RecordFinding,
+    raw::{RawRecord, number_repeated_names},
+};
+use header::{BinaryLayout, FunctionHeader, HEADER_LINES};
+use lines::DatasetLines;
 
-/// Lines between the type of a dataset and its values.
-const HEADER_LINES: usize = 11;
-
-/// Whether a file begins with a line of nothing but -1, and a line with the number of a dataset below. The -1
-/// has blanks before it, as in its columns 5 and 6; at the very edge, where it may be a number of a table,
-/// the dataset has to be 58.
-pub(super) fn begins(bytes: &[u8]) -> bool {
+/// Whether a file starts with a line that holds only -1, followed by a line with the number of a dataset.
+///
+/// Blanks precede the -1, which is in columns 5 and 6. In column 1 it may be a number of a table; then the
+/// dataset has to be 58.
+pub(super) fn is_universal(bytes: &[u8]) -> bool {
     let mut lines =
         bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end()).filter(|line| !line.is_empty());
     let (first, second) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default().trim_ascii());
@@ -39,7 +42,7 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
-    let mut file = Lines { rest: bytes };
+    let mut file = DatasetLines::new(bytes);
     let mut raw = RawRecord::default();
     let mut functions = 0;
     while let Some(line) = file.next() {
@@ -59,55 +62,29 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         let what = format!("{functions} functions, none over time, are in it (dataset 58)");
         return Err(ReadError::Malformed { what });
     }
-    raw.groups.iter_mut().for_each(|group| unique(&mut group.channels));
+    raw.groups.iter_mut().for_each(|group| number_repeated_names(&mut group.channels));
     Ok(raw)
 }
 
-/// Lines, of any ending, with bytes in between.
-struct Lines<'a> {
-    rest: &'a [u8],
-}
-
-impl<'a> Lines<'a> {
-    fn next(&mut self) -> Option<String> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let end = self.rest.iter().position(|byte| *byte == b'\n').unwrap_or(self.rest.len());
-        let line = String::from_utf8_lossy(&self.rest[..end]).trim_end_matches('\r').to_owned();
-        self.rest = self.rest.get(end + 1..).unwrap_or_default();
-        Some(line)
-    }
-
-    /// Goes behind the line that ends a dataset.
-    ///
-    /// # Returns
-    /// Whether there is one.
-    fn skip_dataset(&mut self) -> bool {
-        std::iter::from_fn(|| self.next()).any(|line| line.trim() == "-1")
-    }
-
-    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
-        let (bytes, rest) = self.rest.split_at_checked(count)?;
-        self.rest = rest;
-        Some(bytes)
-    }
-}
-
-fn function(file: &mut Lines, kind: &str, number: usize, raw: &mut RawRecord) -> Result<(), ReadError> {
-    let binary = Binary::of(kind, number)?;
+fn function(
+    file: &mut DatasetLines,
+    kind: &str,
+    number: usize,
+    raw: &mut RawRecord,
+) -> Result<(), ReadError> {
+    let binary = BinaryLayout::of(kind, number)?;
     let lines: Vec<String> = (0..HEADER_LINES).map_while(|_| file.next()).collect();
     if lines.len() < HEADER_LINES {
         return Err(ReadError::Truncated { what: format!("the header of function {number}") });
     }
-    let header = Header::of(&lines, number)?;
+    let header = FunctionHeader::of(&lines, number)?;
     let values = match &binary {
         Some(binary) => {
             let length = header.bytes(binary);
             let truncated = || ReadError::Truncated {
-                what: format!("function {number} should have {length} bytes, {} are left", file.rest.len()),
+                what: format!("function {number} should have {length} bytes, {} are left", file.rest().len()),
             };
-            let bytes = file.rest.get(..length).ok_or_else(truncated)?;
+            let bytes = file.rest().get(..length).ok_or_else(truncated)?;
             let values = data::of_bytes(bytes, &header, binary);
             file.take(length);
             values
@@ -118,8 +95,8 @@ fn function(file: &mut Lines, kind: &str, number: usize, raw: &mut RawRecord) ->
         return Err(ReadError::Truncated { what: format!("function {number} has no end") });
     }
     if !header.is_over_time() {
-        let reason = format!("its abscissa is {}, not time", header.abscissa_word());
-        raw.findings.push(Finding::LeftOut { name: header.name, reason });
+        let reason = format!("its abscissa is {}, not time", header.abscissa_name());
+        raw.findings.push(RecordFinding::LeftOut { name: header.name, reason });
         return Ok(());
     }
     data::add(values, header, raw);

@@ -4,7 +4,7 @@ mod errors;
 mod problem;
 mod search;
 
-use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 
 use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, period_of};
 use errors::covariance;
@@ -209,7 +209,7 @@ pub(super) struct Used {
 }
 
 impl Used {
-    pub fn of(point: &MeasuredPoint, quantity: Quantity) -> Option<Self> {
+    pub fn of(point: &MeasuredPoint, quantity: MeasuredQuantity) -> Option<Self> {
         let period = period_of(point.kind)?;
         let logarithm = point.maxima.of(quantity)?.ln();
         Some(Self { frequency_hz: point.frequency_hz, logarithm, period })
@@ -222,7 +222,7 @@ const PULL: f64 = 2.0;
 pub(super) fn fit(
     used: &[Used],
     curves: &Curves,
-    quantity: Quantity,
+    quantity: MeasuredQuantity,
     settings: &FitSettings,
 ) -> Result<Fit, ComparisonError> {
     let tried = [settings.frequency, settings.amplitude.logarithm()].map(ends);

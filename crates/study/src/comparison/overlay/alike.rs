@@ -91,8 +91,8 @@ mod tests {
     use std::f64::consts::TAU;
 
     use hammerbeam_signal::{
-        random::Random,
-        waveform::{Shifts, align, within_lines},
+        random::RandomSource,
+        waveform::{Shifts, align, band_limited},
     };
 
     use super::*;
@@ -138,12 +138,12 @@ mod tests {
 
     /// The mean of pieces of the orbit in the middle, delayed by a tenth and half as large, with white noise
     /// of so many times its size.
-    fn record(noise: f64, random: &mut Random) -> Waveform {
+    fn record(noise: f64, random: &mut RandomSource) -> Waveform {
         let orbit = orbit(0.5);
         let size = (orbit.iter().map(|b| b * b).sum::<f64>() / LENGTH as f64).sqrt();
         let white: Vec<f64> = (0..LENGTH).map(|_| random.normal()).collect();
         // Of white noise the lines keep their part of the degrees of freedom.
-        let kept = within_lines(&white, LENGTH, LINES).unwrap();
+        let kept = band_limited(&white, LENGTH, LINES).unwrap();
         let part = (2.0 * LINES as f64 / LENGTH as f64).sqrt();
         let sample =
             |k: usize| 0.5 * (orbit[(k + LENGTH - LENGTH / 10) % LENGTH] + noise * size * kept[k] / part);
@@ -155,7 +155,7 @@ mod tests {
     /// Of 400 records 380 ± 4.4 should have the orbit that they are of among those that are told: within
     /// three of these standard deviations.
     fn assert_covered(noise: f64, given: Option<f64>, correlations: std::ops::Range<f64>) {
-        let mut random = Random::new(11);
+        let mut random = RandomSource::new(11);
         let (mut covered, mut correlation) = (0, 0.0);
         for _ in 0..400 {
             let measured = record(noise, &mut random);

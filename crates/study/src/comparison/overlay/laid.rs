@@ -1,9 +1,9 @@
 //! One orbit laid under the measurement.
 
 use hammerbeam_signal::{
-    Quantity, SignalError,
+    MeasuredQuantity, SignalError,
     filter::{periodic_low_pass, periodic_zero_phase},
-    waveform::{Alignment, Shifts, Waveform, align, delayed, within_lines},
+    waveform::{Alignment, Shifts, Waveform, align, band_limited, delayed},
 };
 
 use super::{Overlay, OverlayError, OverlaySettings, Tried, candidates::Candidate};
@@ -27,7 +27,7 @@ pub(super) fn laid(
     };
     let unfiltered = sensed(&course, settings.quantity)?;
     let filtered = behind(unfiltered, course.duration_s, settings)?;
-    let shown = within_lines(&filtered, measured.samples.len(), measured.lines)?;
+    let shown = band_limited(&filtered, measured.samples.len(), measured.lines)?;
     let lay = lay(&measured.samples, &shown, settings.shifts, settings.factor)?;
     // What is delayed by whole samples of the orbit has no overshoot at a contact.
     let turned = |series: &[f64]| -> Vec<f64> {
@@ -57,11 +57,11 @@ pub(super) fn laid(
 }
 
 /// The quantity of a course.
-fn sensed(course: &Course, quantity: Quantity) -> Result<&[f64], OverlayError> {
+fn sensed(course: &Course, quantity: MeasuredQuantity) -> Result<&[f64], OverlayError> {
     match quantity {
-        Quantity::Displacement => Ok(&course.displacement),
-        Quantity::Velocity => Ok(&course.velocity),
-        Quantity::Acceleration => Ok(&course.acceleration),
+        MeasuredQuantity::Displacement => Ok(&course.displacement),
+        MeasuredQuantity::Velocity => Ok(&course.velocity),
+        MeasuredQuantity::Acceleration => Ok(&course.acceleration),
         other => Err(OverlayError::NoSuchSensor { quantity: other.word() }),
     }
 }
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn motion_that_is_filtered_to_nothing_is_refused() {
         let settings = |cut_off_hz: f64| OverlaySettings {
-            quantity: Quantity::Displacement,
+            quantity: MeasuredQuantity::Displacement,
             filter: Some((Filter { order: 4, cut_off_hz }, false)),
             sought: Sought::At(10.0),
             branch: None,

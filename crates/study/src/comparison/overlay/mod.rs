@@ -24,7 +24,7 @@ use std::sync::atomic::AtomicBool;
 
 use hammerbeam_attractor::in_order;
 use hammerbeam_signal::{
-    Quantity, SignalError,
+    MeasuredQuantity, SignalError,
     waveform::{Alignment, Shifts, Waveform},
 };
 
@@ -54,7 +54,7 @@ pub enum Sought {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverlaySettings {
     /// What the sensor measures: displacement, velocity or acceleration of the response point of the model.
-    pub quantity: Quantity,
+    pub quantity: MeasuredQuantity,
     /// The filter of the measurement, and whether it acts forwards and backwards.
     pub filter: Option<(Filter, bool)>,
     /// Which orbits are tried.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::{finding::Repairs, text::time_difference};
 
 fn sine(length: usize) -> Vec<f64> {
     (0..length).map(|k| (0.37 * k as f64).sin()).collect()
@@ -6,40 +7,40 @@ fn sine(length: usize) -> Vec<f64> {
 
 fn raw(times: Vec<f64>, samples: Vec<f64>) -> RawRecord {
     let channel = RawChannel { name: "a".to_owned(), unit: Some("g".to_owned()), samples };
-    RawRecord::single(Axis::Times(times), vec![channel], Vec::new())
+    RawRecord::single(TimeAxis::Times(times), vec![channel], Vec::new())
 }
 
 fn even_times(length: usize) -> Vec<f64> {
     (0..length).map(|k| 0.5 + k as f64 / 1000.0).collect()
 }
 
-fn allowing(repairs: Repairs) -> Terms {
-    Terms { repairs, ..Terms::default() }
+fn allowing(repairs: Repairs) -> RecordOptions {
+    RecordOptions { repairs, ..RecordOptions::default() }
 }
 
 #[test]
 fn even_record_is_taken_in_si_without_findings() {
-    let record = raw(even_times(100), sine(100)).judge(&Terms::default()).unwrap();
+    let record = raw(even_times(100), sine(100)).validate(&RecordOptions::default()).unwrap();
     assert!((record.sampling_rate_hz - 1000.0).abs() < 1e-9, "{}", record.sampling_rate_hz);
     assert_eq!(record.start_s, 0.5);
-    assert_eq!(record.channels[0].quantity, Quantity::Acceleration);
+    assert_eq!(record.channels[0].quantity, MeasuredQuantity::Acceleration);
     assert_eq!(record.channels[0].samples[1], 9.80665 * 0.37_f64.sin());
     assert_eq!(record.findings, []);
 }
 
 #[test]
-fn rounded_times_are_even_and_coarser_ones_are_told() {
+fn rounded_times_are_even_and_coarser_ones_are_reported() {
     let rounded = |digits: f64| even_times(100).iter().map(|t| (t * digits).round() / digits).collect();
     // 1024 Hz would stray by half a unit of the last digit: 0.5e-6 s is 0.05 % of a step, 0.5e-4 s is 5 %.
     let times = |digits: f64| -> Vec<f64> {
         (0..100).map(|k| (f64::from(k) / 1024.0 * digits).round() / digits).collect()
     };
-    let findings = |times| raw(times, sine(100)).judge(&Terms::default()).unwrap().findings;
+    let findings = |times| raw(times, sine(100)).validate(&RecordOptions::default()).unwrap().findings;
     assert_eq!(findings(rounded(1e3)), []);
     assert_eq!(findings(times(1e6)), []);
-    assert!(
-        matches!(findings(times(1e4))[..], [Finding::Jitter { percent }] if (1.0..10.0).contains(&percent))
-    );
+    let found = findings(times(1e4));
+    let [RecordFinding::Jitter { percent }] = found[..] else { panic!("{found:?}") };
+    assert!((1.0..10.0).contains(&percent));
 }
 
 #[test]
@@ -48,11 +49,11 @@ fn uneven_sampling_is_refused_or_evened() {
         even_times(400).iter().enumerate().map(|(k, t)| t + 3e-4 * (k as f64).sin()).collect();
     let signal = |t: f64| (2.0 * std::f64::consts::PI * 12.0 * t).sin();
     let samples: Vec<f64> = times.iter().map(|t| signal(*t)).collect();
-    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::Uneven { .. }), "{refused}");
-    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
-    let record = raw(times, samples).judge(&terms).unwrap();
-    assert!(matches!(record.findings[..], [Finding::Evened { .. }]));
+    let options = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let record = raw(times, samples).validate(&options).unwrap();
+    assert!(matches!(record.findings[..], [RecordFinding::Evened { .. }]));
     for (k, value) in record.channels[0].samples.iter().enumerate() {
         let time = record.start_s + k as f64 / record.sampling_rate_hz;
         // Cubic interpolation over four samples: (2 pi 12 / 1000)^4 * 3/128 is 8e-7; steps here differ by
@@ -66,13 +67,13 @@ fn time_that_runs_back_is_refused_or_sorted() {
     let (mut times, mut samples) = (even_times(50), sine(50));
     times.swap(20, 21);
     samples.swap(20, 21);
-    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::TimeDecreases { count: 1, first: 21, .. }), "{refused}");
-    let terms = allowing(Repairs { order: true, ..Repairs::default() });
-    let record = raw(times, samples).judge(&terms).unwrap();
-    let plain = raw(even_times(50), sine(50)).judge(&Terms::default()).unwrap();
+    let options = allowing(Repairs { order: true, ..Repairs::default() });
+    let record = raw(times, samples).validate(&options).unwrap();
+    let plain = raw(even_times(50), sine(50)).validate(&RecordOptions::default()).unwrap();
     assert_eq!(record.channels, plain.channels);
-    assert_eq!(record.findings, [Finding::Sorted { count: 1 }]);
+    assert_eq!(record.findings, [RecordFinding::Sorted { count: 1 }]);
 }
 
 #[test]
@@ -80,12 +81,12 @@ fn repeated_times_are_refused_or_dropped() {
     let (mut times, mut samples) = (even_times(50), sine(50));
     times.insert(10, times[10]);
     samples.insert(11, 99.0);
-    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::DuplicateTimes { count: 1, first: 11, .. }), "{refused}");
-    let terms = allowing(Repairs { duplicates: true, ..Repairs::default() });
-    let record = raw(times, samples).judge(&terms).unwrap();
+    let options = allowing(Repairs { duplicates: true, ..Repairs::default() });
+    let record = raw(times, samples).validate(&options).unwrap();
     assert_eq!(record.len(), 50);
-    assert_eq!(record.findings, [Finding::DuplicatesDropped { count: 1 }]);
+    assert_eq!(record.findings, [RecordFinding::DuplicatesDropped { count: 1 }]);
 }
 
 #[test]
@@ -94,45 +95,45 @@ fn gaps_are_refused_or_filled() {
         (even_times(50), (0..50).map(|k| 3.0 * f64::from(k)).collect());
     times.drain(20..24);
     samples.drain(20..24);
-    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::Gaps { count: 1, .. }), "{refused}");
     let step_s = times[1] - times[0];
-    let told = format!("the longest {} s at a step of {} s", difference(5.0 * step_s), difference(step_s));
-    assert!(refused.to_string().contains(&told), "{refused}");
-    assert_eq!([0.7 - 0.679, 0.3 - 0.299, 1e-7 / 3.0].map(difference), [0.021, 0.001, 3.33333e-8]);
-    let terms = allowing(Repairs { gaps: true, ..Repairs::default() });
-    let record = raw(times, samples).judge(&terms).unwrap();
+    let expected =
+        format!("the longest {} s at a step of {} s", time_difference(5.0 * step_s), time_difference(step_s));
+    assert!(refused.to_string().contains(&expected), "{refused}");
+    let options = allowing(Repairs { gaps: true, ..Repairs::default() });
+    let record = raw(times, samples).validate(&options).unwrap();
     assert_eq!(record.len(), 50);
     assert!((record.channels[0].samples[22] / 9.80665 - 66.0).abs() < 1e-9);
-    assert!(matches!(record.findings[..], [Finding::GapsFilled { count: 1, .. }]));
+    assert!(matches!(record.findings[..], [RecordFinding::GapsFilled { count: 1, .. }]));
 }
 
 /// Random times, off by a fifth of a step: steps of more than 1.5 among them are no gaps.
 #[test]
 fn jitter_is_uneven_sampling_and_not_gaps() {
-    let mut random = crate::random::Random::new(5);
+    let mut random = crate::random::RandomSource::new(5);
     let mut times: Vec<f64> = (0..500).map(|k| (f64::from(k) + 0.2 * random.normal()) / 1000.0).collect();
     times.sort_by(f64::total_cmp);
     let long = times.windows(2).filter(|pair| pair[1] - pair[0] > 1.5e-3).count();
     assert!((5..50).contains(&long), "{long}");
     let samples: Vec<f64> = times.iter().map(|t| (60.0 * t).sin()).collect();
-    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::Uneven { .. }), "{refused}");
-    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
-    let record = raw(times, samples).judge(&terms).unwrap();
+    let options = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let record = raw(times, samples).validate(&options).unwrap();
     assert_eq!(record.len(), 500);
-    assert!(matches!(record.findings[..], [Finding::Evened { .. }]), "{:?}", record.findings);
+    assert!(matches!(record.findings[..], [RecordFinding::Evened { .. }]), "{:?}", record.findings);
 }
 
 #[test]
-fn a_hole_in_a_record_that_jitters_is_a_gap() {
-    let mut random = crate::random::Random::new(5);
+fn a_hole_in_a_record_with_jitter_is_a_gap() {
+    let mut random = crate::random::RandomSource::new(5);
     let kept = (0..700).filter(|k| !(300..500).contains(k));
     let mut times: Vec<f64> = kept.map(|k| (f64::from(k) + 0.2 * random.normal()) / 1000.0).collect();
     times.sort_by(f64::total_cmp);
     let samples: Vec<f64> = times.iter().map(|t| (60.0 * t).sin()).collect();
-    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
-    let refused = raw(times, samples).judge(&terms).unwrap_err();
+    let options = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let refused = raw(times, samples).validate(&options).unwrap_err();
     assert!(matches!(refused, RecordError::Gaps { longest_s, .. } if longest_s > 0.19), "{refused}");
 }
 
@@ -142,43 +143,46 @@ fn missing_samples_are_refused_or_interpolated() {
     samples[0] = f64::NAN;
     samples[7] = f64::NAN;
     samples[8] = f64::INFINITY;
-    let refused = raw(even_times(50), samples.clone()).judge(&Terms::default()).unwrap_err();
+    let refused = raw(even_times(50), samples.clone()).validate(&RecordOptions::default()).unwrap_err();
     assert_eq!(refused, RecordError::Missing { channel: "a".to_owned(), count: 3, of: 50, first: 0 });
-    let terms = allowing(Repairs { missing: true, ..Repairs::default() });
-    let record = raw(even_times(50), samples).judge(&terms).unwrap();
+    let options = allowing(Repairs { missing: true, ..Repairs::default() });
+    let record = raw(even_times(50), samples).validate(&options).unwrap();
     let value = |k: usize| record.channels[0].samples[k] / 9.80665;
     assert!(
         (value(0) - 1.0).abs() < 1e-12 && (value(7) - 7.0).abs() < 1e-12 && (value(8) - 8.0).abs() < 1e-12
     );
-    assert!(matches!(record.findings[..], [Finding::MissingInterpolated { count: 3, .. }, ..]));
+    assert!(matches!(record.findings[..], [RecordFinding::MissingInterpolated { count: 3, .. }, ..]));
 }
 
 #[test]
 fn missing_times_are_refused_unless_the_rate_is_given() {
     let mut times = even_times(50);
     times[4] = f64::NAN;
-    let refused = raw(times.clone(), sine(50)).judge(&Terms::default()).unwrap_err();
+    let refused = raw(times.clone(), sine(50)).validate(&RecordOptions::default()).unwrap_err();
     assert_eq!(refused, RecordError::TimeMissing { count: 1, first: 4 });
-    let terms = Terms { sampling_rate_hz: Some(1000.0), ..Terms::default() };
-    assert_eq!(raw(times, sine(50)).judge(&terms).unwrap().findings, []);
+    let options = RecordOptions { sampling_rate_hz: Some(1000.0), ..RecordOptions::default() };
+    assert_eq!(raw(times, sine(50)).validate(&options).unwrap().findings, []);
 }
 
 #[test]
-fn rate_that_disagrees_with_the_times_is_told() {
-    let terms = Terms { sampling_rate_hz: Some(2000.0), ..Terms::default() };
-    let record = raw(even_times(50), sine(50)).judge(&terms).unwrap();
-    assert!(matches!(record.findings[..], [Finding::RateDisagrees { given_hz: 2000.0, .. }]));
+fn rate_that_disagrees_with_the_times_is_reported() {
+    let options = RecordOptions { sampling_rate_hz: Some(2000.0), ..RecordOptions::default() };
+    let record = raw(even_times(50), sine(50)).validate(&options).unwrap();
+    assert!(matches!(record.findings[..], [RecordFinding::RateDisagrees { given_hz: 2000.0, .. }]));
 }
 
 #[test]
-fn clipped_channel_is_told_and_a_quantised_sine_is_not() {
+fn clipped_channel_is_reported_and_a_quantised_sine_is_not() {
     let clipped: Vec<f64> = sine(200).iter().map(|value| value.clamp(-0.8, 2.0)).collect();
-    let findings = raw(even_times(200), clipped).judge(&Terms::default()).unwrap().findings;
-    assert!(matches!(&findings[..], [Finding::Clipped { level, .. }] if *level == -0.8), "{findings:?}");
+    let findings = raw(even_times(200), clipped).validate(&RecordOptions::default()).unwrap().findings;
+    assert!(
+        matches!(&findings[..], [RecordFinding::Clipped { level, .. }] if *level == -0.8),
+        "{findings:?}"
+    );
     // A slow sine in steps of 1/50 stays on its largest value for many samples.
     let quantised: Vec<f64> =
         (0..2000).map(|k| (50.0 * (0.01 * f64::from(k)).sin()).round() / 50.0).collect();
-    assert_eq!(raw(even_times(2000), quantised).judge(&Terms::default()).unwrap().findings, []);
+    assert_eq!(raw(even_times(2000), quantised).validate(&RecordOptions::default()).unwrap().findings, []);
 }
 
 /// 20 Hz at 1 kHz: no two successive samples differ by little, whole periods repeat.
@@ -188,11 +192,11 @@ fn clean_sine_is_clipped_wherever_the_range_ends() {
         let clipped: Vec<f64> = (0..2000)
             .map(|k| (3.0 * (0.04 * std::f64::consts::PI * f64::from(k)).sin()).clamp(-level, level))
             .collect();
-        let findings = raw(even_times(2000), clipped).judge(&Terms::default()).unwrap().findings;
+        let findings = raw(even_times(2000), clipped).validate(&RecordOptions::default()).unwrap().findings;
         let levels: Vec<f64> = findings
             .iter()
             .filter_map(|finding| match finding {
-                Finding::Clipped { level, places: 40, .. } => Some(*level),
+                RecordFinding::Clipped { level, places: 40, .. } => Some(*level),
                 _ => None,
             })
             .collect();
@@ -200,7 +204,7 @@ fn clean_sine_is_clipped_wherever_the_range_ends() {
     }
     // Not clipped, whole periods, with a sample on each maximum.
     let whole: Vec<f64> = (0..2000).map(|k| (0.04 * std::f64::consts::PI * f64::from(k)).cos()).collect();
-    assert_eq!(raw(even_times(2000), whole).judge(&Terms::default()).unwrap().findings, []);
+    assert_eq!(raw(even_times(2000), whole).validate(&RecordOptions::default()).unwrap().findings, []);
 }
 
 /// Written with significant digits, or in single precision, a record is much finer near zero than at its
@@ -213,68 +217,78 @@ fn smooth_tops_of_numbers_with_few_digits_are_not_clipped() {
         let text = |value: f64| format!("{value:.digits$e}").parse::<f64>().unwrap();
         let written: Vec<f64> = (0..50_000).map(|k| text(sine(k, 10.3, rate))).collect();
         let times = (0..50_000).map(|k| f64::from(k) / rate).collect();
-        assert_eq!(raw(times, written).judge(&Terms::default()).unwrap().findings, [], "{digits} digits");
+        assert_eq!(
+            raw(times, written).validate(&RecordOptions::default()).unwrap().findings,
+            [],
+            "{digits} digits"
+        );
     }
     let single: Vec<f64> = (0..100_000).map(|k| f64::from(sine(k, 1.3, 51.2e3) as f32)).collect();
     let times = (0..100_000).map(|k| f64::from(k) / 51.2e3).collect();
-    assert_eq!(raw(times, single).judge(&Terms::default()).unwrap().findings, []);
+    assert_eq!(raw(times, single).validate(&RecordOptions::default()).unwrap().findings, []);
 }
 
 #[test]
 fn contact_force_is_not_clipped_at_zero() {
     let force: Vec<f64> = sine(200).iter().map(|value| value.max(0.0)).collect();
-    assert_eq!(raw(even_times(200), force).judge(&Terms::default()).unwrap().findings, []);
+    assert_eq!(raw(even_times(200), force).validate(&RecordOptions::default()).unwrap().findings, []);
 }
 
 #[test]
-fn constant_channel_is_told() {
-    let findings = raw(even_times(20), vec![1.5; 20]).judge(&Terms::default()).unwrap().findings;
-    assert_eq!(findings, [Finding::Constant { channel: "a".to_owned() }]);
+fn constant_channel_is_reported() {
+    let findings = raw(even_times(20), vec![1.5; 20]).validate(&RecordOptions::default()).unwrap().findings;
+    assert_eq!(findings, [RecordFinding::Constant { channel: "a".to_owned() }]);
 }
 
 #[test]
 fn unequal_lengths_are_refused_or_cut() {
     let mut record = raw(even_times(50), sine(50));
     record.groups[0].channels.push(RawChannel { name: "b".to_owned(), unit: None, samples: sine(40) });
-    let refused = record.clone().judge(&Terms::default()).unwrap_err();
+    let refused = record.clone().validate(&RecordOptions::default()).unwrap_err();
     assert_eq!(refused, RecordError::UnequalLengths { lengths: "time 50, a 50, b 40".to_owned() });
-    let terms = allowing(Repairs { lengths: true, ..Repairs::default() });
-    let cut = record.clone().judge(&terms).unwrap();
-    assert_eq!((cut.len(), &cut.findings[..]), (40, &[Finding::Shortened { length: 40, longest: 50 }][..]));
-    // A channel that is not asked for is not judged.
-    let one = Terms { channels: vec!["a".to_owned()], ..Terms::default() };
-    assert_eq!(record.judge(&one).unwrap().len(), 50);
+    let options = allowing(Repairs { lengths: true, ..Repairs::default() });
+    let cut = record.clone().validate(&options).unwrap();
+    assert_eq!(
+        (cut.len(), &cut.findings[..]),
+        (40, &[RecordFinding::Shortened { length: 40, longest: 50 }][..])
+    );
+    // A channel that is not asked for is not validated.
+    let one = RecordOptions { channels: vec!["a".to_owned()], ..RecordOptions::default() };
+    assert_eq!(record.validate(&one).unwrap().len(), 50);
 }
 
 #[test]
 fn channels_of_different_rates_are_refused_unless_one_is_chosen() {
     let mut record = raw(even_times(50), sine(50));
     let slow = RawChannel { name: "slow".to_owned(), unit: None, samples: sine(25) };
-    record.add(Axis::Even { step_s: 0.002, start_s: 0.0 }, slow);
-    let refused = record.clone().judge(&Terms::default()).unwrap_err();
+    record.add(TimeAxis::Even { step_s: 0.002, start_s: 0.0 }, slow);
+    let refused = record.clone().validate(&RecordOptions::default()).unwrap_err();
     assert!(matches!(refused, RecordError::DifferentSampling { .. }), "{refused}");
-    let one = Terms { channels: vec!["slow".to_owned()], ..Terms::default() };
-    assert_eq!(record.judge(&one).unwrap().sampling_rate_hz, 500.0);
+    let one = RecordOptions { channels: vec!["slow".to_owned()], ..RecordOptions::default() };
+    assert_eq!(record.validate(&one).unwrap().sampling_rate_hz, 500.0);
 }
 
 #[test]
-fn channel_that_is_not_there_is_refused_and_numbers_count_from_one() {
-    let refused =
-        raw(even_times(50), sine(50)).judge(&Terms { channels: vec!["b".to_owned()], ..Terms::default() });
+fn unknown_channel_is_refused_and_numbers_count_from_one() {
+    let refused = raw(even_times(50), sine(50))
+        .validate(&RecordOptions { channels: vec!["b".to_owned()], ..RecordOptions::default() });
     assert_eq!(refused, Err(RecordError::NoSuchChannel { name: "b".to_owned(), names: "a".to_owned() }));
-    let first = Terms { channels: vec!["1".to_owned()], ..Terms::default() };
-    assert_eq!(raw(even_times(50), sine(50)).judge(&first).unwrap().channels[0].name, "a");
+    let first = RecordOptions { channels: vec!["1".to_owned()], ..RecordOptions::default() };
+    assert_eq!(raw(even_times(50), sine(50)).validate(&first).unwrap().channels[0].name, "a");
 }
 
 #[test]
 fn record_without_rate_or_samples_is_refused() {
     let channel = RawChannel { name: "a".to_owned(), unit: None, samples: sine(5) };
-    let record = RawRecord::single(Axis::Unknown, vec![channel], Vec::new());
-    assert_eq!(record.clone().judge(&Terms::default()).unwrap_err(), RecordError::NoSamplingRate);
-    assert_eq!(RawRecord::default().judge(&Terms::default()).unwrap_err(), RecordError::Empty);
+    let record = RawRecord::single(TimeAxis::Unknown, vec![channel], Vec::new());
+    assert_eq!(record.clone().validate(&RecordOptions::default()).unwrap_err(), RecordError::NoSamplingRate);
+    assert_eq!(RawRecord::default().validate(&RecordOptions::default()).unwrap_err(), RecordError::Empty);
     let zero = RawRecord {
-        groups: vec![RawGroup { axis: Axis::Even { step_s: 0.0, start_s: 0.0 }, ..record.groups[0].clone() }],
+        groups: vec![RawGroup {
+            axis: TimeAxis::Even { step_s: 0.0, start_s: 0.0 },
+            ..record.groups[0].clone()
+        }],
         ..record
     };
-    assert_eq!(zero.judge(&Terms::default()).unwrap_err(), RecordError::Step { step_s: 0.0 });
+    assert_eq!(zero.validate(&RecordOptions::default()).unwrap_err(), RecordError::Step { step_s: 0.0 });
 }

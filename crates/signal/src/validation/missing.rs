@@ -1,15 +1,16 @@
-//! Samples that are no number: an error, or interpolated linearly (held at the ends) if that is allowed.
+//! Samples that are not numbers: an error, or interpolated linearly (constant at the ends) if permitted.
 
 use crate::{
-    finding::{Finding, Repairs},
-    judge::RecordError,
+    error::RecordError,
+    finding::{RecordFinding, Repairs},
     raw::RawChannel,
 };
 
+/// Interpolates missing samples of a channel, if permitted.
 pub(super) fn fill(
     channel: &mut RawChannel,
     repairs: &Repairs,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<RecordFinding>,
 ) -> Result<(), RecordError> {
     let samples = &mut channel.samples;
     let count = samples.iter().filter(|value| !value.is_finite()).count();
@@ -37,6 +38,6 @@ pub(super) fn fill(
         }
         at = end;
     }
-    findings.push(Finding::MissingInterpolated { channel: channel.name.clone(), count, first });
+    findings.push(RecordFinding::MissingInterpolated { channel: channel.name.clone(), count, first });
     Ok(())
 }

@@ -1,77 +1,79 @@
-//! The criterion.
+//! The criterion for periodic motions.
 
-use super::fold::Folded;
+use super::fold::{FoldedRecord, WaveformScatter};
 use crate::{
     error::{SignalError, ensure, ensure_series},
     spectrum::{WelchSettings, welch},
 };
 
-/// Fewest pieces over which a waveform is averaged.
-const PIECES: usize = 5;
-/// Bands of which the quietest tells the white noise.
+/// Minimum number of pieces over which a waveform is averaged.
+const MIN_PIECES: usize = 5;
+/// Number of bands of which the lowest determines the white noise.
 const BANDS: usize = 16;
-/// Part of half the sampling rate that is looked at: interpolation weakens the rest.
+/// Fraction of half the sampling rate that is evaluated: interpolation attenuates higher frequencies.
 const BAND_END: f64 = 0.8;
-/// Power of a subharmonic's lines over that of the scatter in as many lines.
-const STANDS_OUT: f64 = 4.0;
-/// Change of the mean square from one half of the record to the other beyond which it is not settled: a fifth
+/// Least power of the lines of a subharmonic over the power of the scatter in as many lines.
+const SIGNIFICANT: f64 = 4.0;
+/// Change of the mean square from one half of the record to the other above which it is not settled: a fifth
 /// of the amplitude.
 const UNSETTLED: f64 = 1.44;
 
 /// Limits of the criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClassifySettings {
-    /// Largest multiple of the excitation period that is looked at.
-    pub most: usize,
+    /// Largest multiple of the excitation period that is tried.
+    pub max_period_multiple: usize,
     /// Deviation up to which a motion is periodic.
     pub periodic_below: f64,
-    /// Deviation from which on it is aperiodic.
+    /// Deviation from which a motion is aperiodic.
     pub aperiodic_above: f64,
-    /// Amplitude part from which on a subharmonic counts.
+    /// Amplitude fraction from which a subharmonic counts.
     pub weakest_subharmonic: f64,
 }
 
 impl Default for ClassifySettings {
     fn default() -> Self {
-        Self { most: 8, periodic_below: 0.05, aperiodic_above: 0.2, weakest_subharmonic: 0.02 }
+        Self { max_period_multiple: 8, periodic_below: 0.05, aperiodic_above: 0.2, weakest_subharmonic: 0.02 }
     }
 }
 
-/// Kind of a motion.
+/// Class of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Motion {
-    /// It repeats after so many excitation periods.
+pub enum MotionClass {
+    /// It repeats after a number of excitation periods.
     Periodic {
         /// Orbit period over excitation period.
         period_multiple: usize,
     },
-    /// It does not repeat within the multiples that were looked at.
+    /// It does not repeat after any of the multiples that were tried.
     Aperiodic,
-    /// The record does not tell.
+    /// The record does not decide it.
     Doubtful {
-        /// Why.
-        reason: Doubt,
+        /// The reason.
+        reason: ClassificationDoubt,
     },
 }
 
-/// Why a record does not tell.
+/// Why a record does not decide whether a motion repeats.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
-pub enum Doubt {
+pub enum ClassificationDoubt {
     /// The deviation is too large for periodic and too small for aperiodic.
     #[error(
         "the smallest deviation, {deviation:.3} at period multiple {period_multiple}, is between the limits"
     )]
     BetweenLimits { deviation: f64, period_multiple: usize },
-    /// A subharmonic is there, but weak.
+    /// There is a subharmonic, but a weak one.
     #[error(
-        "a subharmonic of period multiple {period_multiple} holds {part:.4} of the amplitude, too much for none and too little to count"
+        "a subharmonic of period multiple {period_multiple} holds {part:.4} of the amplitude, too much \
+         for none and too little to count"
     )]
     WeakSubharmonic { period_multiple: usize, part: f64 },
-    /// The motion grows or falls.
+    /// The amplitude of the motion changes.
     #[error(
-        "the motion is not settled: its root mean square changes by the factor {factor:.2} from one half of the record to the other"
+        "the motion is not settled: its root mean square changes by the factor {factor:.2} from one half \
+         of the record to the other"
     )]
     NotSettled { factor: f64 },
     /// Noise hides the motion.
@@ -90,22 +92,22 @@ pub struct Repetition {
     pub scatter: f64,
 }
 
-/// What was found.
+/// The class of a motion, and how well the motion repeats.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Classification {
-    /// The verdict.
-    pub motion: Motion,
-    /// For each multiple that was looked at.
+    /// The class.
+    pub motion: MotionClass,
+    /// For each multiple that was tried.
     pub repetitions: Vec<Repetition>,
-    /// Excitation frequency that was used [Hz],
+    /// Excitation frequency, corrected [Hz].
     pub frequency_hz: f64,
-    /// and by how much it was corrected [Hz].
+    /// Correction of the given frequency [Hz].
     pub correction_hz: f64,
     /// Excitation periods in the record.
     pub periods: usize,
     /// Root mean square about the mean.
     pub root_mean_square: f64,
-    /// Part of it that may be white noise.
+    /// Upper limit of the root mean square of white noise in it.
     pub noise: f64,
 }
 
@@ -126,19 +128,24 @@ pub fn classify(
         format!("more than 0 and at most an eighth of the sampling rate, {} Hz", sampling_rate_hz / 8.0);
     let holds = excitation_hz > 0.0 && excitation_hz <= sampling_rate_hz / 8.0;
     ensure("the excitation frequency", excitation_hz, allowed, holds)?;
-    ensure("the largest period multiple", settings.most as f64, "at least 1", settings.most >= 1)?;
+    ensure(
+        "the largest period multiple",
+        settings.max_period_multiple as f64,
+        "at least 1",
+        settings.max_period_multiple >= 1,
+    )?;
     let given = excitation_hz / sampling_rate_hz;
-    let needed = ((PIECES as f64 / given).ceil() as usize).saturating_add(1);
-    ensure_series("telling whether a motion repeats", series, needed)?;
+    let needed = ((MIN_PIECES as f64 / given).ceil() as usize).saturating_add(1);
+    ensure_series("deciding whether a motion repeats", series, needed)?;
     if series.iter().all(|value| *value == series[0]) {
         return Err(SignalError::Constant);
     }
-    let (folded, frequency) = on_frequency(series, given);
-    let most = settings.most.min(folded.periods() / PIECES).max(1);
-    let scatters: Vec<(f64, usize, usize)> = (1..=most).map(|n| folded.scatter(n)).collect();
-    let variance = |n: usize| scatters[n - 1].0 / scatters[n - 1].2 as f64;
+    let (folded, frequency) = fold_at(series, given);
+    let most = settings.max_period_multiple.min(folded.periods() / MIN_PIECES).max(1);
+    let scatters: Vec<WaveformScatter> = (1..=most).map(|n| folded.scatter(n)).collect();
+    let variance = |n: usize| scatters[n - 1].variance();
     let best = (1..=most).min_by(|&a, &b| variance(a).total_cmp(&variance(b))).unwrap_or(1);
-    let noise = white_noise(&folded.rest(best), folded.period)?.min(variance(best));
+    let noise = white_noise(&folded.residual(best), folded.period)?.min(variance(best));
     let repetition = |n: usize| Repetition {
         period_multiple: n,
         deviation: ((variance(n) - noise).max(0.0) / (folded.variance - noise).max(f64::MIN_POSITIVE)).sqrt(),
@@ -146,7 +153,7 @@ pub fn classify(
     };
     let repetitions: Vec<Repetition> = (1..=most).map(repetition).collect();
     let part = (noise / folded.variance).sqrt();
-    let motion = verdict(&folded, &repetitions, &scatters, part, settings);
+    let motion = class(&folded, &repetitions, part, settings);
     Ok(Classification {
         motion,
         repetitions,
@@ -158,84 +165,89 @@ pub fn classify(
     })
 }
 
-/// Folds with the frequency given, and again if the phase says that it is another.
-fn on_frequency(series: &[f64], given: f64) -> (Folded, f64) {
+/// Folds with the given frequency, and again as long as the phase shows an error of it.
+fn fold_at(series: &[f64], given: f64) -> (FoldedRecord, f64) {
     let mut frequency = given;
-    let mut folded = Folded::new(series, frequency);
+    let mut folded = FoldedRecord::new(series, frequency);
     for _ in 0..3 {
         let Some(change) = folded.drift() else { break };
-        // Less than 1e-3 cycles over the record does no harm.
+        // Less than 1e-3 cycles over the record is negligible.
         if (change * folded.periods() as f64).abs() < 1e-3 {
             break;
         }
         frequency *= 1.0 + change;
-        folded = Folded::new(series, frequency);
+        folded = FoldedRecord::new(series, frequency);
     }
     (folded, frequency)
 }
 
-/// Largest variance that white noise can have in a series: the smallest density in any band, over all
+/// Upper limit of the variance of white noise in a series: the smallest density in any band, over all
 /// frequencies.
 ///
 /// An average over `a` segments of `w` neighbouring values has the relative standard error `sqrt(1.5 / (a
-/// w))` (neighbours overlap by the window); three of them are added, since the smallest of many is too small
-/// by chance.
-fn white_noise(rest: &[f64], period: usize) -> Result<f64, SignalError> {
-    let segment = (8 * period).max(256).min(rest.len());
-    let density = welch(rest, 1.0, &WelchSettings::with_segment(segment))?;
+/// w))` (the window correlates neighbours). Three of them are added, since the smallest of many averages is
+/// biased low.
+fn white_noise(series: &[f64], period: usize) -> Result<f64, SignalError> {
+    let segment = (8 * period).max(256).min(series.len());
+    let density = welch(series, 1.0, &WelchSettings::with_segment(segment))?;
     let end = (BAND_END * density.values.len() as f64) as usize;
     let width = (end / BANDS).max(1);
     let mean = |band: &[f64]| band.iter().sum::<f64>() / band.len() as f64;
     let smallest = density.values[..end].chunks_exact(width).map(mean).fold(f64::INFINITY, f64::min);
-    let segments = (2 * rest.len() / segment).saturating_sub(1).max(1);
+    let segments = (2 * series.len() / segment).saturating_sub(1).max(1);
     let error = (1.5 / (segments * width) as f64).sqrt();
     Ok(0.5 * smallest * (1.0 + 3.0 * error))
 }
 
-fn verdict(
-    folded: &Folded,
+/// The class of a motion by the criterion.
+///
+/// * `noise`: upper limit of white noise over the root mean square.
+fn class(
+    folded: &FoldedRecord,
     repetitions: &[Repetition],
-    scatters: &[(f64, usize, usize)],
     noise: f64,
     settings: &ClassifySettings,
-) -> Motion {
-    let doubt = |reason| Motion::Doubtful { reason };
+) -> MotionClass {
+    let doubt = |reason| MotionClass::Doubtful { reason };
     let (first, second) = folded.samples.split_at(folded.periods() / 2 * folded.period);
     let square = |part: &[f64]| part.iter().map(|value| value * value).sum::<f64>() / part.len() as f64;
     let change = square(second) / square(first);
     if !(1.0 / UNSETTLED..=UNSETTLED).contains(&change) {
-        return doubt(Doubt::NotSettled { factor: change.sqrt() });
+        return doubt(ClassificationDoubt::NotSettled { factor: change.sqrt() });
     }
     if noise > 0.5 {
-        return doubt(Doubt::Noise { part: noise });
+        return doubt(ClassificationDoubt::Noise { part: noise });
     }
     let periodic = repetitions.iter().find(|repetition| repetition.deviation <= settings.periodic_below);
     let Some(periodic) = periodic else {
         let smallest = repetitions.iter().min_by(|a, b| a.deviation.total_cmp(&b.deviation));
         return match smallest {
             Some(at) if at.deviation < settings.aperiodic_above => {
-                doubt(Doubt::BetweenLimits { deviation: at.deviation, period_multiple: at.period_multiple })
+                doubt(ClassificationDoubt::BetweenLimits {
+                    deviation: at.deviation,
+                    period_multiple: at.period_multiple,
+                })
             }
-            _ => Motion::Aperiodic,
+            _ => MotionClass::Aperiodic,
         };
     };
     let n = periodic.period_multiple;
     let mut weak = None;
-    for m in (2 * n..=scatters.len()).step_by(n) {
+    for m in (2 * n..=repetitions.len()).step_by(n) {
         let part = subharmonic(folded, n, m);
         if part >= settings.weakest_subharmonic {
-            return Motion::Periodic { period_multiple: m };
+            return MotionClass::Periodic { period_multiple: m };
         }
         if part >= 0.25 * settings.weakest_subharmonic && weak.is_none() {
-            weak = Some(Doubt::WeakSubharmonic { period_multiple: m, part });
+            weak = Some(ClassificationDoubt::WeakSubharmonic { period_multiple: m, part });
         }
     }
-    weak.map_or(Motion::Periodic { period_multiple: n }, doubt)
+    weak.map_or(MotionClass::Periodic { period_multiple: n }, doubt)
 }
 
-/// Amplitude part of what repeats after `m` but not after `n` periods, 0 if it does not stand out of the
-/// scatter.
-fn subharmonic(folded: &Folded, n: usize, m: usize) -> f64 {
+/// Amplitude fraction of the part that repeats after `m` but not after `n` periods; 0 if the scatter explains
+/// it.
+fn subharmonic(folded: &FoldedRecord, n: usize, m: usize) -> f64 {
     let (mean, count) = folded.waveform(m);
     let short = n * folded.period;
     let mut shorter = vec![0.0; short];
@@ -246,10 +258,9 @@ fn subharmonic(folded: &Folded, n: usize, m: usize) -> f64 {
             .for_each(|(sum, value)| *sum += value * short as f64 / mean.len() as f64);
     }
     let between: f64 = mean.iter().enumerate().map(|(k, value)| (value - shorter[k % short]).powi(2)).sum();
-    let (sum, _, freedoms) = folded.scatter(m);
-    // Noise leaves so much in the mean of `count` pieces, in all entries but those of the shorter waveform.
-    let by_chance = sum / freedoms as f64 * (mean.len() - short) as f64 / count as f64;
-    if between < STANDS_OUT * by_chance {
+    // Contribution of noise to the mean of `count` pieces, without the entries of the shorter waveform.
+    let by_chance = folded.scatter(m).variance() * (mean.len() - short) as f64 / count as f64;
+    if between < SIGNIFICANT * by_chance {
         return 0.0;
     }
     ((between - by_chance) / mean.len() as f64 / folded.variance).sqrt()

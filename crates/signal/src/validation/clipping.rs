@@ -1,29 +1,30 @@
-//! Flat tops: does a channel stand at the end of its range because the instrument could not follow?
+//! Clipping: flat tops at the end of the range of an instrument.
 //!
-//! With `q` the resolution at that level, the smallest difference of two values about as large, a smooth
-//! maximum `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a
-//! step of about `c n/2 = 4 q/n`, at most `4/3 q` for three samples. So a run of three or more equal samples
-//! at the largest or smallest value that is entered or left with a step of more than `2 q` is no smooth
-//! maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
+//! Let `q` be the resolution at a level, the smallest difference of two values of about that size. A smooth
+//! maximum `y = -c k²/2` keeps one level for `n` samples while `c n²/8 < q`. It leaves the level with a step
+//! of about `c n/2 = 4 q/n`, at most `4/3 q` for three samples. So a run of three or more equal samples at
+//! the largest or smallest value, entered or left with a step above `2 q`, is not a smooth maximum but
+//! clipped. A level of exactly zero does not count: an open contact has zero force.
 //!
-//! Numbers with so many significant digits are the finer the smaller they are, in steps at the powers of ten,
-//! or of two. So values down to the next such power below the level tell its resolution; where there are none
-//! but the level itself, ten times what the values below that power tell.
+//! Numbers with a fixed count of significant digits have a resolution that changes at powers of ten or two.
+//! So the resolution at a level is taken from the values between it and the next such power below. Where the
+//! level itself is the only one, the resolution is ten times that of the values below that power.
 
-use crate::{finding::Finding, raw::RawChannel};
+use crate::{finding::RecordFinding, raw::RawChannel};
 
-/// Fewest equal samples that count.
+/// Minimum number of equal samples that count.
 const RUN: usize = 3;
-/// Steps into a flat top, in units of the resolution, from which on it is no smooth maximum.
+/// Step into a flat top, in units of the resolution, above which it is not a smooth maximum.
 const STEEP: f64 = 2.0;
 
-pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
+/// Adds findings for constant and clipped channels.
+pub(super) fn detect(channel: &RawChannel, findings: &mut Vec<RecordFinding>) {
     let samples = &channel.samples;
     let (low, high) = samples
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
     if low >= high {
-        findings.push(Finding::Constant { channel: channel.name.clone() });
+        findings.push(RecordFinding::Constant { channel: channel.name.clone() });
         return;
     }
     let tops =
@@ -36,7 +37,7 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
         let limit = STEEP * resolution(samples, level);
         let steep: Vec<&FlatTop> = tops.iter().filter(|top| top.step > limit).collect();
         let Some(first) = steep.first() else { continue };
-        findings.push(Finding::Clipped {
+        findings.push(RecordFinding::Clipped {
             channel: channel.name.clone(),
             samples: steep.iter().map(|top| top.length).sum(),
             places: steep.len(),
@@ -50,11 +51,11 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
 struct FlatTop {
     start: usize,
     length: usize,
-    /// The larger step of those in and out.
+    /// The larger of the steps in and out.
     step: f64,
 }
 
-/// Resolution at a level that is not zero; infinite where nothing tells it.
+/// Resolution at a level that is not zero; infinite where no values determine it.
 fn resolution(samples: &[f64], level: f64) -> f64 {
     let size = level.abs();
     let sizes: Vec<f64> = samples.iter().map(|value| value * level.signum()).collect();
@@ -63,8 +64,8 @@ fn resolution(samples: &[f64], level: f64) -> f64 {
     if here.is_finite() { here } else { 10.0 * smallest_difference(&sizes, (0.5 * power, power)) }
 }
 
-/// Smallest difference of two values within a range, whenever they were taken: successive samples of a fast
-/// signal differ by more.
+/// Smallest difference of any two values within a range, not only of successive ones: those of a fast signal
+/// differ by more.
 fn smallest_difference(values: &[f64], (low, high): (f64, f64)) -> f64 {
     let mut values: Vec<f64> = values.iter().copied().filter(|value| (low..=high).contains(value)).collect();
     values.sort_unstable_by(f64::total_cmp);

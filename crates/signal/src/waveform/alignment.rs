@@ -1,4 +1,4 @@
-//! One waveform laid over another.
+//! The alignment of one waveform with another.
 
 use std::f64::consts::TAU;
 
@@ -9,12 +9,12 @@ use crate::{
     fourier::{backward, forward},
 };
 
-/// Which shifts are allowed.
+/// Allowed shifts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shifts {
-    /// All.
+    /// All shifts.
     Any,
-    /// Whole multiples of a period, and so much beside them.
+    /// Shifts near whole multiples of a period.
     NearWhole {
         /// Samples of a period.
         period: usize,
@@ -24,8 +24,8 @@ pub enum Shifts {
 }
 
 impl Shifts {
-    /// Signed distance from the nearest multiple, within the length of a period.
-    fn beside(period: usize, shift: f64) -> f64 {
+    /// Signed distance from the nearest multiple of a period.
+    fn distance_from_whole(period: usize, shift: f64) -> f64 {
         let period = period as f64;
         shift - (shift / period).round() * period
     }
@@ -33,16 +33,16 @@ impl Shifts {
     fn allows(self, shift: f64) -> bool {
         match self {
             Self::Any => true,
-            Self::NearWhole { period, most } => Self::beside(period, shift).abs() <= most + 1e-9,
+            Self::NearWhole { period, most } => Self::distance_from_whole(period, shift).abs() <= most + 1e-9,
         }
     }
 
-    /// What is allowed within one sample of an allowed one.
-    fn about(self, best: f64) -> (f64, f64) {
+    /// The interval of allowed shifts within one sample of an allowed one.
+    fn around(self, best: f64) -> (f64, f64) {
         match self {
             Self::Any => (best - 1.0, best + 1.0),
             Self::NearWhole { period, most } => {
-                let whole = best - Self::beside(period, best);
+                let whole = best - Self::distance_from_whole(period, best);
                 ((best - 1.0).max(whole - most), (best + 1.0).min(whole + most))
             }
         }
@@ -55,21 +55,22 @@ impl Shifts {
     }
 }
 
-/// How one waveform lies over another.
+/// The alignment of two waveforms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alignment {
-    /// Samples by which the second one is to be delayed, 0 to less than its length.
+    /// Delay of the second one in samples, from 0 to less than its length.
     pub shift: f64,
-    /// Correlation of both about their means, then.
+    /// Correlation of both about their means with this delay.
     pub correlation: f64,
-    /// Factor on the first one that brings it closest to the second; negative where it is the mirror image.
+    /// Least-squares factor on the first one to match the second; negative for a mirror image.
     pub factor: f64,
     /// Root mean squares of both about their means.
     pub sizes: (f64, f64),
 }
 
 impl Alignment {
-    /// Root mean square of the difference, with a factor on the first one, over that of the second.
+    /// Root mean square of the difference, with a factor on the first one, over the root mean square of the
+    /// second.
     #[must_use]
     pub fn residual(&self, factor: f64) -> f64 {
         let (a, b) = self.sizes;
@@ -78,11 +79,11 @@ impl Alignment {
     }
 }
 
-/// Lays the second waveform over the first.
+/// Aligns the second waveform with the first.
 ///
 /// # Errors
 /// [`SignalError::Input`] if the lengths differ, [`SignalError::TooShort`], [`SignalError::NotFinite`],
-/// [`SignalError::Constant`] if one of them does not move.
+/// [`SignalError::Constant`] if one of them is constant.
 pub fn align(first: &[f64], second: &[f64], shifts: Shifts) -> Result<Alignment, SignalError> {
     for series in [first, second] {
         ensure_series("laying one waveform over another", series, 4)?;
@@ -95,7 +96,7 @@ pub fn align(first: &[f64], second: &[f64], shifts: Shifts) -> Result<Alignment,
     let lines = || 1..length.div_ceil(2);
     let square = |of: &[Complex<f64>]| lines().map(|k| 2.0 * of[k].norm_sqr()).sum::<f64>() / length as f64;
     let (aa, bb) = (square(&a), square(&b));
-    // What rounding leaves of a constant is no motion.
+    // The rounding of a constant is not a motion.
     let moves = |square: f64, of: &[Complex<f64>]| square > 1e-28 * of[0].norm_sqr() / length as f64;
     if aa <= 0.0 || bb <= 0.0 || !moves(aa, &a) || !moves(bb, &b) {
         return Err(SignalError::Constant);
@@ -106,9 +107,9 @@ pub fn align(first: &[f64], second: &[f64], shifts: Shifts) -> Result<Alignment,
     let allowed = (0..length).filter(|shift| shifts.allows(*shift as f64));
     let best =
         allowed.max_by(|&i, &j| products[i].total_cmp(&products[j])).expect("a shift of 0 is allowed always");
-    let (shift, product) = refined(&cross, length, best as f64, shifts.about(best as f64));
+    let (shift, product) = refined(&cross, length, best as f64, shifts.around(best as f64));
     Ok(Alignment {
-        // What is less than nothing by rounding alone would be a whole length.
+        // A shift that rounding makes negative would become a whole length.
         shift: shift.rem_euclid(length as f64) % length as f64,
         correlation: product / (aa * bb).sqrt(),
         factor: product / aa,
@@ -116,7 +117,7 @@ pub fn align(first: &[f64], second: &[f64], shifts: Shifts) -> Result<Alignment,
     })
 }
 
-/// A waveform delayed by so many samples, which need not be whole.
+/// A waveform delayed by a number of samples, which need not be whole.
 ///
 /// # Errors
 /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
@@ -130,13 +131,13 @@ pub fn delayed(series: &[f64], shift: f64) -> Result<Vec<f64>, SignalError> {
     Ok(backward(spectrum, length))
 }
 
-/// Most Newton steps, most halvings of one, and the step that is the last one [samples]: behind it 1e-12 is
-/// left.
-const STEPS: usize = 20;
-const HALVINGS: i32 = 20;
-const LAST: f64 = 1e-6;
+/// Largest number of Newton steps, and of halvings of a step.
+const MAX_STEPS: usize = 20;
+const MAX_HALVINGS: i32 = 20;
+/// Step below which Newton's method ends [samples]: the remaining error is about 1e-12.
+const LAST_STEP: f64 = 1e-6;
 
-/// The product, its slope and its second derivative at a shift.
+/// The product and its first and second derivative at a shift.
 fn product(cross: &[Complex<f64>], length: usize, shift: f64) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for (k, line) in cross.iter().enumerate() {
@@ -149,23 +150,23 @@ fn product(cross: &[Complex<f64>], length: usize, shift: f64) -> [f64; 3] {
     sums
 }
 
-/// Newton's method from the best sample, between two ends; steps are halved until the product grows.
+/// Newton's method from the best sample, within an interval; steps are halved until the product grows.
 ///
 /// # Returns
 /// The shift and the product there.
 fn refined(cross: &[Complex<f64>], length: usize, best: f64, (low, high): (f64, f64)) -> (f64, f64) {
     let at = |shift: f64| product(cross, length, shift);
     let (mut shift, mut here) = (best, at(best));
-    for _ in 0..STEPS {
-        let [value, slope, bend] = here;
-        // Where the product bends upwards there is no summit to aim at: half a sample uphill.
-        let aim = if bend < 0.0 { shift - slope / bend } else { shift + 0.5 * slope.signum() };
-        let step = aim.clamp(low, high) - shift;
-        if step.abs() <= LAST {
+    for _ in 0..MAX_STEPS {
+        let [value, slope, curvature] = here;
+        // With a positive second derivative Newton's method has no maximum: go uphill by half a sample.
+        let target = if curvature < 0.0 { shift - slope / curvature } else { shift + 0.5 * slope.signum() };
+        let step = target.clamp(low, high) - shift;
+        if step.abs() <= LAST_STEP {
             shift += step;
             return (shift, at(shift)[0]);
         }
-        let shorter = (0..HALVINGS).map(|halvings| shift + step * 0.5_f64.powi(halvings));
+        let shorter = (0..MAX_HALVINGS).map(|halvings| shift + step * 0.5_f64.powi(halvings));
         let Some(next) = shorter.map(|next| (next, at(next))).find(|(_, there)| there[0] > value) else {
             break;
         };
