@@ -11,20 +11,22 @@
 use std::f64::consts::TAU;
 
 const EPSILON: f64 = 1e-16;
-const MOST_TERMS: usize = 10_000;
-/// Stands for zero in a continued fraction.
+const MAX_TERMS: usize = 10_000;
+/// Replaces zero in a continued fraction.
 const TINY: f64 = 1e-300;
 
 /// Probability that a variable of the chi-squared distribution exceeds `value`.
 #[must_use]
-pub fn chi_squared_tail(value: f64, freedoms: f64) -> f64 {
-    gamma_upper(0.5 * freedoms, 0.5 * value.max(0.0))
+pub fn chi_squared_tail(value: f64, degrees_of_freedom: f64) -> f64 {
+    gamma_upper(0.5 * degrees_of_freedom, 0.5 * value.max(0.0))
 }
 
 /// `t` with the probability `confidence` between -t and t, of Student's distribution.
 #[must_use]
-pub fn student_quantile(confidence: f64, freedoms: f64) -> f64 {
-    quantile(confidence, |t| 1.0 - beta(freedoms / (freedoms + t * t), 0.5 * freedoms, 0.5))
+pub fn student_quantile(confidence: f64, degrees_of_freedom: f64) -> f64 {
+    quantile(confidence, |t| {
+        1.0 - beta(degrees_of_freedom / (degrees_of_freedom + t * t), 0.5 * degrees_of_freedom, 0.5)
+    })
 }
 
 /// `z` with the probability `confidence` between -z and z, of the normal distribution.
@@ -33,7 +35,7 @@ pub fn normal_quantile(confidence: f64) -> f64 {
     quantile(confidence, |z| 1.0 - gamma_upper(0.5, 0.5 * z * z))
 }
 
-/// Where an increasing function reaches `level`.
+/// Argument at which an increasing function reaches `level`.
 fn quantile(level: f64, inside: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     while inside(high) < level && high < 1e12 {
@@ -50,7 +52,7 @@ fn quantile(level: f64, inside: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// `ln Gamma(x)`, x > 0: Stirling's series after raising x.
+/// `ln Gamma(x)`, x > 0: Stirling's series after shifting x upwards.
 fn ln_gamma(x: f64) -> f64 {
     let (mut x, mut product) = (x, 1.0);
     while x < 15.0 {
@@ -71,7 +73,7 @@ fn gamma_upper(a: f64, x: f64) -> f64 {
     let factor = (a * x.ln() - x - ln_gamma(a)).exp();
     if x < a + 1.0 {
         let (mut term, mut sum) = (1.0 / a, 1.0 / a);
-        for k in 1..MOST_TERMS {
+        for k in 1..MAX_TERMS {
             term *= x / (a + k as f64);
             sum += term;
             if term < EPSILON * sum {
@@ -117,7 +119,7 @@ fn beta(x: f64, a: f64, b: f64) -> f64 {
 fn fraction(terms: impl Fn(usize) -> (f64, f64)) -> f64 {
     let away = |value: f64| if value.abs() < TINY { TINY } else { value };
     let (mut value, mut c, mut d) = (TINY, TINY, 0.0);
-    for k in 0..MOST_TERMS {
+    for k in 0..MAX_TERMS {
         let (a, b) = terms(k);
         d = 1.0 / away(b + a * d);
         c = away(b + a / c);
@@ -137,22 +139,25 @@ mod tests {
 
     /// Tables 26.8 and 26.10 of Abramowitz and Stegun, as printed.
     #[test]
-    fn quantiles_are_those_of_the_tables() {
-        for (freedoms, t) in
+    fn quantiles_match_the_tables() {
+        for (degrees_of_freedom, t) in
             [(1.0, 12.706), (2.0, 4.303), (5.0, 2.571), (13.0, 2.160), (30.0, 2.042), (120.0, 1.980)]
         {
-            assert!((student_quantile(0.95, freedoms) - t).abs() < 6e-4, "{freedoms}");
+            assert!((student_quantile(0.95, degrees_of_freedom) - t).abs() < 6e-4, "{degrees_of_freedom}");
         }
         assert!((normal_quantile(0.95) - 1.959_964).abs() < 1e-6);
-        for (freedoms, value) in [(1.0, 3.84146), (2.0, 5.99147), (10.0, 18.3070), (30.0, 43.7729)] {
-            assert!((chi_squared_tail(value, freedoms) - 0.05).abs() < 1e-6, "{freedoms}");
+        for (degrees_of_freedom, value) in [(1.0, 3.84146), (2.0, 5.99147), (10.0, 18.3070), (30.0, 43.7729)]
+        {
+            assert!(
+                (chi_squared_tail(value, degrees_of_freedom) - 0.05).abs() < 1e-6,
+                "{degrees_of_freedom}"
+            );
         }
     }
 
-    /// With two freedoms the tail is `exp(-x/2)`, and the one of Student's distribution with one is an
-    /// arctangent.
+    /// With two degrees of freedom the tail is `exp(-x/2)`; Student's distribution with one is an arctangent.
     #[test]
-    fn closed_forms_are_met() {
+    fn closed_forms_are_reproduced() {
         for x in [1e-3, 0.5, 1.9, 2.1, 7.0, 60.0] {
             let tail = chi_squared_tail(x, 2.0);
             assert!((tail / (-0.5 * x).exp() - 1.0).abs() < 1e-12, "{x}");
@@ -170,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn student_becomes_normal_with_many_freedoms() {
+    fn student_becomes_normal_with_many_degrees_of_freedom() {
         assert!((student_quantile(0.95, 1e7) - normal_quantile(0.95)).abs() < 1e-6);
     }
 }

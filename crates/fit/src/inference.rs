@@ -2,21 +2,22 @@
 //! parameters.
 //!
 //! `S = v (J^T J)^-1` over the parameters that no bound holds, from the singular values of J with columns of
-//! length one. Where some of these count as zero (less than 1e-6 of the largest), the parameters in their
-//! directions have no standard error; the others have that of the remaining directions.
+//! length one. Singular values below 1e-6 of the largest count as zero. The parameters in their directions
+//! have no standard error; the others have the standard error of the remaining directions.
 
 use faer::Mat;
 
 use crate::{
-    Deviations, Fit,
     distribution::{chi_squared_tail, normal_quantile, student_quantile},
-    jacobian::Decomposed,
+    jacobian::ScaledJacobian,
+    outcome::LeastSquaresFit,
+    problem::Deviations,
 };
 
-/// A parameter with a larger part than this in a direction that the data do not see has no standard error.
-const UNSEEN: f64 = 1e-4;
+/// A parameter with a larger component than this in undetermined directions has no standard error.
+const MAX_UNDETERMINED: f64 = 1e-4;
 
-/// An interval of confidence.
+/// A confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// Lower end.
@@ -25,35 +26,35 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// The test of `chi^2`.
+/// The chi-squared test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiSquared {
     /// `chi^2`.
     pub value: f64,
-    /// Data less parameters.
-    pub freedoms: usize,
-    /// Probability that errors with the stated standard deviations alone give as much or more; `None` without
-    /// freedoms, or where the factor of the deviations was estimated from it.
+    /// Number of data minus number of parameters.
+    pub degrees_of_freedom: usize,
+    /// Probability that errors with the stated standard deviations give at least this value; `None` without
+    /// degrees of freedom, or if the factor of the deviations was estimated from it.
     pub probability: Option<f64>,
 }
 
-/// What is known of the parameters, to first order.
+/// Uncertainty of the parameters, to first order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inference {
-    /// Probability that an interval holds its parameter.
+    /// Probability that an interval contains its parameter.
     pub confidence: f64,
     /// Half width of an interval in standard errors.
     pub quantile: f64,
-    /// `v`: 1, or the factor of the variances that the residuals tell; `None` where they cannot.
+    /// `v`: 1, or the factor of the variances estimated from the residuals; `None` if that is impossible.
     pub variance: Option<f64>,
-    /// Of each parameter; `None` where the data do not determine it, a bound holds it, or the variance is not
-    /// known.
+    /// Standard error of each parameter; `None` if the data do not determine it, a bound holds it, or the
+    /// variance is unknown.
     pub standard_errors: Vec<Option<f64>>,
-    /// Of each parameter, as the standard errors.
+    /// Interval of each parameter, under the same conditions.
     pub intervals: Vec<Option<Interval>>,
-    /// Correlation of each two parameters.
+    /// Correlation of each pair of parameters.
     pub correlation: Vec<Vec<Option<f64>>>,
-    /// The test of the fit.
+    /// The test of the residuals.
     pub chi_squared: ChiSquared,
 }
 
@@ -62,22 +63,25 @@ impl Inference {
     ///
     /// * `confidence`: such as 0.95.
     #[must_use]
-    pub fn of(fit: &Fit, deviations: Deviations, confidence: f64) -> Self {
+    pub fn of(fit: &LeastSquaresFit, deviations: Deviations, confidence: f64) -> Self {
         let free: Vec<usize> = (0..fit.parameters.len()).filter(|j| !fit.at_bound[*j]).collect();
         let jacobian = Mat::from_fn(fit.residuals.len(), free.len(), |i, j| fit.jacobian[(i, free[j])]);
-        let decomposed = Decomposed::with_unit_columns(&jacobian);
-        let rank = decomposed.as_ref().map_or(0, Decomposed::rank);
-        let freedoms = fit.residuals.len().saturating_sub(rank);
+        let decomposed = ScaledJacobian::with_unit_columns(&jacobian);
+        let rank = decomposed.as_ref().map_or(0, ScaledJacobian::rank);
+        let degrees_of_freedom = fit.residuals.len().saturating_sub(rank);
         let value = fit.chi_squared();
         let (variance, quantile, probability) = match deviations {
             Deviations::Known => {
-                let probability = (freedoms > 0).then(|| chi_squared_tail(value, freedoms as f64));
+                let probability =
+                    (degrees_of_freedom > 0).then(|| chi_squared_tail(value, degrees_of_freedom as f64));
                 (Some(1.0), normal_quantile(confidence), probability)
             }
-            Deviations::UpToFactor if freedoms == 0 => (None, f64::NAN, None),
-            Deviations::UpToFactor => {
-                (Some(value / freedoms as f64), student_quantile(confidence, freedoms as f64), None)
-            }
+            Deviations::UpToFactor if degrees_of_freedom == 0 => (None, f64::NAN, None),
+            Deviations::UpToFactor => (
+                Some(value / degrees_of_freedom as f64),
+                student_quantile(confidence, degrees_of_freedom as f64),
+                None,
+            ),
         };
         let covariance = Covariance { decomposed: decomposed.as_ref(), free: &free, variance };
         let count = fit.parameters.len();
@@ -98,13 +102,14 @@ impl Inference {
             intervals: fit.parameters.iter().zip(&standard_errors).map(interval).collect(),
             correlation: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
             standard_errors,
-            chi_squared: ChiSquared { value, freedoms, probability },
+            chi_squared: ChiSquared { value, degrees_of_freedom, probability },
         }
     }
 }
 
+/// Covariance of the parameters that no bound holds.
 struct Covariance<'a> {
-    decomposed: Option<&'a Decomposed>,
+    decomposed: Option<&'a ScaledJacobian>,
     free: &'a [usize],
     variance: Option<f64>,
 }
@@ -112,14 +117,14 @@ struct Covariance<'a> {
 impl Covariance<'_> {
     fn entry(&self, i: usize, j: usize) -> Option<f64> {
         let (decomposed, variance) = (self.decomposed?, self.variance?);
-        let place = |parameter: usize| self.free.iter().position(|free| *free == parameter);
-        let (i, j) = (place(i)?, place(j)?);
+        let index = |parameter: usize| self.free.iter().position(|free| *free == parameter);
+        let (i, j) = (index(i)?, index(j)?);
         let rank = decomposed.rank();
-        let seen = |p: usize| {
+        let is_determined = |p: usize| {
             let within: f64 = (0..rank).map(|k| decomposed.part(p, k).powi(2)).sum();
-            1.0 - within <= UNSEEN * UNSEEN
+            1.0 - within <= MAX_UNDETERMINED * MAX_UNDETERMINED
         };
-        if !seen(i) || !seen(j) {
+        if !is_determined(i) || !is_determined(j) {
             return None;
         }
         let along = |k: usize| decomposed.part(i, k) * decomposed.part(j, k) / decomposed.singular[k].powi(2);

@@ -2,21 +2,22 @@
 
 use faer::{Mat, linalg::solvers::Svd};
 
-/// Singular values below this part of the largest count as zero: derivatives by differences are no better.
+/// Singular values below this fraction of the largest count as zero: it is the accuracy of derivatives by
+/// differences.
 pub(crate) const RANK: f64 = 1e-6;
 
 /// `J C^-1 = U S V^T` with scales C of the columns.
 #[derive(Debug)]
-pub(crate) struct Decomposed {
+pub(crate) struct ScaledJacobian {
     svd: Svd<f64>,
-    /// C: what each column was divided by.
+    /// C: divisor of each column.
     pub scale: Vec<f64>,
     /// S, largest first.
     pub singular: Vec<f64>,
 }
 
-impl Decomposed {
-    /// With the columns divided by `scale`; `None` if the numbers are not finite.
+impl ScaledJacobian {
+    /// A decomposition with the columns divided by `scale`; `None` if it is not finite.
     pub fn with_scale(jacobian: &Mat<f64>, scale: Vec<f64>) -> Option<Self> {
         let unit = Mat::from_fn(jacobian.nrows(), jacobian.ncols(), |i, j| jacobian[(i, j)] / scale[j]);
         let svd = unit.thin_svd().ok()?;
@@ -24,7 +25,7 @@ impl Decomposed {
         singular.iter().all(|s| s.is_finite()).then_some(Self { svd, scale, singular })
     }
 
-    /// With columns of length one; those that vanish stay.
+    /// A decomposition with columns of length one; zero columns stay zero.
     pub fn with_unit_columns(jacobian: &Mat<f64>) -> Option<Self> {
         let scale = lengths(jacobian).into_iter().map(|l| if l > 0.0 { l } else { 1.0 }).collect();
         Self::with_scale(jacobian, scale)
@@ -36,7 +37,7 @@ impl Decomposed {
         self.singular.iter().filter(|s| **s > RANK * largest).count()
     }
 
-    /// `V_jk`: part of parameter j in direction k. Directions beyond the number of data have no singular
+    /// `V_jk`: component of parameter j in direction k. Directions beyond the number of data have no singular
     /// value.
     pub fn part(&self, parameter: usize, direction: usize) -> f64 {
         self.svd.V()[(parameter, direction)]
@@ -60,11 +61,11 @@ impl Decomposed {
         (0..self.scale.len()).map(|j| of(j) / self.scale[j]).collect()
     }
 
-    /// By how much that step lowers the sum of squares of the linear model.
+    /// Reduction of the sum of squares of the linear model by that step.
     pub fn predicted(&self, projected: &[f64], damping: f64) -> f64 {
         let gain = |(s, b): (&f64, &f64)| {
-            let left = if s * s + damping > 0.0 { damping / (s * s + damping) } else { 1.0 };
-            b * b * (1.0 - left * left)
+            let remaining = if s * s + damping > 0.0 { damping / (s * s + damping) } else { 1.0 };
+            b * b * (1.0 - remaining * remaining)
         };
         self.singular.iter().zip(projected).map(gain).sum()
     }

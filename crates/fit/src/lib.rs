@@ -1,4 +1,4 @@
-//! Parameters of a model fitted to data: weighted least squares, intervals, and what the data leave open.
+//! Parameters of a model fitted to data: weighted least squares, intervals, undetermined directions.
 //!
 //! # Mathematics
 //! A model gives `m` numbers `y_i(p)` for `n` parameters `p`. Data `d_i` have standard deviations `s_i`. With
@@ -6,34 +6,35 @@
 //!
 //! `chi^2(p) = sum_i r_i(p)^2`,
 //!
-//! which is maximum likelihood if errors are independent and normal. [`fit`] does it by the method of
-//! Levenberg and Marquardt within bounds, from the Jacobian `J = dr/dp` (m x n).
+//! which is maximum likelihood if errors are independent and normal. [`fit`] uses the method of Levenberg and
+//! Marquardt within bounds, with the Jacobian `J = dr/dp` (m x n).
 //!
 //! **Uncertainty** (`inference.rs`). To first order the parameters are normal with the covariance `S = v (J^T
 //! J)^-1`. If the standard deviations are known, `v = 1` and intervals use the quantile of the normal
 //! distribution; `chi^2` itself is then tested against its distribution with `m - n` degrees of freedom. If
 //! they are known up to a common factor, `v = chi^2/(m - n)` and intervals use Student's distribution with
-//! `m - n` degrees of freedom; nothing is left to test.
+//! `m - n` degrees of freedom; a test is then impossible.
 //!
-//! **Profiles** (`profile.rs`). Where the model bends within the interval, the first order is not enough. The
-//! profile of a parameter is `chi^2` minimised over all others; its interval holds the values at which the
-//! profile exceeds its minimum by at most `v q^2`, with the same quantile `q`. It does not depend on how a
-//! parameter is written (a stiffness, its logarithm).
+//! **Profiles** (`profile.rs`). If the model is nonlinear within the interval, the first order is not
+//! accurate. The profile of a parameter is `chi^2` minimised over all others. Its interval contains the
+//! values at which the profile exceeds its minimum by at most `v q^2`, with the same quantile `q`. It is
+//! invariant under transformations of a parameter (a stiffness, its logarithm).
 //!
-//! **What the data leave open** (`identifiability.rs`). In relative parameters `x_j`, `p_j = p_j* (1 + x_j)`,
+//! **Undetermined directions** (`identifiability.rs`). In relative parameters `x_j`, `p_j = p_j* (1 + x_j)`,
 //! the singular value decomposition of `J diag(p*)` gives directions of unit length and the standard
 //! deviation `sqrt(v)/s_k` of each. A direction in which even a large relative change cannot be excluded is
-//! left open: a single parameter that the data do not determine, or several that they do not tell apart.
-//! Collinearity says the same without the data's precision: with the columns of J scaled to length one,
-//! `1/s_k` is by how much a change in this direction is hidden by the parameters making up for each other.
+//! undetermined: a single parameter that the data do not determine, or several that they do not distinguish.
+//! Collinearity expresses the same without the precision of the data: with the columns of J scaled to length
+//! one, `1/s_k` is the factor by which the parameters compensate each other in this direction.
 //!
 //! | file | idea |
 //! |---|---|
-//! | `problem.rs` | what a model has to offer; bounds |
-//! | `least_squares.rs` | the method of Levenberg and Marquardt |
+//! | `problem.rs` | the interface of a model; bounds |
+//! | `outcome.rs` | settings of a fit, its result |
+//! | `least_squares.rs`, `search.rs` | the method of Levenberg and Marquardt; its state |
 //! | `jacobian.rs` | its linear algebra: a Jacobian with scaled columns and its singular values |
 //! | `inference.rs`, `profile.rs` | standard errors, intervals, correlation, the chi-squared test |
-//! | `identifiability.rs` | directions that the data leave open |
+//! | `identifiability.rs` | directions that the data do not determine |
 //! | `distribution.rs` | normal, Student's and the chi-squared distribution |
 //!
 //! # Source
@@ -45,7 +46,7 @@
 //! ```
 //! use std::convert::Infallible;
 //! use faer::Mat;
-//! use hammerbeam_fit::{Bounds, Deviations, FitProblem, FitSettings, Inference, fit};
+//! use hammerbeam_fit::{Bounds, Deviations, FitProblem, LeastSquaresSettings, Inference, fit};
 //!
 //! struct Line;
 //! impl FitProblem for Line {
@@ -58,7 +59,7 @@
 //!         Ok(Mat::from_fn(3, 2, |i, j| if j == 0 { 10.0 } else { 10.0 * i as f64 }))
 //!     }
 //! }
-//! let settings = FitSettings::new(Deviations::Known);
+//! let settings = LeastSquaresSettings::new(Deviations::Known);
 //! let found = fit(&mut Line, &[0.5, 0.5], &[Bounds::NONE; 2], &settings)?;
 //! assert!(found.end.converged());
 //! let inference = Inference::of(&found, Deviations::Known, 0.95);
@@ -72,11 +73,14 @@ mod identifiability;
 mod inference;
 mod jacobian;
 mod least_squares;
+mod outcome;
 mod problem;
 mod profile;
+mod search;
 
-pub use identifiability::{COLLINEAR, Direction, Identifiability, OPEN};
+pub use identifiability::{COLLINEAR, Identifiability, ParameterDirection, UNDETERMINED};
 pub use inference::{ChiSquared, Inference, Interval};
-pub use least_squares::{Fit, FitEnd, FitError, FitSettings, fit};
+pub use least_squares::fit;
+pub use outcome::{FitEnd, FitError, LeastSquaresFit, LeastSquaresSettings};
 pub use problem::{Bounds, Deviations, FitProblem};
 pub use profile::{ProfileInterval, profile};

@@ -1,26 +1,32 @@
 //! Intervals from the profile of `chi^2`.
 //!
-//! With the parameter j held at a value, the others minimise `chi^2`; `zeta(p_j) = sign(p_j - p_j*)
-//! sqrt((chi^2(p_j) - chi^2(p*))/v)` is the profile in standard errors, a straight line for a linear model.
-//! The ends of the interval are where it reaches `-q` and `q`, found by the secant method from the ends to
-//! first order; every fit starts from the last one.
+//! With parameter j fixed at a value, the others minimise `chi^2`. The profile in standard errors is
+//! `zeta(p_j) = sign(p_j - p_j*) sqrt((chi^2(p_j) - chi^2(p*))/v)`, a straight line for a linear model. The
+//! ends of the interval, where it reaches `-q` and `q`, are found by the secant method from the ends to first
+//! order. Each fit starts from the previous one.
 //!
 //! # Source
 //! Bates and Watts (1988), section 6.1; Venzon and Moolgavkar, Appl. Stat. 37 (1988), 87-94.
 
 use faer::Mat;
 
-use crate::{Bounds, Fit, FitProblem, FitSettings, Inference, fit, least_squares::sum_of_squares};
+use crate::{
+    inference::Inference,
+    least_squares::fit,
+    outcome::{LeastSquaresFit, LeastSquaresSettings},
+    problem::{Bounds, FitProblem},
+    search::sum_of_squares,
+};
 
-/// The profile is met to this many standard errors.
+/// Accuracy of the profile at an end, in standard errors.
 const CLOSE: f64 = 1e-3;
-/// Fits for an end.
-const MOST_FITS: usize = 12;
-/// Farthest an end is looked for, in half widths of the interval to first order.
+/// Largest number of fits for an end.
+const MAX_FITS: usize = 12;
+/// Largest distance of an end, in half widths of the interval to first order.
 const FARTHEST: f64 = 30.0;
 
-/// An interval of the profile; an end is `None` where the profile does not rise so far: within the bounds,
-/// within thirty half widths of the interval to first order, or because the model cannot be computed or
+/// An interval from the profile. An end is `None` if the profile does not reach the quantile within the
+/// bounds or within thirty half widths of the interval to first order, or if the model cannot be computed or
 /// fitted there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileInterval {
@@ -30,18 +36,18 @@ pub struct ProfileInterval {
     pub high: Option<f64>,
 }
 
-/// The interval of parameter `index`; `None` where it has none to first order.
+/// The interval of parameter `index`; `None` if it has none to first order.
 pub fn profile<P: FitProblem>(
     problem: &mut P,
-    found: &Fit,
+    found: &LeastSquaresFit,
     inference: &Inference,
     (index, bounds): (usize, &[Bounds]),
-    settings: &FitSettings,
+    settings: &LeastSquaresSettings,
 ) -> Option<ProfileInterval> {
     let error = inference.standard_errors[index].filter(|error| *error > 0.0)?;
     let variance = inference.variance.filter(|variance| *variance > 0.0)?;
-    let mut walk = Profile {
-        rest: others(bounds, index),
+    let mut state = ProfileSearch {
+        other_bounds: others(bounds, index),
         settings: *settings,
         least: found.chi_squared(),
         variance,
@@ -51,24 +57,26 @@ pub fn profile<P: FitProblem>(
     let half = inference.quantile * error;
     let best = found.parameters[index];
     let mut end =
-        |direction: f64| walk.end(problem, best, (direction * half, inference.quantile), &bounds[index]);
+        |direction: f64| state.end(problem, best, (direction * half, inference.quantile), &bounds[index]);
     Some(ProfileInterval { low: end(-1.0), high: end(1.0) })
 }
 
-struct Profile {
+/// The search for the ends of an interval.
+struct ProfileSearch {
     index: usize,
-    rest: Vec<Bounds>,
-    settings: FitSettings,
+    other_bounds: Vec<Bounds>,
+    settings: LeastSquaresSettings,
+    /// Least `chi^2`.
     least: f64,
     variance: f64,
     /// Best other parameters at the best fit.
     start: Vec<f64>,
 }
 
-impl Profile {
+impl ProfileSearch {
     /// Where `|zeta|` reaches the quantile.
     ///
-    /// * `half`: the way to the end to first order, with its sign.
+    /// * `half`: signed distance of the end to first order.
     fn end<P: FitProblem>(
         &mut self,
         problem: &mut P,
@@ -76,70 +84,74 @@ impl Profile {
         (half, quantile): (f64, f64),
         bounds: &Bounds,
     ) -> Option<f64> {
-        let mut rest = self.start.clone();
-        // The way as a part of the one to first order; below it zeta is too small, above it too large.
+        let mut others = self.start.clone();
+        // Distances relative to the one to first order: zeta is too small at `below`, too large at `above`.
         let (mut below, mut above) = ((0.0, 0.0), None::<(f64, f64)>);
-        let mut way = 1.0;
-        for _ in 0..MOST_FITS {
-            let value = bounds.clamp(best + way * half);
-            way = (value - best) / half;
-            let zeta = self.zeta(problem, value, &mut rest)?;
+        let mut distance = 1.0;
+        for _ in 0..MAX_FITS {
+            let value = bounds.clamp(best + distance * half);
+            distance = (value - best) / half;
+            let zeta = self.zeta(problem, value, &mut others)?;
             if (zeta - quantile).abs() <= CLOSE {
                 return Some(value);
             }
             if zeta < quantile {
-                if way <= below.0 {
+                if distance <= below.0 {
                     return None;
                 }
-                below = (way, zeta);
+                below = (distance, zeta);
             } else {
-                above = Some((way, zeta));
+                above = Some((distance, zeta));
             }
-            way = match above {
+            distance = match above {
                 Some((far, high)) => {
                     let part = (quantile - below.1) / (high - below.1);
                     below.0 + part.clamp(0.05, 0.95) * (far - below.0)
                 }
-                None => way * (quantile / zeta.max(0.1 * quantile)).clamp(1.02, 3.0),
+                None => distance * (quantile / zeta.max(0.1 * quantile)).clamp(1.02, 3.0),
             };
-            if way > FARTHEST {
+            if distance > FARTHEST {
                 return None;
             }
         }
         None
     }
 
-    fn zeta<P: FitProblem>(&self, problem: &mut P, value: f64, rest: &mut Vec<f64>) -> Option<f64> {
-        if rest.is_empty() {
+    /// `|zeta|` at a value of the parameter.
+    ///
+    /// * `others`: initial values of the other parameters, replaced by the best ones.
+    fn zeta<P: FitProblem>(&self, problem: &mut P, value: f64, others: &mut Vec<f64>) -> Option<f64> {
+        if others.is_empty() {
             let residuals = problem.residuals(&[value]).ok()?;
             return Some(((sum_of_squares(&residuals) - self.least).max(0.0) / self.variance).sqrt());
         }
-        let mut held = Held { problem, index: self.index, value };
-        let fitted = fit(&mut held, rest, &self.rest, &self.settings).ok()?;
+        let mut fixed = FixedParameter { problem, index: self.index, value };
+        let fitted = fit(&mut fixed, others, &self.other_bounds, &self.settings).ok()?;
         if !fitted.end.converged() {
             return None;
         }
-        rest.clone_from(&fitted.parameters);
+        others.clone_from(&fitted.parameters);
         Some(((fitted.chi_squared() - self.least).max(0.0) / self.variance).sqrt())
     }
 }
 
-/// A problem with one parameter held.
-struct Held<'a, P> {
+/// A problem with one parameter fixed.
+struct FixedParameter<'a, P> {
     problem: &'a mut P,
     index: usize,
     value: f64,
 }
 
-impl<P> Held<'_, P> {
-    fn all(&self, rest: &[f64]) -> Vec<f64> {
-        let mut all = rest.to_vec();
+impl<P> FixedParameter<'_, P> {
+    /// All parameters.
+    fn all(&self, others: &[f64]) -> Vec<f64> {
+        let mut all = others.to_vec();
         all.insert(self.index, self.value);
         all
     }
 }
 
-impl<P: FitProblem> FitProblem for Held<'_, P> {
+impl<P: FitProblem> FitProblem for FixedParameter<'_, P> {
     type Error = P::Error;
 
     fn residuals(&mut self, parameters: &[f64]) -> Result<Vec<f64>, P::Error> {

@@ -4,7 +4,9 @@
 use std::convert::Infallible;
 
 use faer::Mat;
-use hammerbeam_fit::{Bounds, Deviations, FitProblem, FitSettings, Identifiability, Inference, fit, profile};
+use hammerbeam_fit::{
+    Bounds, Deviations, FitProblem, Identifiability, Inference, LeastSquaresSettings, fit, profile,
+};
 
 /// `y = X p` with unit standard deviations.
 struct Linear {
@@ -25,7 +27,7 @@ impl FitProblem for Linear {
     }
 }
 
-/// A straight line `a + b x` through points at these places.
+/// A straight line `a + b x` through points at these abscissae.
 fn line(places: &[f64], data: &[f64]) -> Linear {
     let design = Mat::from_fn(places.len(), 2, |i, j| if j == 0 { 1.0 } else { places[i] });
     Linear { design, data: data.to_vec() }
@@ -44,7 +46,7 @@ fn a_straight_line_has_the_intervals_of_the_textbook() {
     for (deviations, variance, quantile) in
         [(Deviations::Known, 1.0, 1.959_964), (Deviations::UpToFactor, squares / 5.0, 2.570_582)]
     {
-        let settings = FitSettings::new(deviations);
+        let settings = LeastSquaresSettings::new(deviations);
         let found = fit(&mut line(&x, &y), &[30.0, -9.0], &[Bounds::NONE; 2], &settings).unwrap();
         assert!(found.end.converged());
         // Converged to 1e-6 standard errors.
@@ -59,30 +61,31 @@ fn a_straight_line_has_the_intervals_of_the_textbook() {
         let interval = inference.intervals[1].unwrap();
         // The quantiles are printed to seven digits.
         assert!((interval.high - slope - quantile * error).abs() < 1e-5 * error);
-        assert_eq!(inference.chi_squared.freedoms, 5);
+        assert_eq!(inference.chi_squared.degrees_of_freedom, 5);
         assert!((inference.chi_squared.value - squares).abs() < 1e-9);
         // The profile of a linear model is its interval to first order; it is met to 1e-3 standard errors.
         let settings = (1, &[Bounds::NONE; 2][..]);
         let ends =
-            profile(&mut line(&x, &y), &found, &inference, settings, &FitSettings::new(deviations)).unwrap();
+            profile(&mut line(&x, &y), &found, &inference, settings, &LeastSquaresSettings::new(deviations))
+                .unwrap();
         assert!((ends.low.unwrap() - interval.low).abs() < 2e-3 * error);
         assert!((ends.high.unwrap() - interval.high).abs() < 2e-3 * error);
     }
 }
 
-/// Two parameters of which only the sum is seen.
+/// Two parameters of which the data determine only the sum.
 #[test]
 fn dependent_parameters_have_no_standard_error_and_are_named_together() {
     let design = Mat::from_fn(4, 3, |i, j| if j == 2 { (i as f64 - 1.5).powi(2) } else { 1.0 + i as f64 });
     let mut problem = Linear { design, data: vec![2.0, 4.0, 7.0, 8.0] };
-    let settings = FitSettings::new(Deviations::Known);
+    let settings = LeastSquaresSettings::new(Deviations::Known);
     let found = fit(&mut problem, &[1.0, 1.0, 0.3], &[Bounds::NONE; 3], &settings).unwrap();
     assert!(found.end.converged());
     let inference = Inference::of(&found, Deviations::Known, 0.95);
     assert_eq!(inference.standard_errors[..2], [None, None]);
     assert!(inference.standard_errors[2].is_some());
-    assert_eq!(inference.chi_squared.freedoms, 2);
-    let open = Identifiability::of(&found, &inference, &[1.0, 1.0, 1.0]).open;
+    assert_eq!(inference.chi_squared.degrees_of_freedom, 2);
+    let open = Identifiability::of(&found, &inference, &[1.0, 1.0, 1.0]).undetermined;
     assert_eq!(open[open.len() - 1].parameters.len(), 2);
     assert!(open[open.len() - 1].measure.is_infinite());
     let parts = &open[open.len() - 1].parts;
@@ -93,7 +96,7 @@ fn dependent_parameters_have_no_standard_error_and_are_named_together() {
 /// Two columns at a small angle have the collinearity index `1/sqrt(1 - cos)`, from the eigenvalues `1 -+
 /// cos` of their unit product matrix.
 #[test]
-fn collinearity_index_of_two_columns_is_that_of_their_angle() {
+fn collinearity_index_of_two_columns_follows_from_their_angle() {
     let angle = 0.01_f64;
     let design = Mat::from_fn(3, 2, |i, j| match (i, j) {
         (0, 0) => 1e6,
@@ -103,22 +106,32 @@ fn collinearity_index_of_two_columns_is_that_of_their_angle() {
     });
     let mut problem = Linear { design, data: vec![1e6, 1e4, 0.0] };
     let found =
-        fit(&mut problem, &[1.0, 1.0], &[Bounds::NONE; 2], &FitSettings::new(Deviations::Known)).unwrap();
+        fit(&mut problem, &[1.0, 1.0], &[Bounds::NONE; 2], &LeastSquaresSettings::new(Deviations::Known))
+            .unwrap();
     let inference = Inference::of(&found, Deviations::Known, 0.95);
-    let told = Identifiability::of(&found, &inference, &[1.0, 1.0]);
+    let found_directions = Identifiability::of(&found, &inference, &[1.0, 1.0]);
     let index = 1.0 / (1.0 - angle.cos()).sqrt();
-    // The cosine's distance from one has lost four digits.
-    assert!((told.collinearity_index / index - 1.0).abs() < 1e-6, "{}", told.collinearity_index);
-    assert!(told.open.is_empty(), "the data are precise enough: {:?}", told.open);
-    assert_eq!(told.collinear.len(), 1);
-    assert_eq!(told.collinear[0].parameters.len(), 2);
+    // Cancellation in one minus the cosine loses four digits.
+    assert!(
+        (found_directions.collinearity_index / index - 1.0).abs() < 1e-6,
+        "{}",
+        found_directions.collinearity_index
+    );
+    assert!(
+        found_directions.undetermined.is_empty(),
+        "the data are precise enough: {:?}",
+        found_directions.undetermined
+    );
+    assert_eq!(found_directions.collinear.len(), 1);
+    assert_eq!(found_directions.collinear[0].parameters.len(), 2);
 }
 
 #[test]
 fn a_bound_holds_a_parameter_and_the_others_have_the_intervals_of_the_smaller_problem() {
     let (x, y) = ([0.0, 1.0, 2.0, 3.0], [1.0, 2.1, 2.9, 4.05]);
     let bounds = [Bounds { low: 1.5, high: 9.0 }, Bounds::NONE];
-    let found = fit(&mut line(&x, &y), &[5.0, 5.0], &bounds, &FitSettings::new(Deviations::Known)).unwrap();
+    let found =
+        fit(&mut line(&x, &y), &[5.0, 5.0], &bounds, &LeastSquaresSettings::new(Deviations::Known)).unwrap();
     assert!(found.end.converged());
     assert_eq!((found.parameters[0], found.at_bound.as_slice()), (1.5, &[true, false][..]));
     // With the offset held at 1.5 the slope is sum x (y - 1.5) / sum x^2, with the variance 1/sum x^2.
@@ -128,5 +141,5 @@ fn a_bound_holds_a_parameter_and_the_others_have_the_intervals_of_the_smaller_pr
     let inference = Inference::of(&found, Deviations::Known, 0.95);
     assert_eq!(inference.standard_errors[0], None);
     assert!((inference.standard_errors[1].unwrap() - squares.sqrt().recip()).abs() < 1e-10);
-    assert_eq!(found.freedoms(), Some(3));
+    assert_eq!(found.degrees_of_freedom(), Some(3));
 }

@@ -3,7 +3,7 @@
 
 use faer::Mat;
 use hammerbeam_fit::{
-    Bounds, Deviations, FitEnd, FitError, FitProblem, FitSettings, Inference, fit, profile,
+    Bounds, Deviations, FitEnd, FitError, FitProblem, Inference, LeastSquaresSettings, fit, profile,
 };
 
 #[derive(Debug, thiserror::Error)]
@@ -54,7 +54,7 @@ fn misra1a_has_its_certified_values() {
     let points: Vec<(f64, f64)> = x.into_iter().zip(y).collect();
     for start in [[500.0, 1e-4], [250.0, 5e-4]] {
         let mut problem = Points { curve: saturation, points: points.clone(), deviation: 1.0 };
-        let settings = FitSettings::new(Deviations::UpToFactor);
+        let settings = LeastSquaresSettings::new(Deviations::UpToFactor);
         let found = fit(&mut problem, &start, &[Bounds::NONE; 2], &settings).unwrap();
         assert!(found.end.converged());
         let inference = Inference::of(&found, Deviations::UpToFactor, 0.95);
@@ -70,25 +70,26 @@ fn misra1a_has_its_certified_values() {
     }
 }
 
-/// The data are as many as the noise is zero: what they were made with comes back, from far away.
+/// Without noise the parameters of the data are recovered from distant initial values.
 #[test]
 fn data_without_noise_give_their_parameters_back() {
     let truth = [3.0, 0.7];
     let points = (1..9).map(|k| (f64::from(k), saturation(f64::from(k), &truth).0)).collect();
     let mut problem = Points { curve: saturation, points, deviation: 0.01 };
     let found =
-        fit(&mut problem, &[1.0, 0.05], &[Bounds::NONE; 2], &FitSettings::new(Deviations::Known)).unwrap();
+        fit(&mut problem, &[1.0, 0.05], &[Bounds::NONE; 2], &LeastSquaresSettings::new(Deviations::Known))
+            .unwrap();
     // 1e-6 standard errors, of about 0.01.
     assert!((found.parameters[0] - truth[0]).abs() < 1e-7 && (found.parameters[1] - truth[1]).abs() < 1e-7);
 }
 
-/// `y = p^2`: the interval of p is that of p^2, its root, and not symmetric.
+/// `y = p^2`: the interval of p follows from the interval of p^2 by its root, and is not symmetric.
 #[test]
 fn a_profile_follows_the_curve_of_the_model() {
     let square: Curve = |_, p| (p[0] * p[0], vec![2.0 * p[0]]);
     let mut problem = Points { curve: square, points: vec![(0.0, 4.0)], deviation: 1.0 };
     let bounds = [Bounds { low: 0.0, high: 10.0 }];
-    let settings = FitSettings::new(Deviations::Known);
+    let settings = LeastSquaresSettings::new(Deviations::Known);
     let found = fit(&mut problem, &[1.0], &bounds, &settings).unwrap();
     let inference = Inference::of(&found, Deviations::Known, 0.95);
     let ends = profile(&mut problem, &found, &inference, (0, &bounds), &settings).unwrap();
@@ -101,11 +102,11 @@ fn a_profile_follows_the_curve_of_the_model() {
 }
 
 #[test]
-fn a_profile_that_never_rises_is_open() {
+fn a_profile_that_never_rises_has_an_open_end() {
     // y = exp(-p) tends to 0, which is within two standard deviations of the datum.
     let decay: Curve = |_, p| ((-p[0]).exp(), vec![-(-p[0]).exp()]);
     let mut problem = Points { curve: decay, points: vec![(0.0, 0.1)], deviation: 0.1 };
-    let settings = FitSettings::new(Deviations::Known);
+    let settings = LeastSquaresSettings::new(Deviations::Known);
     let found = fit(&mut problem, &[1.0], &[Bounds::NONE], &settings).unwrap();
     let inference = Inference::of(&found, Deviations::Known, 0.95);
     let ends = profile(&mut problem, &found, &inference, (0, &[Bounds::NONE]), &settings).unwrap();
@@ -118,7 +119,8 @@ fn a_model_that_falls_forever_does_not_converge() {
     let falling: Curve =
         |_, p| (1.0 + 1.0 / (1.0 + p[0].abs()), vec![-p[0].signum() / (1.0 + p[0].abs()).powi(2)]);
     let mut problem = Points { curve: falling, points: vec![(0.0, 0.0)], deviation: 1e-9 };
-    let settings = FitSettings { max_iterations: 20, ..FitSettings::new(Deviations::Known) };
+    let settings =
+        LeastSquaresSettings { max_iterations: 20, ..LeastSquaresSettings::new(Deviations::Known) };
     let found = fit(&mut problem, &[1.0], &[Bounds::NONE], &settings).unwrap();
     assert!(matches!(found.end, FitEnd::OutOfIterations { .. }), "{:?}", found.end);
     assert_eq!(found.iterations, 20);
@@ -128,23 +130,25 @@ fn a_model_that_falls_forever_does_not_converge() {
 fn derivatives_of_the_wrong_sign_stall() {
     let wrong: Curve = |_, p| (p[0] + p[0].powi(3), vec![-1.0 - 3.0 * p[0] * p[0]]);
     let mut problem = Points { curve: wrong, points: vec![(0.0, 5.0)], deviation: 0.1 };
-    let found = fit(&mut problem, &[1.0], &[Bounds::NONE], &FitSettings::new(Deviations::Known)).unwrap();
+    let found =
+        fit(&mut problem, &[1.0], &[Bounds::NONE], &LeastSquaresSettings::new(Deviations::Known)).unwrap();
     assert!(!found.end.converged(), "{:?}", found.end);
 }
 
-/// The minimum at -2000 lies where the model of these tests does not exist.
+/// The minimum is at -2000, where the model of these tests does not exist.
 #[test]
-fn a_minimum_behind_the_end_of_the_model_is_out_of_reach() {
+fn a_minimum_outside_the_model_is_out_of_reach() {
     let straight: Curve = |_, p| (p[0], vec![1.0]);
     let mut problem = Points { curve: straight, points: vec![(0.0, -2000.0)], deviation: 0.1 };
-    let found = fit(&mut problem, &[1.0], &[Bounds::NONE], &FitSettings::new(Deviations::Known)).unwrap();
+    let found =
+        fit(&mut problem, &[1.0], &[Bounds::NONE], &LeastSquaresSettings::new(Deviations::Known)).unwrap();
     assert!(matches!(found.end, FitEnd::Blocked { .. }), "{:?}", found.end);
     assert!((-1000.0..-900.0).contains(&found.parameters[0]), "{:?}", found.parameters);
 }
 
 #[test]
 fn no_model_and_no_numbers_are_errors() {
-    let settings = FitSettings::new(Deviations::Known);
+    let settings = LeastSquaresSettings::new(Deviations::Known);
     let nan: Curve = |_, _| (f64::NAN, vec![f64::NAN]);
     let mut problem = Points { curve: nan, points: vec![(0.0, 5.0)], deviation: 0.1 };
     assert!(matches!(fit(&mut problem, &[1.0], &[Bounds::NONE], &settings), Err(FitError::NotFinite)));

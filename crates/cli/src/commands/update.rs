@@ -115,7 +115,7 @@ fn write(folder: &Path, options: &UpdateOptions, found: &Update, document: &Valu
 
 fn document(found: &Update, data: &UpdateData) -> Value {
     let inference = &found.inference;
-    let direction = |direction: &hammerbeam_fit::Direction| {
+    let direction = |direction: &hammerbeam_fit::ParameterDirection| {
         let parts: serde_json::Map<String, Value> = data
             .parameters
             .iter()
@@ -138,13 +138,13 @@ fn document(found: &Update, data: &UpdateData) -> Value {
         "parameters": found.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "data": found.data.iter().map(|datum| measured(datum, data)).collect::<Vec<_>>(),
         "chi_squared": inference.chi_squared.value,
-        "degrees_of_freedom": inference.chi_squared.freedoms,
+        "degrees_of_freedom": inference.chi_squared.degrees_of_freedom,
         "chi_squared_probability": inference.chi_squared.probability,
         "variance_factor": inference.variance,
         "correlation": inference.correlation,
         "singular_values": open.singular_values,
         "collinearity_index": finite(open.collinearity_index),
-        "left_open": open.open.iter().map(direction).collect::<Vec<_>>(),
+        "left_open": open.undetermined.iter().map(direction).collect::<Vec<_>>(),
         "collinear": open.collinear.iter().map(direction).collect::<Vec<_>>(),
         "warnings": found.findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
@@ -273,12 +273,13 @@ fn data_lines(found: &Update, data: &UpdateData) -> Vec<String> {
 
 fn test_line(found: &Update) -> String {
     let test = &found.inference.chi_squared;
-    let value = format!("chi-squared {:.4} with {} degree(s) of freedom", test.value, test.freedoms);
+    let value =
+        format!("chi-squared {:.4} with {} degree(s) of freedom", test.value, test.degrees_of_freedom);
     match (test.probability, found.inference.variance) {
         (Some(probability), _) => {
             format!("{value}: errors of the stated size exceed it with a probability of {probability:.3}")
         }
-        (None, Some(variance)) if test.freedoms > 0 => {
+        (None, Some(variance)) if test.degrees_of_freedom > 0 => {
             format!("{value}: the standard deviations are {:.4} times those stated", variance.sqrt())
         }
         _ => value,

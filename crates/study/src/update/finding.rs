@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use hammerbeam_fit::{COLLINEAR, Direction, Fit, Identifiability, Inference, Interval, OPEN};
+use hammerbeam_fit::{
+    COLLINEAR, Identifiability, Inference, Interval, LeastSquaresFit, ParameterDirection, UNDETERMINED,
+};
 
 use super::data::UpdateData;
 
@@ -70,17 +72,17 @@ pub enum Finding {
 /// All findings of a fit.
 pub(super) fn all(
     data: &UpdateData,
-    (found, elsewhere): (&Fit, &[Fit]),
+    (found, elsewhere): (&LeastSquaresFit, &[LeastSquaresFit]),
     inference: &Inference,
     identifiability: &Identifiability,
     stable: &[bool],
 ) -> Vec<Finding> {
     let key = |j: usize| data.parameters[j].key.clone();
-    let named = |direction: &Direction| -> Vec<(String, f64)> {
+    let named = |direction: &ParameterDirection| -> Vec<(String, f64)> {
         direction.parameters.iter().map(|&j| (key(j), direction.parts[j])).collect()
     };
     let open = identifiability
-        .open
+        .undetermined
         .iter()
         .map(|direction| Finding::LeftOpen { direction: named(direction), half_width: direction.measure });
     let collinear = identifiability
@@ -92,17 +94,17 @@ pub(super) fn all(
     findings.extend(held.map(|j| Finding::AtBound { key: key(j), value: found.parameters[j] }));
     let test = &inference.chi_squared;
     if let Some(probability) = test.probability.filter(|probability| *probability < POOR) {
-        let (chi_squared, freedoms) = (test.value, test.freedoms);
+        let (chi_squared, freedoms) = (test.value, test.degrees_of_freedom);
         findings.push(Finding::PoorFit { chi_squared, freedoms, probability });
     }
     let factor = inference.variance.map_or(0.0, f64::sqrt);
     if factor > LARGE {
         findings.push(Finding::LargeFactor { factor });
     }
-    if identifiability.open.is_empty() {
+    if identifiability.undetermined.is_empty() {
         findings.extend(another_minimum(data, found, elsewhere, inference));
     }
-    if test.freedoms == 0 {
+    if test.degrees_of_freedom == 0 {
         findings.push(Finding::NothingToTest);
     }
     let lost = data.orbits.iter().zip(stable).filter(|(_, stable)| !**stable);
@@ -114,12 +116,12 @@ pub(super) fn all(
 /// beyond them.
 fn another_minimum(
     data: &UpdateData,
-    found: &Fit,
-    elsewhere: &[Fit],
+    found: &LeastSquaresFit,
+    elsewhere: &[LeastSquaresFit],
     inference: &Inference,
 ) -> Option<Finding> {
     let level = found.chi_squared() + inference.variance? * inference.quantile.powi(2);
-    let beyond = |other: &&Fit| {
+    let beyond = |other: &&LeastSquaresFit| {
         let outside = |(value, interval): (&f64, &Option<Interval>)| {
             interval.is_some_and(|interval| *value < interval.low || *value > interval.high)
         };
@@ -159,7 +161,7 @@ impl fmt::Display for Finding {
                         formatter,
                         ": its interval reaches {:.0} % of its value either way (told from {:.0} % on)",
                         100.0 * half_width,
-                        100.0 * OPEN
+                        100.0 * UNDETERMINED
                     );
                 }
                 if half_width.is_infinite() {
@@ -170,7 +172,7 @@ impl fmt::Display for Finding {
                         ": changed together by steps of {}, they stay within the interval up to {:.0} % of their values either way (told from {:.0} % on)",
                         steps(direction),
                         100.0 * half_width,
-                        100.0 * OPEN
+                        100.0 * UNDETERMINED
                     )
                 }
             }

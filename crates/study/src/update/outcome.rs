@@ -1,7 +1,8 @@
 //! An update: the fit and everything that is known of its result.
 
 use hammerbeam_fit::{
-    Fit, FitEnd, FitError, FitSettings, Identifiability, Inference, Interval, ProfileInterval, profile,
+    FitEnd, FitError, Identifiability, Inference, Interval, LeastSquaresFit, LeastSquaresSettings,
+    ProfileInterval, profile,
 };
 
 use crate::{
@@ -127,8 +128,10 @@ pub fn update(
     let problem = UpdateProblem::new(study, data, &start).map_err(|error| at_start(data, error))?;
     let at_start = problem.values(&start).map_err(UpdateError::Start)?;
     let bounds = problem.bounds();
-    let fitting =
-        FitSettings { max_iterations: settings.max_iterations, ..FitSettings::new(data.deviations) };
+    let fitting = LeastSquaresSettings {
+        max_iterations: settings.max_iterations,
+        ..LeastSquaresSettings::new(data.deviations)
+    };
     let further = settings.further_starts.unwrap_or(if data.orbits.is_empty() { FURTHER_STARTS } else { 0 });
     let Found { mut problem, fit: found, starts, elsewhere } = best(study, data, problem, further, &fitting)?;
     let inference = Inference::of(&found, data.deviations, settings.confidence);
@@ -176,7 +179,7 @@ fn at_start(data: &UpdateData, error: CandidateError) -> UpdateError {
 
 fn parameters(
     data: &UpdateData,
-    found: &Fit,
+    found: &LeastSquaresFit,
     inference: &Inference,
     profiles: &[Option<ProfileInterval>],
 ) -> Vec<FittedParameter> {
@@ -193,7 +196,7 @@ fn parameters(
     data.parameters.iter().enumerate().map(of).collect()
 }
 
-fn fitted_data(data: &UpdateData, found: &Fit, at_start: &[f64]) -> Vec<FittedDatum> {
+fn fitted_data(data: &UpdateData, found: &LeastSquaresFit, at_start: &[f64]) -> Vec<FittedDatum> {
     let of = |((datum, residual), at_start): ((&Datum, &f64), &f64)| FittedDatum {
         datum: datum.clone(),
         at_start: *at_start,

@@ -7,7 +7,7 @@
 //! # Source
 //! Halton, Numer. Math. 2 (1960), 84-90.
 
-use hammerbeam_fit::{Bounds, Fit, FitError, FitSettings, fit};
+use hammerbeam_fit::{Bounds, FitError, LeastSquaresFit, LeastSquaresSettings, fit};
 
 use crate::StudyFile;
 
@@ -34,10 +34,10 @@ pub struct Starts {
 /// A fit with the problem at its end.
 pub(super) struct Found<'a> {
     pub problem: UpdateProblem<'a>,
-    pub fit: Fit,
+    pub fit: LeastSquaresFit,
     pub starts: Starts,
     /// Other minima that were met.
-    pub elsewhere: Vec<Fit>,
+    pub elsewhere: Vec<LeastSquaresFit>,
 }
 
 /// Fits from the start of the data file and from `more` others; the smallest `chi^2` of those that converge
@@ -50,12 +50,12 @@ pub(super) fn best<'a>(
     data: &'a UpdateData,
     mut problem: UpdateProblem<'a>,
     more: u32,
-    settings: &FitSettings,
+    settings: &LeastSquaresSettings,
 ) -> Result<Found<'a>, FitError<CandidateError>> {
     let bounds = problem.bounds();
     let start: Vec<f64> = data.parameters.iter().map(|parameter| parameter.start).collect();
     let first = fit(&mut problem, &start, &bounds, settings)?;
-    let mut ends: Vec<(UpdateProblem<'a>, Fit)> = vec![(problem, first)];
+    let mut ends: Vec<(UpdateProblem<'a>, LeastSquaresFit)> = vec![(problem, first)];
     for number in 1..=more {
         let start = further(data, &bounds, number);
         let Ok(mut problem) = UpdateProblem::new(study, data, &start) else { continue };
@@ -63,23 +63,25 @@ pub(super) fn best<'a>(
             ends.push((problem, found));
         }
     }
-    let converged = |found: &Fit| found.end.converged();
+    let converged = |found: &LeastSquaresFit| found.end.converged();
     let minima = ends.iter().filter(|(_, found)| converged(found)).map(|(_, found)| found.chi_squared());
     let least = minima.reduce(f64::min).unwrap_or(f64::INFINITY);
-    let lowest = |found: &Fit| converged(found) && found.chi_squared() - least <= SAME * least.max(1.0);
+    let lowest =
+        |found: &LeastSquaresFit| converged(found) && found.chi_squared() - least <= SAME * least.max(1.0);
     // Of equals the first is taken: the one from the start that was asked for, if it led there.
     let best = ends.iter().position(|(_, found)| lowest(found)).unwrap_or(0);
     let (problem, fit) = ends.remove(best);
-    let near = |other: &Fit| {
+    let near = |other: &LeastSquaresFit| {
         let pairs = other.parameters.iter().zip(&fit.parameters).zip(&data.parameters);
         lowest(other) && pairs.into_iter().all(|((a, b), p)| (a - b).abs() <= SAME * p.typical)
     };
-    let others: Vec<Fit> = ends.into_iter().map(|(_, found)| found).filter(converged).collect();
-    let (here, elsewhere): (Vec<Fit>, Vec<Fit>) = others.into_iter().partition(|found| near(found));
+    let others: Vec<LeastSquaresFit> = ends.into_iter().map(|(_, found)| found).filter(converged).collect();
+    let (here, elsewhere): (Vec<LeastSquaresFit>, Vec<LeastSquaresFit>) =
+        others.into_iter().partition(|found| near(found));
     let starts = Starts {
         tried: more + 1,
         led_here: here.len() as u32 + u32::from(converged(&fit)),
-        next_chi_squared: elsewhere.iter().map(Fit::chi_squared).reduce(f64::min),
+        next_chi_squared: elsewhere.iter().map(LeastSquaresFit::chi_squared).reduce(f64::min),
     };
     Ok(Found { problem, fit, starts, elsewhere })
 }
