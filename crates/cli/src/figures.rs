@@ -10,8 +10,8 @@ mod structure;
 mod varied;
 
 use hammerbeam_figure::{
-    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Quantity, ResponseCurve, ResponseDiagram,
-    ResponsePoint, ResponseSettings, ScaleChoice,
+    Bifurcation, BifurcationCurve, BifurcationCurvePoint, CurveDiagram, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
 };
 use hammerbeam_orbit::Stability;
 use hammerbeam_structure::ModeTables;
@@ -32,11 +32,11 @@ pub use drawn::{Album, Drawn, Files};
 pub const RESOLUTION: f64 = 300.0;
 
 /// Quantities of response diagrams, with the words that files have for them.
-const FIGURES: [(&str, Quantity); 4] = [
-    ("displacement", Quantity::Displacement),
-    ("acceleration", Quantity::Acceleration),
-    ("force", Quantity::ContactForce),
-    ("velocity", Quantity::ImpactVelocity),
+const FIGURES: [(&str, ResponseQuantity); 4] = [
+    ("displacement", ResponseQuantity::Displacement),
+    ("acceleration", ResponseQuantity::Acceleration),
+    ("force", ResponseQuantity::ContactForce),
+    ("velocity", ResponseQuantity::ImpactVelocity),
 ];
 
 /// How a results folder is drawn.
@@ -174,15 +174,15 @@ fn draw_response(
 
 /// What there is to draw of branches, with the words that files have for it: where nothing is ever touched
 /// neither contact forces nor impact velocities.
-fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, Quantity)> {
+fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, ResponseQuantity)> {
     let has = |value: fn(&ResponsePoint) -> f64| {
         curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
     };
     let (has_forces, has_impacts) =
         (has(|point| point.contact_force_n), has(|point| point.impact_velocity_m_s));
     FIGURES.into_iter().filter(move |(_, quantity)| match quantity {
-        Quantity::ContactForce => has_forces,
-        Quantity::ImpactVelocity => has_impacts,
+        ResponseQuantity::ContactForce => has_forces,
+        ResponseQuantity::ImpactVelocity => has_impacts,
         _ => true,
     })
 }
@@ -233,7 +233,11 @@ fn curves_of(store: &Store, piece: &PieceRecord) -> anyhow::Result<Vec<Bifurcati
         let mut points = Vec::new();
         store.each_varied_row::<StoreError>((piece.id, branch.branch), |row| {
             let name = codimension_two(&row.event);
-            points.push(CurvePoint { parameter: row.parameter, frequency_hz: row.frequency_hz, name });
+            points.push(BifurcationCurvePoint {
+                parameter: row.parameter,
+                frequency_hz: row.frequency_hz,
+                name,
+            });
             Ok(())
         })?;
         curves.push(BifurcationCurve { bifurcation, period_multiple: branch.period_multiple, points });

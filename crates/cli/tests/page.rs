@@ -18,7 +18,7 @@ use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
     PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
-    PageStructure, Quantity, SectionPlane,
+    PageStructure, ResponseQuantity, SectionPlane,
 };
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{Side, states_at_phase};
@@ -352,7 +352,7 @@ fn measured() -> PageMeasured {
     };
     PageMeasured {
         name: "compare".to_owned(),
-        quantity: Quantity::Displacement,
+        quantity: ResponseQuantity::Displacement,
         note: "They were compared with branches behind a filter.".to_owned(),
         points: vec![
             point(MeasuredMotion::Periodic, (22.0, 3e-3), (24.0, 4e-3)),

@@ -4,7 +4,8 @@
 use std::{f64::consts::TAU, fs, path::PathBuf, time::Instant};
 
 use hammerbeam_figure::{
-    Figure, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
+    Figure, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
+    Style,
 };
 
 /// A hardening peak: centre [Hz], half width [Hz], height [mm], lean [Hz].
@@ -44,17 +45,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         curves: all,
         ..harmonic.clone()
     };
-    write(&folder, "displacement", &harmonic, &[Quantity::Displacement], &logarithmic())?;
-    write(&folder, "acceleration", &harmonic, &[Quantity::Acceleration], &logarithmic())?;
-    write(&folder, "linear", &harmonic, &[Quantity::Displacement], &ResponseSettings::default())?;
+    write(&folder, "displacement", &harmonic, &[ResponseQuantity::Displacement], &logarithmic())?;
+    write(&folder, "acceleration", &harmonic, &[ResponseQuantity::Acceleration], &logarithmic())?;
+    write(&folder, "linear", &harmonic, &[ResponseQuantity::Displacement], &ResponseSettings::default())?;
     let dense = ResponseDiagram {
-        curves: vec![thicket()],
+        curves: vec![many_folds()],
         title: String::new(),
         frequency_range_hz: None,
         ..ResponseDiagram::default()
     };
-    write(&folder, "dense", &dense, &[Quantity::Displacement], &ResponseSettings::default())?;
-    let both = [Quantity::Displacement, Quantity::Acceleration];
+    write(&folder, "dense", &dense, &[ResponseQuantity::Displacement], &ResponseSettings::default())?;
+    let both = [ResponseQuantity::Displacement, ResponseQuantity::Acceleration];
     write(&folder, "all", &all, &both, &logarithmic())?;
     // Nine periods beside each other, to be looked at in grey as well.
     let lines = (1..10).map(|period| {
@@ -64,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         line
     });
     let periods = ResponseDiagram { curves: lines.collect(), frequency_range_hz: None, ..all.clone() };
-    write(&folder, "periods", &periods, &[Quantity::Displacement], &ResponseSettings::default())?;
+    write(&folder, "periods", &periods, &[ResponseQuantity::Displacement], &ResponseSettings::default())?;
     let column = ResponseSettings { style: Style::single_column(), ..logarithmic() };
     write(&folder, "column", &all, &both, &column)
 }
@@ -77,7 +78,7 @@ fn write(
     folder: &std::path::Path,
     name: &str,
     diagram: &ResponseDiagram,
-    quantities: &[Quantity],
+    quantities: &[ResponseQuantity],
     settings: &ResponseSettings,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
@@ -118,7 +119,7 @@ fn branch(period_multiple: u32, peaks: &[Peak], (from, to): (f64, f64), count: u
 }
 
 /// A branch that turns 1600 times and changes its stability 3300 times.
-fn thicket() -> ResponseCurve {
+fn many_folds() -> ResponseCurve {
     let wave = |i: u32| {
         let s = f64::from(i) / 1e5;
         let fine = (5e3 * s).sin();

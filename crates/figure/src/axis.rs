@@ -8,14 +8,14 @@ use crate::{
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Axis {
+pub(crate) struct PlotAxis {
     pub(crate) scale: Scale,
     pub(crate) ticks: Vec<Tick>,
     /// What it measures, with the unit.
     pub(crate) label: Text,
 }
 
-impl Axis {
+impl PlotAxis {
     /// An axis of a length on paper (pt), with a label about every `spacing` (pt).
     pub(crate) fn new(scale: Scale, label: Text, length: f64, spacing: f64) -> Self {
         Self::in_unit((scale, 1.0), label, length, spacing)
@@ -45,7 +45,7 @@ mod tests {
     fn ticks_of_another_unit_are_round_there_and_stand_where_the_data_have_them() {
         for kind in [ScaleKind::Linear, ScaleKind::Logarithmic] {
             let scale = Scale::exact(kind, (1.0, 50.0));
-            let axis = Axis::in_unit((scale, std::f64::consts::TAU), Text::default(), 300.0, 60.0);
+            let axis = PlotAxis::in_unit((scale, std::f64::consts::TAU), Text::default(), 300.0, 60.0);
             let labelled = axis.ticks.iter().filter_map(|tick| Some((tick.value, tick.label.as_deref()?)));
             let numbers: Vec<(f64, f64)> =
                 labelled.filter_map(|(value, label)| Some((value, label.parse().ok()?))).collect();

@@ -4,24 +4,26 @@
 use std::collections::BTreeSet;
 
 use crate::{
-    Figure, FigureError, MotionKind, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
-    style::{IMPOSSIBLE, INK, NOT_COMPUTED, PAPER, fill},
+    legend::{LegendEntry, LegendSample},
+    motion::MotionKind,
+    style::{IMPOSSIBLE, INK, NOT_COMPUTED, PAPER, Style, fill},
 };
 
 /// A plane of initial states.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BasinMap {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
-    /// What the horizontal axis shows, with its unit in brackets.
+    /// Label of the horizontal axis, with its unit in brackets.
     pub x_label: String,
-    /// What the vertical axis shows, with its unit in brackets.
+    /// Label of the vertical axis, with its unit in brackets.
     pub y_label: String,
-    /// Ends of the horizontal axis, those of the first and the last cell.
+    /// Ends of the horizontal axis, at the outer edges of the cells.
     pub x_range: (f64, f64),
     /// Ends of the vertical axis.
     pub y_range: (f64, f64),
@@ -30,25 +32,25 @@ pub struct BasinMap {
     /// Attractor of each cell, counted from 1, row by row from the lower left corner; 0 where it is not
     /// known. Cells that are still missing are left white.
     pub cells: Vec<u32>,
-    /// Whether each of these cells begins behind a rigid stop, where no motion can begin; may be shorter.
+    /// Whether each of these cells lies behind a rigid stop, where no motion can start; may be shorter.
     pub behind_stop: Vec<bool>,
     /// The attractors.
-    pub attractors: Vec<Destination>,
+    pub attractors: Vec<BasinAttractor>,
 }
 
 /// An attractor of a map.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Destination {
-    /// What it is.
+pub struct BasinAttractor {
+    /// Kind of its motion.
     pub kind: MotionKind,
     /// Number of the branch that holds it, where that is known.
     pub branch: Option<u32>,
-    /// Its places in the plane, where it lies in it.
+    /// Its points in the plane, if it lies in the plane.
     pub places: Vec<(f64, f64)>,
 }
 
 impl BasinMap {
-    /// The figure, in that style.
+    /// The figure, in a style.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there is no cell, or the axes have no length.
@@ -59,93 +61,93 @@ impl BasinMap {
             let points = self.cells.len();
             return Err(FigureError::Empty { quantity: "cell", curves: self.attractors.len(), points });
         }
-        let mut layers: Vec<Layer> = self.fates().map(|fate| self.layer(fate)).collect();
-        for destination in &self.attractors {
-            let points = destination.places.clone();
+        let mut layers: Vec<Layer> = self.outcomes().map(|outcome| self.layer(outcome)).collect();
+        for attractor in &self.attractors {
+            let points = attractor.places.clone();
             for (full, colour, radius) in [(true, PAPER, 2.2), (true, INK, 1.4)] {
                 let dot = Dot { shape: Shape::Circle, colour, full, radius };
                 layers.push(Layer::Dots { points: points.clone(), dot });
             }
         }
-        let panel = Panel {
+        let panel = ChartPanel {
             quantity: "cell",
             y: Measure::new(&self.y_label).between(self.y_range),
             layers,
             heading: String::new(),
         };
         let x = Measure::new(&self.x_label).between(self.x_range);
-        let legend = vec![self.fates().map(|fate| self.entry(fate)).collect(), self.note()];
+        let legend = vec![self.outcomes().map(|outcome| self.entry(outcome)).collect(), self.note()];
         let (title, description) = (self.title.clone(), self.description());
         Chart { title, x, panels: vec![panel], legend, description, aspect: Some(0.9) }.draw(style)
     }
 
-    /// What becomes of the motion from each cell.
-    fn each_fate(&self) -> impl Iterator<Item = Fate> + '_ {
+    /// Outcome of the motion from each cell.
+    fn outcome_of_each_cell(&self) -> impl Iterator<Item = CellOutcome> + '_ {
         self.cells.iter().enumerate().map(|(cell, number)| match number {
-            0 if self.behind_stop.get(cell) == Some(&true) => Fate::BehindStop,
-            0 => Fate::NotComputed,
-            number => Fate::Attractor(*number),
+            0 if self.behind_stop.get(cell) == Some(&true) => CellOutcome::BehindStop,
+            0 => CellOutcome::NotComputed,
+            number => CellOutcome::Attractor(*number),
         })
     }
 
-    /// All of those, once each.
-    fn fates(&self) -> impl Iterator<Item = Fate> + use<> {
-        self.each_fate().collect::<BTreeSet<Fate>>().into_iter()
+    /// All outcomes, once each.
+    fn outcomes(&self) -> impl Iterator<Item = CellOutcome> + use<> {
+        self.outcome_of_each_cell().collect::<BTreeSet<CellOutcome>>().into_iter()
     }
 
-    /// The cells of a fate, neighbours in a row joined.
-    fn layer(&self, fate: Fate) -> Layer {
-        let fates: Vec<Fate> = self.each_fate().collect();
+    /// The cells of an outcome, with neighbours in a row joined.
+    fn layer(&self, outcome: CellOutcome) -> Layer {
+        let outcomes: Vec<CellOutcome> = self.outcome_of_each_cell().collect();
         let step = |(from, to): (f64, f64)| (to - from) / self.cells_along as f64;
         let (width, height) = (step(self.x_range), step(self.y_range));
         let mut cells = Vec::new();
-        for (row, line) in fates.chunks(self.cells_along).enumerate() {
+        for (row, line) in outcomes.chunks(self.cells_along).enumerate() {
             let bottom = self.y_range.0 + row as f64 * height;
             let mut column = 0;
             for run in line.chunk_by(|a, b| a == b) {
                 let left = self.x_range.0 + column as f64 * width;
                 column += run.len();
-                if run[0] == fate {
+                if run[0] == outcome {
                     cells.push([left, self.x_range.0 + column as f64 * width, bottom, bottom + height]);
                 }
             }
         }
-        Layer::Cells { cells, colour: fate.colour() }
+        Layer::Cells { cells, colour: outcome.colour() }
     }
 
-    fn share(&self, fate: Fate) -> f64 {
-        self.each_fate().filter(|found| *found == fate).count() as f64 / self.cells.len() as f64
+    fn share(&self, outcome: CellOutcome) -> f64 {
+        self.outcome_of_each_cell().filter(|found| *found == outcome).count() as f64 / self.cells.len() as f64
     }
 
-    fn name(&self, fate: Fate) -> String {
-        let percent = format!("{:.1}\u{2009}%", 100.0 * self.share(fate));
-        let number = match fate {
-            Fate::BehindStop => return format!("begins behind a rigid stop, {percent}"),
-            Fate::NotComputed => return format!("not computed, {percent}"),
-            Fate::Attractor(number) => number,
+    fn name(&self, outcome: CellOutcome) -> String {
+        let percent = format!("{:.1}\u{2009}%", 100.0 * self.share(outcome));
+        let number = match outcome {
+            CellOutcome::BehindStop => return format!("starts behind a rigid stop, {percent}"),
+            CellOutcome::NotComputed => return format!("not computed, {percent}"),
+            CellOutcome::Attractor(number) => number,
         };
         match self.attractors.get(number as usize - 1) {
             None => format!("attractor {number}, {percent}"),
-            Some(Destination { kind, branch, .. }) => {
+            Some(BasinAttractor { kind, branch, .. }) => {
                 let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));
                 format!("{number}: {}{branch}, {percent}", kind.words())
             }
         }
     }
 
-    fn entry(&self, fate: Fate) -> Entry {
-        Entry { sample: Sample::Cell(fate.colour()), name: self.name(fate) }
+    fn entry(&self, outcome: CellOutcome) -> LegendEntry {
+        LegendEntry { sample: LegendSample::Cell(outcome.colour()), name: self.name(outcome) }
     }
 
-    fn note(&self) -> Vec<Entry> {
-        let has_places = self.attractors.iter().any(|destination| !destination.places.is_empty());
+    fn note(&self) -> Vec<LegendEntry> {
+        let has_places = self.attractors.iter().any(|attractor| !attractor.places.is_empty());
         let dot = Dot { shape: Shape::Circle, colour: INK, full: true, radius: 1.4 };
-        let entry = Entry { sample: Sample::Dot(dot), name: "attractor at phase 0".to_owned() };
+        let entry = LegendEntry { sample: LegendSample::Dot(dot), name: "attractor at phase 0".to_owned() };
         has_places.then_some(entry).into_iter().collect()
     }
 
     fn description(&self) -> String {
-        let names: Vec<String> = self.fates().map(|fate| self.name(fate)).collect();
+        let names: Vec<String> = self.outcomes().map(|outcome| self.name(outcome)).collect();
         let wanted = self.cells_along * self.cells_along;
         let missing = wanted.saturating_sub(self.cells.len());
         let missing =
@@ -159,17 +161,17 @@ impl BasinMap {
     }
 }
 
-/// What becomes of a motion from a cell.
+/// Outcome of the motion from a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Fate {
-    /// There is none: no state of the structure is there.
+enum CellOutcome {
+    /// No motion: the structure cannot have this state.
     BehindStop,
     NotComputed,
-    /// It leads to the attractor of that number, counted from 1.
+    /// The motion approaches the attractor of this number, counted from 1.
     Attractor(u32),
 }
 
-impl Fate {
+impl CellOutcome {
     fn colour(self) -> &'static str {
         match self {
             Self::BehindStop => IMPOSSIBLE,

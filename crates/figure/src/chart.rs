@@ -1,18 +1,20 @@
 //! A chart: panels on top of each other, each a frame with layers, under one title and one legend.
 //!
 //! Every figure but the response diagram and the curves is a function from its data to one of these. A value
-//! without a place on an axis (not finite, not positive on a logarithmic one, outside the ends) is a gap in a
-//! line and left out of a cloud; a panel without any is refused.
+//! without a position on an axis (not finite, not positive on a logarithmic one, outside the ends) is a gap
+//! in a line and left out of a cloud. A panel without any value is refused.
 
 use crate::{
-    Figure, FigureError, ScaleChoice, Style,
-    axis::Axis,
+    axis::PlotAxis,
+    error::FigureError,
+    figure::Figure,
     font::CAPITAL_HEIGHT,
     layer::Layer,
-    legend::{Entry, Legend},
+    legend::{Legend, LegendEntry},
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
-    scale::{Scale, ScaleKind, extent},
-    svg::{Anchor, Point, SvgWriter, points},
+    scale::{Scale, ScaleChoice, ScaleKind, extent},
+    style::Style,
+    svg::{Anchor, PagePoint, SvgWriter, points},
     text::{Text, wrap},
 };
 
@@ -23,15 +25,15 @@ const PANEL_GAP: f64 = 10.0;
 /// Distance of tick labels on the horizontal and vertical axis (pt).
 const TICK_SPACING: (f64, f64) = (42.0, 24.0);
 
-/// What an axis of a chart shows.
+/// Quantity and scale of an axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measure {
-    /// What it measures, with the unit.
+    /// Label with the unit.
     pub(crate) label: Text,
     pub(crate) choice: ScaleChoice,
-    /// Where it ends; a little beyond the data if not told.
+    /// Ends of the axis; `None` for slightly beyond the data.
     pub(crate) ends: Option<(f64, f64)>,
-    /// What its numbers are of the values of the data.
+    /// Factor from the values of the data to the numbers on the axis.
     pub(crate) factor: f64,
 }
 
@@ -63,7 +65,7 @@ impl Measure {
         self.choice.decide(values.filter(|value| ScaleKind::Linear.shows(*value)))
     }
 
-    /// The scale for values, of which none may have a place.
+    /// The scale for values; `None` if no value has a position on it.
     fn scale(&self, kind: ScaleKind, values: impl Iterator<Item = f64>) -> Option<Scale> {
         let (least, greatest) = extent(values.filter(|value| kind.shows(*value)))?;
         Some(match (self.ends, kind) {
@@ -83,12 +85,12 @@ impl Measure {
 
 /// A frame with layers, the first at the bottom.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Panel {
-    /// What is missing if there is nothing to draw, and what a description says.
+pub(crate) struct ChartPanel {
+    /// Name of the quantity in messages and descriptions.
     pub(crate) quantity: &'static str,
     pub(crate) y: Measure,
     pub(crate) layers: Vec<Layer>,
-    /// A few words in the upper left corner of the frame, above it; empty for none.
+    /// Heading above the upper left corner of the frame; may be empty.
     pub(crate) heading: String,
 }
 
@@ -97,11 +99,11 @@ pub(crate) struct Panel {
 pub(crate) struct Chart {
     pub(crate) title: String,
     pub(crate) x: Measure,
-    pub(crate) panels: Vec<Panel>,
-    pub(crate) legend: Vec<Vec<Entry>>,
-    /// In words, for readers that cannot see it.
+    pub(crate) panels: Vec<ChartPanel>,
+    pub(crate) legend: Vec<Vec<LegendEntry>>,
+    /// Description in words, for screen readers.
     pub(crate) description: String,
-    /// Height of a panel over its width; by default what the style has for a figure.
+    /// Height of a panel over its width; by default that of the style.
     pub(crate) aspect: Option<f64>,
 }
 
@@ -120,11 +122,11 @@ impl Chart {
         let title = wrap(&self.title, style.label_size, area.right - area.left);
         for (i, line) in title.iter().enumerate() {
             let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
-            svg.text(Point { x: area.left, y }, line, lettering(style.label_size, Anchor::Start));
+            svg.text(PagePoint { x: area.left, y }, line, lettering(style.label_size, Anchor::Start));
         }
         let y = MARGIN + 1.5 * title.len() as f64 * style.label_size;
         let legend = Legend::new(self.legend.clone(), style, area.right - area.left);
-        legend.draw(&mut svg, Point { x: area.left, y }, style);
+        legend.draw(&mut svg, PagePoint { x: area.left, y }, style);
         for (plot, panel) in &plots {
             plot.draw_grid(&mut svg, style);
             panel
@@ -139,16 +141,16 @@ impl Chart {
                 .filter(|layer| !layer.is_ground())
                 .for_each(|layer| layer.draw(&mut svg, plot, style));
             if !panel.heading.is_empty() {
-                let at = Point { x: plot.area.left, y: plot.area.top - 2.5 };
+                let at = PagePoint { x: plot.area.left, y: plot.area.top - 2.5 };
                 svg.text(at, &Text::upright(&panel.heading), lettering(style.tick_size, Anchor::Start));
             }
         }
         Ok(Figure::new(svg.finish(), self.description.clone(), style.width_mm, height_mm))
     }
 
-    fn plots(&self, style: &Style) -> Result<Vec<(Plot, &Panel)>, FigureError> {
+    fn plots(&self, style: &Style) -> Result<Vec<(Plot, &ChartPanel)>, FigureError> {
         let values = || self.panels.iter().flat_map(|panel| &panel.layers).flat_map(Layer::extremes);
-        let empty = |panel: &Panel| FigureError::Empty {
+        let empty = |panel: &ChartPanel| FigureError::Empty {
             quantity: panel.quantity,
             curves: panel.layers.len(),
             points: panel.layers.iter().map(|layer| layer.extremes().len()).sum(),
@@ -159,10 +161,10 @@ impl Chart {
         let scales = self.panels.iter().map(|panel| panel.scale(&across).ok_or_else(|| empty(panel)));
         let scales: Vec<Scale> = scales.collect::<Result<_, _>>()?;
         let guess = points(style.height_mm) * if scales.len() > 1 { 0.5 } else { 0.7 };
-        let axis = |(scale, panel): (&Scale, &Panel), height: f64| {
-            Axis::new(*scale, panel.y.label.clone(), height, TICK_SPACING.1)
+        let axis = |(scale, panel): (&Scale, &ChartPanel), height: f64| {
+            PlotAxis::new(*scale, panel.y.label.clone(), height, TICK_SPACING.1)
         };
-        let axes: Vec<Axis> = scales.iter().zip(&self.panels).map(|pair| axis(pair, guess)).collect();
+        let axes: Vec<PlotAxis> = scales.iter().zip(&self.panels).map(|pair| axis(pair, guess)).collect();
         let labels = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, labels);
         let right = points(style.width_mm)
@@ -173,7 +175,8 @@ impl Chart {
         let head = MARGIN + 1.5 * title * style.label_size + legend + GAP;
         let longest = axes.iter().map(|axis| axis.label.width(style.label_size)).fold(0.0, f64::max);
         let height = self.aspect.map_or(guess, |aspect| aspect * (right - left)).max(longest);
-        let x = Axis::in_unit((across, self.x.factor), self.x.label.clone(), right - left, TICK_SPACING.0);
+        let x =
+            PlotAxis::in_unit((across, self.x.factor), self.x.label.clone(), right - left, TICK_SPACING.0);
         let last = self.panels.len() - 1;
         let mut top = head;
         Ok(scales
@@ -190,7 +193,7 @@ impl Chart {
     }
 }
 
-impl Panel {
+impl ChartPanel {
     /// The scale for what lies between the ends of the horizontal axis.
     fn scale(&self, across: &Scale) -> Option<Scale> {
         let inside = |x: f64| across.kind.shows(x) && (across.from..=across.to).contains(&x);

@@ -1,20 +1,22 @@
 //! Curves of bifurcations: the excitation frequency over a second parameter, with the points of codimension
 //! two.
 //!
-//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it,
-//! where that covers neither the frame nor a curve nor another name, if there is such a place.
+//! Colour and dashes show the bifurcation. A point of codimension two has a dot with its name next to it,
+//! where it overlaps neither the frame nor a curve nor another name, if there is such a position.
 
 use crate::{
-    Figure, FigureError, Style,
-    axis::Axis,
+    axis::PlotAxis,
+    bifurcation::Bifurcation,
     decimate::decimate,
+    error::FigureError,
+    figure::Figure,
     font::CAPITAL_HEIGHT,
-    legend::{Entry, Legend, Sample},
+    legend::{Legend, LegendEntry, LegendSample},
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleChoice, ScaleKind, extent},
-    style::{Pattern, bifurcation_pattern},
-    svg::{Anchor, Dashes, Point, Stroke, SvgWriter, points},
+    style::{Pattern, Style, bifurcation_pattern},
+    svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
     text::{Text, wrap},
 };
 
@@ -29,52 +31,38 @@ const NAME_GAP: f64 = 4.0;
 /// Curves of bifurcations over one parameter.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CurveDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
-    /// What the horizontal axis shows, with its unit in brackets.
+    /// Label of the horizontal axis, with its unit in brackets.
     pub parameter: String,
     /// The curves, in the order in which they are drawn.
     pub curves: Vec<BifurcationCurve>,
 }
 
-/// What a curve is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Bifurcation {
-    /// A multiplier of +1.
-    #[default]
-    Fold,
-    /// A multiplier of −1.
-    Flip,
-    /// A complex pair on the unit circle.
-    NeimarkSacker,
-    /// A contact that is touched with zero velocity.
-    Grazing,
-}
-
 /// A curve of bifurcations.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BifurcationCurve {
-    /// What it is of.
+    /// The bifurcation.
     pub bifurcation: Bifurcation,
     /// Period of the solutions over the period of the excitation, from 1.
     pub period_multiple: u32,
     /// Its points in order.
-    pub points: Vec<CurvePoint>,
+    pub points: Vec<BifurcationCurvePoint>,
 }
 
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct CurvePoint {
+pub struct BifurcationCurvePoint {
     /// Value of the parameter, in the unit of its axis.
     pub parameter: f64,
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
-    /// Name of the point of codimension two; empty where there is none.
+    /// Name of the point of codimension two; empty for other points.
     pub name: String,
 }
 
 impl CurveDiagram {
-    /// The figure, of that style.
+    /// The figure, in a style.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no curve has a finite point.
@@ -95,10 +83,10 @@ impl CurveDiagram {
         let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.title, &description);
         for (i, line) in title.iter().enumerate() {
             let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
-            svg.text(Point { x: plot.area.left, y }, line, lettering(style.label_size, Anchor::Start));
+            svg.text(PagePoint { x: plot.area.left, y }, line, lettering(style.label_size, Anchor::Start));
         }
         let below_title = MARGIN + 1.5 * title.len() as f64 * style.label_size;
-        legend.draw(&mut svg, Point { x: plot.area.left, y: below_title }, style);
+        legend.draw(&mut svg, PagePoint { x: plot.area.left, y: below_title }, style);
         plot.draw_grid(&mut svg, style);
         plot.draw_axes(&mut svg, style);
         for curve in &self.curves {
@@ -112,10 +100,10 @@ impl CurveDiagram {
         let plot_height = points(style.height_mm) - room_below(style);
         let unit = style.frequency_unit;
         let label = Text::upright(unit.label("Excitation frequency"));
-        let y = Axis::in_unit((up, unit.factor()), label, 0.85 * plot_height, TICK_SPACING.1);
+        let y = PlotAxis::in_unit((up, unit.factor()), label, 0.85 * plot_height, TICK_SPACING.1);
         let left = room_left(style, y.label_width(style.tick_size));
         let right = points(style.width_mm) - MARGIN - room_right(style, (&across, 1.0), left, TICK_SPACING.0);
-        let x = Axis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
+        let x = PlotAxis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left);
         let legend = Legend::new(vec![self.entries()], style, right - left);
         let top = MARGIN + 1.5 * title.len() as f64 * style.label_size + legend.height(style) + GAP;
@@ -123,16 +111,17 @@ impl CurveDiagram {
         (Plot { area, x, y, labelled_below: true }, legend, title)
     }
 
-    /// Each kind of curve once.
-    fn entries(&self) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = Vec::new();
+    /// Entries of the legend, one per kind of curve.
+    fn entries(&self) -> Vec<LegendEntry> {
+        let mut entries: Vec<LegendEntry> = Vec::new();
         for curve in self.curves.iter().filter(|curve| !curve.points.is_empty()) {
             let kind = curve.bifurcation.name();
             let name = match curve.period_multiple {
                 0 | 1 => kind.to_owned(),
                 multiple => format!("{kind} of the 1/{multiple} subharmonic"),
             };
-            let entry = Entry { sample: Sample::Pattern(bifurcation_pattern(curve.bifurcation)), name };
+            let entry =
+                LegendEntry { sample: LegendSample::Pattern(bifurcation_pattern(curve.bifurcation)), name };
             if !entries.contains(&entry) {
                 entries.push(entry);
             }
@@ -148,19 +137,19 @@ impl CurveDiagram {
         format!("excitation frequency over {}, {curves} {what} of bifurcations{marked}", self.parameter)
     }
 
-    fn named(&self) -> impl Iterator<Item = &CurvePoint> {
+    fn named(&self) -> impl Iterator<Item = &BifurcationCurvePoint> {
         self.curves.iter().flat_map(|curve| &curve.points).filter(|point| !point.name.is_empty())
     }
 
-    /// Dots and names of the points of codimension two; one that lies on another with the same name is that
-    /// one.
+    /// Draws dots and names of the points of codimension two; coinciding ones with the same name are drawn
+    /// once.
     fn draw_names(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
-        let lines: Vec<Vec<Point>> = self.curves.iter().map(|curve| line(plot, curve, style)).collect();
+        let lines: Vec<Vec<PagePoint>> = self.curves.iter().map(|curve| line(plot, curve, style)).collect();
         let mut taken: Vec<Area> = Vec::new();
-        let mut done: Vec<(Point, &str)> = Vec::new();
+        let mut done: Vec<(PagePoint, &str)> = Vec::new();
         for point in self.named() {
             let at = plot.place(point.parameter, point.frequency_hz);
-            let is_same = |(other, name): &(Point, &str)| {
+            let is_same = |(other, name): &(PagePoint, &str)| {
                 *name == point.name && (other.x - at.x).hypot(other.y - at.y) < style.mark_distance
             };
             if done.iter().any(is_same) {
@@ -178,7 +167,7 @@ impl CurveDiagram {
             };
             let place = boxes.iter().find(is_free).unwrap_or(&boxes[0]);
             svg.text(
-                Point { x: place.left, y: place.bottom },
+                PagePoint { x: place.left, y: place.bottom },
                 &text,
                 lettering(style.tick_size, Anchor::Start),
             );
@@ -187,18 +176,7 @@ impl CurveDiagram {
     }
 }
 
-impl Bifurcation {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Fold => "fold",
-            Self::Flip => "flip",
-            Self::NeimarkSacker => "Neimark–Sacker",
-            Self::Grazing => "grazing",
-        }
-    }
-}
-
-/// A scale about as long as the data: what lies between a curve and zero says nothing here.
+/// A scale close around the data, which need not include zero.
 fn close_around(kind: ScaleKind, (least, greatest): (f64, f64)) -> Scale {
     if kind == ScaleKind::Linear && greatest > least {
         let margin = 0.05 * (greatest - least);
@@ -216,19 +194,19 @@ fn draw_curve(svg: &mut SvgWriter, plot: &Plot, curve: &BifurcationCurve, style:
 }
 
 /// A curve on the page, in as few points as give the same line.
-fn line(plot: &Plot, curve: &BifurcationCurve, style: &Style) -> Vec<Point> {
-    let shown = |point: &&CurvePoint| {
+fn line(plot: &Plot, curve: &BifurcationCurve, style: &Style) -> Vec<PagePoint> {
+    let shown = |point: &&BifurcationCurvePoint| {
         plot.x.scale.kind.shows(point.parameter) && plot.y.scale.kind.shows(point.frequency_hz)
     };
-    let visible: Vec<&CurvePoint> = curve.points.iter().filter(shown).collect();
-    let line: Vec<Point> =
+    let visible: Vec<&BifurcationCurvePoint> = curve.points.iter().filter(shown).collect();
+    let line: Vec<PagePoint> =
         visible.iter().map(|point| plot.place(point.parameter, point.frequency_hz)).collect();
     let keep: Vec<bool> = visible.iter().map(|point| !point.name.is_empty()).collect();
     decimate(&line, &keep, style.line_tolerance).into_iter().map(|k| line[k]).collect()
 }
 
-/// Whether a line passes a box, looked at in steps of half a point.
-fn crosses(line: &[Point], place: &Area) -> bool {
+/// Whether a line crosses a box, checked in steps of half a point.
+fn crosses(line: &[PagePoint], place: &Area) -> bool {
     line.windows(2).any(|pair| {
         let (dx, dy) = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
         let steps = (2.0 * dx.hypot(dy)).ceil().max(1.0) as u32;
@@ -240,8 +218,8 @@ fn crosses(line: &[Point], place: &Area) -> bool {
     })
 }
 
-/// Where a name may stand beside its dot, the best first.
-fn places(at: Point, (width, height): (f64, f64)) -> [Area; 6] {
+/// Possible positions of a name next to its dot, the best first.
+fn places(at: PagePoint, (width, height): (f64, f64)) -> [Area; 6] {
     let box_at = |left: f64, bottom: f64| Area { left, right: left + width, top: bottom - height, bottom };
     let (right, left) = (at.x + NAME_GAP, at.x - NAME_GAP - width);
     let (above, below) = (at.y - NAME_GAP, at.y + NAME_GAP + height);

@@ -1,7 +1,7 @@
 //! Fewer points for the same line.
 //!
-//! A branch has far more points than paper has dots. Points nearer to the last kept one than a fraction of
-//! the tolerance go first, in one pass; Douglas and Peucker's method takes the rest. Distances are to the
+//! A branch has far more points than paper has dots. A first pass removes points closer to the last kept one
+//! than a fraction of the tolerance; then Douglas and Peucker's method is applied. Distances are to the
 //! *segment* between two kept points, not to its line, so that a branch that runs back on itself keeps its
 //! turning points.
 //!
@@ -9,16 +9,16 @@
 //! Douglas and Peucker, Cartographica 10 (1973), 112-122; the distance to the segment instead of the line is
 //! ours.
 
-use crate::svg::Point;
+use crate::svg::PagePoint;
 
-/// Part of the tolerance that the first pass may use.
+/// Fraction of the tolerance for the first pass.
 const MERGING_SHARE: f64 = 0.2;
 
-/// Indices, rising, of the points to keep; every left out point is within `tolerance` of the line through
-/// those.
+/// Ascending indices of the points to keep; every omitted point is within `tolerance` of the line through
+/// them.
 ///
 /// * `keep`: points that must stay, one entry for each point; the first and the last one always do.
-pub(crate) fn decimate(points: &[Point], keep: &[bool], tolerance: f64) -> Vec<usize> {
+pub(crate) fn decimate(points: &[PagePoint], keep: &[bool], tolerance: f64) -> Vec<usize> {
     let candidates = merge_close(points, keep, MERGING_SHARE * tolerance);
     let mut kept = vec![false; candidates.len()];
     let mut anchor = 0;
@@ -33,7 +33,7 @@ pub(crate) fn decimate(points: &[Point], keep: &[bool], tolerance: f64) -> Vec<u
 }
 
 /// Leaves out points within `tolerance` of the last kept one.
-fn merge_close(points: &[Point], keep: &[bool], tolerance: f64) -> Vec<usize> {
+fn merge_close(points: &[PagePoint], keep: &[bool], tolerance: f64) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for (i, &point) in points.iter().enumerate() {
         let end = i == 0 || i + 1 == points.len();
@@ -45,9 +45,9 @@ fn merge_close(points: &[Point], keep: &[bool], tolerance: f64) -> Vec<usize> {
     kept
 }
 
-/// Douglas and Peucker's method on `candidates[first..=last]`, with a stack of its own.
+/// Douglas and Peucker's method on `candidates[first..=last]`, with an explicit stack.
 fn thin_between(
-    points: &[Point],
+    points: &[PagePoint],
     candidates: &[usize],
     first: usize,
     last: usize,
@@ -72,12 +72,12 @@ fn thin_between(
 }
 
 /// Distance between two places (pt).
-pub(crate) fn distance(a: Point, b: Point) -> f64 {
+pub(crate) fn distance(a: PagePoint, b: PagePoint) -> f64 {
     (a.x - b.x).hypot(a.y - b.y)
 }
 
 /// Distance of `point` to the nearest place of the segment from `start` to `end`.
-fn distance_to_segment(point: Point, start: Point, end: Point) -> f64 {
+fn distance_to_segment(point: PagePoint, start: PagePoint, end: PagePoint) -> f64 {
     let (along_x, along_y) = (end.x - start.x, end.y - start.y);
     let length_squared = along_x * along_x + along_y * along_y;
     if length_squared == 0.0 {
@@ -85,7 +85,7 @@ fn distance_to_segment(point: Point, start: Point, end: Point) -> f64 {
     }
     let share = ((point.x - start.x) * along_x + (point.y - start.y) * along_y) / length_squared;
     let share = share.clamp(0.0, 1.0);
-    distance(point, Point { x: start.x + share * along_x, y: start.y + share * along_y })
+    distance(point, PagePoint { x: start.x + share * along_x, y: start.y + share * along_y })
 }
 
 #[cfg(test)]
@@ -94,8 +94,8 @@ mod tests {
 
     use super::*;
 
-    /// Greatest distance of the points between two kept ones to the segment that stands for them.
-    fn greatest_error(points: &[Point], kept: &[usize]) -> f64 {
+    /// Greatest distance of the points between two kept ones to the segment between these.
+    fn greatest_error(points: &[PagePoint], kept: &[usize]) -> f64 {
         kept.windows(2)
             .flat_map(|pair| {
                 let (start, end) = (points[pair[0]], points[pair[1]]);
@@ -111,9 +111,12 @@ mod tests {
             steps in prop::collection::vec((-1.0..1.0, -1.0..1.0, prop::bool::weighted(0.02)), 1..400),
             tolerance in 0.01..3.0,
         ) {
-            let mut at = Point { x: 0.0, y: 0.0 };
-            let points: Vec<Point> =
-                steps.iter().map(|step| { at = Point { x: at.x + step.0, y: at.y + step.1 }; at }).collect();
+            let mut at = PagePoint { x: 0.0, y: 0.0 };
+            let mut after = |step: &(f64, f64, bool)| {
+                at = PagePoint { x: at.x + step.0, y: at.y + step.1 };
+                at
+            };
+            let points: Vec<PagePoint> = steps.iter().map(&mut after).collect();
             let keep: Vec<bool> = steps.iter().map(|step| step.2).collect();
             let kept = decimate(&points, &keep, tolerance);
             prop_assert_eq!(kept[0], 0);
@@ -126,14 +129,14 @@ mod tests {
 
     #[test]
     fn a_straight_line_keeps_its_ends() {
-        let points: Vec<Point> =
-            (0..1000).map(|i| Point { x: f64::from(i), y: 2.0 * f64::from(i) }).collect();
+        let points: Vec<PagePoint> =
+            (0..1000).map(|i| PagePoint { x: f64::from(i), y: 2.0 * f64::from(i) }).collect();
         assert_eq!(decimate(&points, &[false; 1000], 0.01), [0, 999]);
     }
 
     #[test]
     fn a_line_that_runs_back_on_itself_keeps_its_turning_point() {
-        let points = [0.0, 5.0, 10.0, 6.0, 3.0].map(|x| Point { x, y: 1.0 });
+        let points = [0.0, 5.0, 10.0, 6.0, 3.0].map(|x| PagePoint { x, y: 1.0 });
         assert_eq!(decimate(&points, &[false; 5], 0.01), [0, 2, 4]);
     }
 }

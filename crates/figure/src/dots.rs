@@ -1,17 +1,17 @@
-//! Dots: solutions and motions that no line joins, told apart by shape as well as by colour.
+//! Dots: solutions and motions without lines, distinguished by shape and colour.
 
 use std::collections::HashSet;
 
 use crate::{
     marks::{circle, square, triangle},
     style::PAPER,
-    svg::{Point, Stroke, SvgWriter, number},
+    svg::{PagePoint, Stroke, SvgWriter, number},
 };
 
 /// Shape of a dot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// As small as can be seen: for clouds of thousands.
+    /// The smallest visible dot, for clouds of thousands.
     Speck,
     Circle,
     Square,
@@ -31,12 +31,12 @@ pub(crate) struct Dot {
 }
 
 impl Dot {
-    /// Draws the dot at each place; of those that would cover each other to the pixel one is drawn.
-    pub(crate) fn draw(self, svg: &mut SvgWriter, places: &[Point]) {
+    /// Draws the dot at each place; of dots that coincide to the pixel one is drawn.
+    pub(crate) fn draw(self, svg: &mut SvgWriter, places: &[PagePoint]) {
         let mut taken = HashSet::new();
         let apart = 0.25 * self.radius;
         let is_new =
-            |at: &&Point| taken.insert(((at.x / apart).round() as i64, (at.y / apart).round() as i64));
+            |at: &&PagePoint| taken.insert(((at.x / apart).round() as i64, (at.y / apart).round() as i64));
         let data: String = places.iter().filter(is_new).map(|&at| self.outline(at)).collect();
         if data.is_empty() {
             return;
@@ -46,7 +46,7 @@ impl Dot {
         svg.path(&data, fill, Stroke { colour: self.colour, width });
     }
 
-    fn outline(self, at: Point) -> String {
+    fn outline(self, at: PagePoint) -> String {
         let r = self.radius;
         match self.shape {
             Shape::Speck => square(at, r),
@@ -58,7 +58,7 @@ impl Dot {
     }
 }
 
-fn triangle_down(at: Point, radius: f64) -> String {
+fn triangle_down(at: PagePoint, radius: f64) -> String {
     let (half, height) = (radius * 0.75f64.sqrt(), 1.5 * radius);
     let start = format!("M{} {}", number(at.x), number(at.y + radius));
     format!("{start}l-{} -{}h{}z", number(half), number(height), number(2.0 * half))
@@ -72,7 +72,7 @@ mod tests {
     fn dots_that_cover_each_other_are_drawn_once() {
         let dot = Dot { shape: Shape::Speck, colour: "#000000", full: true, radius: 0.4 };
         let mut svg = SvgWriter::new(10.0, 10.0, "", "");
-        let at = |x: f64| Point { x, y: 1.0 };
+        let at = |x: f64| PagePoint { x, y: 1.0 };
         dot.draw(&mut svg, &[at(1.0), at(1.0), at(1.001), at(2.0)]);
         assert_eq!(svg.finish().text.matches('M').count(), 2);
     }

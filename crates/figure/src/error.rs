@@ -15,16 +15,17 @@ pub enum FigureError {
     NoQuantity,
     /// The ends of the frequency axis are not finite numbers in rising order.
     #[error(
-        "the frequency axis must run from a lower to a higher finite frequency, not from {from_hz} to {to_hz} Hz"
+        "the frequency axis must run from a lower to a higher finite frequency, not from {from_hz} to \
+         {to_hz} Hz"
     )]
     FrequencyRange { from_hz: f64, to_hz: f64 },
-    /// A sketch of so many masses could not be read.
+    /// More masses than a sketch can show.
     #[error("a sketch has room for {most} masses, the structure has {masses}")]
     Crowded { masses: usize, most: usize },
-    /// The PNG would be useless or would not fit into memory.
+    /// The PNG would be useless or too large for memory.
     #[error("{pixels_per_inch} pixels per inch is outside the allowed 24 to 1200")]
     Resolution { pixels_per_inch: f64 },
-    /// The renderer did not take our SVG, which is a bug of this crate.
+    /// The renderer rejected the SVG, which is a bug of this crate.
     #[error("the renderer refused the figure: {reason}")]
     Rendering { reason: String },
 }

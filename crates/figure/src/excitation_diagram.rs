@@ -1,21 +1,22 @@
-//! The amplitude of the excitation over the frequency, as it is computed with and as it was measured.
+//! The amplitude of the excitation over the frequency, in the computation and as measured.
 
 use crate::{
-    Figure, FigureError, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
+    legend::{LegendEntry, LegendSample},
     scale::extent,
-    style::{INK, line_pattern},
+    style::{INK, Style, line_pattern},
 };
 
 /// Amplitudes of an excitation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExcitationDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
-    /// What the amplitude is of, with the unit: the label of the vertical axis.
+    /// Label of the vertical axis: the quantity with its unit.
     pub quantity: String,
     /// Frequency (Hz) and amplitude, in order.
     pub rows: Vec<(f64, f64)>,
@@ -28,7 +29,7 @@ pub struct ExcitationDiagram {
 }
 
 impl ExcitationDiagram {
-    /// The figure; its vertical axis begins at zero.
+    /// The figure; its vertical axis starts at zero.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no row is finite.
@@ -39,14 +40,15 @@ impl ExcitationDiagram {
         let dot = Dot { shape: Shape::Square, colour: INK, full: false, radius: 1.3 * style.mark_radius };
         let mut legend = Vec::new();
         if !self.measured.is_empty() {
-            let (line, dots) = (Sample::Pattern(line_pattern(0)), Sample::Dot(dot));
-            legend.push(Entry { sample: line, name: "computed with".to_owned() });
-            legend.push(Entry { sample: dots, name: "measured".to_owned() });
+            let (line, dots) = (LegendSample::Pattern(line_pattern(0)), LegendSample::Dot(dot));
+            legend.push(LegendEntry { sample: line, name: "computed with".to_owned() });
+            legend.push(LegendEntry { sample: dots, name: "measured".to_owned() });
         }
         let named = self.names.iter().enumerate();
-        legend.extend(
-            named.map(|(k, name)| Entry { sample: Sample::Pattern(line_pattern(k)), name: name.clone() }),
-        );
+        legend.extend(named.map(|(k, name)| LegendEntry {
+            sample: LegendSample::Pattern(line_pattern(k)),
+            name: name.clone(),
+        }));
         let mut layers = vec![Layer::Line { points: self.rows.clone(), pattern: line_pattern(0) }];
         for (k, values) in self.further.iter().enumerate() {
             let points = self.rows.iter().zip(values).map(|((frequency, _), value)| (*frequency, *value));
@@ -55,7 +57,7 @@ impl ExcitationDiagram {
         layers.push(Layer::Dots { points: self.measured.clone(), dot });
         let y = Measure::new(self.quantity.clone());
         let y = if largest > 0.0 { y.between((0.0, 1.06 * largest)) } else { y };
-        let panels = vec![Panel { quantity: "amplitude", y, layers, heading: String::new() }];
+        let panels = vec![ChartPanel { quantity: "amplitude", y, layers, heading: String::new() }];
         let measured = match self.measured.len() {
             0 => String::new(),
             count => format!(", {count} measured"),

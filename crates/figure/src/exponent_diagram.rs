@@ -1,27 +1,28 @@
 //! Lyapunov exponents over the frequency, and how they converge.
 
 use crate::{
-    Figure, FigureError, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
-    style::{INK, PALE_INK, Pattern, line_pattern},
+    legend::{LegendEntry, LegendSample},
+    style::{INK, PALE_INK, Pattern, Style, line_pattern},
 };
 
-/// Most exponents of which the convergence is drawn.
+/// Largest number of exponents whose convergence is drawn.
 const MOST: usize = 6;
 
 /// The largest exponent and the dimension over the frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExponentDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// By rising frequency.
     pub points: Vec<ExponentPoint>,
 }
 
-/// What is known of the exponents at a frequency.
+/// The largest exponent at a frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExponentPoint {
     /// Excitation frequency (Hz).
@@ -35,7 +36,7 @@ pub struct ExponentPoint {
 }
 
 impl ExponentDiagram {
-    /// The figure, in that style.
+    /// The figure, in a style.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no exponent, or no dimension, is finite.
@@ -61,7 +62,7 @@ impl ExponentDiagram {
             Layer::Line { points: dimension.clone(), pattern: pale },
             Layer::Dots { points: dimension, dot },
         ];
-        let panel = |quantity, label: &str, layers| Panel {
+        let panel = |quantity, label: &str, layers| ChartPanel {
             quantity,
             y: Measure::new(label),
             layers,
@@ -71,8 +72,8 @@ impl ExponentDiagram {
             panel("largest exponent", "Largest exponent (1/s)", exponents),
             panel("dimension", "Kaplan–Yorke dimension (–)", dimensions),
         ];
-        let legend = vec![vec![Entry {
-            sample: Sample::Dot(dot),
+        let legend = vec![vec![LegendEntry {
+            sample: LegendSample::Dot(dot),
             name: "mean, with its interval of 95 per cent".to_owned(),
         }]];
         let x = Measure::frequency("Excitation frequency", style);
@@ -83,10 +84,10 @@ impl ExponentDiagram {
     }
 }
 
-/// Exponents after ever longer times.
+/// Exponents over the averaging time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ConvergenceDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
@@ -113,10 +114,10 @@ impl ConvergenceDiagram {
         let mut layers = vec![Layer::Levels { at: vec![0.0] }];
         layers.extend((0..drawn).map(line));
         let name = |k: usize| if k == 0 { "1 (largest)".to_owned() } else { (k + 1).to_string() };
-        let entry = |k: usize| Entry { sample: Sample::Pattern(line_pattern(k)), name: name(k) };
+        let entry = |k: usize| LegendEntry { sample: LegendSample::Pattern(line_pattern(k)), name: name(k) };
         let legend = vec![(0..drawn).map(entry).collect()];
         let y = Measure::new("Lyapunov exponent (1/s)");
-        let panels = vec![Panel { quantity: "exponent", y, layers, heading: String::new() }];
+        let panels = vec![ChartPanel { quantity: "exponent", y, layers, heading: String::new() }];
         let description = format!(
             "convergence of the {drawn} largest of {all} Lyapunov exponents at {}",
             style.frequency_unit.words(self.frequency_hz)

@@ -1,18 +1,18 @@
 //! A finished figure.
 
-use crate::{FigureError, pdf, png, svg::Document};
+use crate::{error::FigureError, pdf, png, svg::SvgDocument};
 
 /// A finished figure: an SVG document and its size on paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    svg: Document,
+    svg: SvgDocument,
     description: String,
     width_mm: f64,
     height_mm: f64,
 }
 
 impl Figure {
-    pub(crate) fn new(svg: Document, description: String, width_mm: f64, height_mm: f64) -> Self {
+    pub(crate) fn new(svg: SvgDocument, description: String, width_mm: f64, height_mm: f64) -> Self {
         Self { svg, description, width_mm, height_mm }
     }
 
@@ -33,22 +33,21 @@ impl Figure {
     /// The figure as a PDF file of one page; text is text, in the glyphs that it uses.
     ///
     /// # Errors
-    /// [`FigureError::Rendering`] if a figure has what the writer does not know, which is a bug of this
+    /// [`FigureError::Rendering`] if a figure has elements unknown to the writer, which is a bug of this
     /// crate.
     pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
         let (svg, size_mm) = (&self.svg, [self.width_mm, self.height_mm]);
         pdf::pdf(&svg.text, &svg.characters, &self.description, size_mm)
     }
 
-    /// What the figure shows, in words, with the number of solutions and of marks that were left out where
-    /// they overlap.
+    /// Description of the figure, with the number of solutions and of overlapping marks that were left out.
     #[must_use]
     pub fn description(&self) -> &str {
         &self.description
     }
 
-    /// Characters of its texts that the bundled font lacks, in the order of their codes; the replacement
-    /// character � stands for each.
+    /// Characters of its texts that are missing in the bundled font, in the order of their codes; each is
+    /// drawn as the replacement character �.
     pub fn characters_lacking(&self) -> impl Iterator<Item = char> + '_ {
         self.svg.lacking.iter().copied()
     }

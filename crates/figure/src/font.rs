@@ -4,6 +4,9 @@
 //! the font; kerning is left out, which is good to about 1 % of a line.
 
 mod subset;
+mod tables;
+
+pub(crate) use tables::{glyph_index, read_u16, table};
 
 use std::collections::BTreeSet;
 
@@ -32,7 +35,7 @@ pub(crate) struct Characters {
 }
 
 impl Characters {
-    /// The faces with these characters as an element of an SVG; empty where there are none.
+    /// The faces with these characters as an element of an SVG; may be empty.
     pub(crate) fn style_element(&self) -> String {
         let faces =
             [(UPRIGHT, &self.upright, "Regular", ""), (ITALIC, &self.italic, "Italic", ";font-style:italic")];
@@ -48,9 +51,9 @@ impl Characters {
     }
 }
 
-/// A face with these characters alone; `None` where its tables cannot be read.
+/// A face with these characters only; `None` if its tables cannot be read.
 ///
-/// * `style`: the part of its name behind that of the family.
+/// * `style`: the part of its name after the family.
 pub(crate) fn with_characters(face: &[u8], characters: &BTreeSet<char>, style: &str) -> Option<Vec<u8>> {
     subset::subset(face, characters, [BUNDLED_FAMILY, style, &format!("{BUNDLED_FAMILY}-{style}")])
 }
@@ -74,47 +77,6 @@ fn advance(face: &[u8], character: char) -> Option<f64> {
     Some(f64::from(advance) / f64::from(units_per_em))
 }
 
-/// Start of a table of the font.
-pub(crate) fn table(face: &[u8], tag: &[u8; 4]) -> Option<usize> {
-    let tables = usize::from(read_u16(face, 4)?);
-    let record = face.get(12..12 + 16 * tables)?.chunks_exact(16).find(|record| &record[..4] == tag)?;
-    Some(u32::from_be_bytes(record[8..12].try_into().ok()?) as usize)
-}
-
-/// Glyph of a character of the basic plane, by the format-4 subtable of `cmap`; 0 (missing) gives `None`.
-pub(crate) fn glyph_index(face: &[u8], code: u16) -> Option<u16> {
-    let cmap = table(face, b"cmap")?;
-    let subtables = usize::from(read_u16(face, cmap + 2)?);
-    let map = (0..subtables)
-        .filter_map(|i| Some(cmap + read_u32(face, cmap + 8 + 8 * i)? as usize))
-        .find(|&start| read_u16(face, start) == Some(4))?;
-    let doubled = usize::from(read_u16(face, map + 6)?);
-    let (ends, starts) = (map + 14, map + 16 + doubled);
-    let segment =
-        (0..doubled).step_by(2).find(|i| read_u16(face, ends + i).is_some_and(|end| end >= code))?;
-    let offset_into_segment = code.checked_sub(read_u16(face, starts + segment)?)?;
-    let delta = read_u16(face, starts + doubled + segment)?;
-    let range_at = starts + 2 * doubled + segment;
-    let glyph = match read_u16(face, range_at)? {
-        0 => code.wrapping_add(delta),
-        range => {
-            match read_u16(face, range_at + usize::from(range) + 2 * usize::from(offset_into_segment))? {
-                0 => 0,
-                glyph => glyph.wrapping_add(delta),
-            }
-        }
-    };
-    (glyph != 0).then_some(glyph)
-}
-
-pub(crate) fn read_u16(face: &[u8], at: usize) -> Option<u16> {
-    Some(u16::from_be_bytes(face.get(at..at + 2)?.try_into().ok()?))
-}
-
-fn read_u32(face: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_be_bytes(face.get(at..at + 4)?.try_into().ok()?))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,7 +97,7 @@ mod tests {
         }
     }
 
-    /// Rendered with what the document carries alone, each glyph is the same to the pixel.
+    /// Rendered with the embedded faces only, each glyph is the same to the pixel.
     #[test]
     fn embedded_faces_have_the_glyphs_of_the_bundled_ones() {
         let text = "max |yÿ|(mm/s²)−×\u{2009}⁰¹²³⁴⁵⁶⁷⁸⁹⁻½–é Poincaré";

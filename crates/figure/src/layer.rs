@@ -1,13 +1,12 @@
-//! What a panel of a chart is made of.
+//! Layers of a panel of a chart.
 
 use crate::{
-    Style,
     decimate::decimate,
     dots::{Dot, Shape},
     plot::Plot,
     scale::Scale,
-    style::{PALE_INK, Pattern, SHADE},
-    svg::{Dashes, Point, Stroke, SvgWriter, number},
+    style::{PALE_INK, Pattern, SHADE, Style},
+    svg::{Dashes, PagePoint, Stroke, SvgWriter, number},
 };
 
 /// A layer, in the units of the axes.
@@ -17,25 +16,25 @@ pub(crate) enum Layer {
     Line { points: Vec<(f64, f64)>, pattern: Pattern },
     /// Dots.
     Dots { points: Vec<(f64, f64)>, dot: Dot },
-    /// Intervals: place, low end, high end.
+    /// Intervals: abscissa, low end, high end.
     Whiskers { intervals: Vec<(f64, f64, f64)>, colour: &'static str },
     /// Shaded ranges of the horizontal axis, behind everything.
     Shade { ranges: Vec<(f64, f64)> },
-    /// Level lines that are no data.
+    /// Horizontal reference lines.
     Levels { at: Vec<f64> },
-    /// Upright lines that are no data.
+    /// Vertical reference lines.
     Uprights { at: Vec<f64> },
     /// Rectangles of one colour, behind the frame: left, right, bottom, top.
     Cells { cells: Vec<[f64; 4]>, colour: &'static str },
 }
 
 impl Layer {
-    /// Whether it stands behind the frame.
+    /// Whether it is drawn behind the frame.
     pub(crate) fn is_ground(&self) -> bool {
         matches!(self, Self::Shade { .. } | Self::Cells { .. } | Self::Levels { .. } | Self::Uprights { .. })
     }
 
-    /// Places that have to lie on the axes, where those have no ends of their own.
+    /// Points that the axes must include, unless their ends are given.
     pub(crate) fn extremes(&self) -> Vec<(f64, f64)> {
         match self {
             Self::Line { points, .. } | Self::Dots { points, .. } => {
@@ -57,14 +56,14 @@ impl Layer {
         match self {
             Self::Line { points, pattern } => draw_line(svg, plot, (points, *pattern), style),
             Self::Dots { points, dot } => {
-                let places: Vec<Point> =
+                let places: Vec<PagePoint> =
                     points.iter().filter(|at| is_in(**at)).map(|&(x, y)| plot.place(x, y)).collect();
                 dot.draw(svg, &places);
             }
             Self::Whiskers { intervals, colour } => {
                 let inside =
                     intervals.iter().filter(|(x, low, high)| is_in((*x, *low)) && is_in((*x, *high)));
-                let lines: Vec<[Point; 2]> =
+                let lines: Vec<[PagePoint; 2]> =
                     inside.map(|&(x, low, high)| [plot.place(x, low), plot.place(x, high)]).collect();
                 let stroke = Stroke { colour, width: style.unstable_width };
                 svg.polylines(lines.iter().map(|line| (line.as_slice(), None)), stroke);
@@ -96,7 +95,7 @@ fn shows(scale: &Scale, value: f64) -> bool {
     scale.kind.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&scale.share(value))
 }
 
-fn draw_references(svg: &mut SvgWriter, lines: Vec<[Point; 2]>, style: &Style) {
+fn draw_references(svg: &mut SvgWriter, lines: Vec<[PagePoint; 2]>, style: &Style) {
     let dashes = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
     let stroke = Stroke { colour: PALE_INK, width: 1.2 * style.frame_width };
     svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
@@ -104,14 +103,14 @@ fn draw_references(svg: &mut SvgWriter, lines: Vec<[Point; 2]>, style: &Style) {
 
 fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], Pattern), style: &Style) {
     let parts = line.split(|&(x, y)| !(shows(&plot.x.scale, x) && shows(&plot.y.scale, y)));
-    let on_page = |part: &[(f64, f64)]| -> Vec<Point> {
-        let places: Vec<Point> = part.iter().map(|&(x, y)| plot.place(x, y)).collect();
+    let on_page = |part: &[(f64, f64)]| -> Vec<PagePoint> {
+        let places: Vec<PagePoint> = part.iter().map(|&(x, y)| plot.place(x, y)).collect();
         decimate(&places, &vec![false; places.len()], style.line_tolerance)
             .into_iter()
             .map(|k| places[k])
             .collect()
     };
-    let (lines, lone): (Vec<Vec<Point>>, Vec<Vec<Point>>) =
+    let (lines, lone): (Vec<Vec<PagePoint>>, Vec<Vec<PagePoint>>) =
         parts.filter(|part| !part.is_empty()).map(on_page).partition(|part| part.len() > 1);
     let dot = Dot { shape: Shape::Circle, colour: pattern.colour, full: true, radius: style.stable_width };
     dot.draw(svg, &lone.concat());
@@ -120,7 +119,7 @@ fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], 
     svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
 }
 
-/// Rectangles, cut at the ends of the axes; neighbours overlap by a hair, so that no light shows between
+/// Rectangles, clipped at the ends of the axes; neighbours overlap slightly, so that no gap shows between
 /// them.
 fn draw_cells(svg: &mut SvgWriter, plot: &Plot, cells: &[[f64; 4]], colour: &'static str) {
     let area = plot.area;

@@ -1,4 +1,4 @@
-//! The legend: a flow of samples with their names, in rows above the plot, where it covers no data.
+//! The legend: samples with their names, in rows above the plot, where they cover no data.
 
 use crate::{
     dots::Dot,
@@ -8,16 +8,16 @@ use crate::{
     plot::lettering,
     stretch::LineLook,
     style::{INK, Pattern, PeriodLook, Style},
-    svg::{Anchor, Dashes, Point, Stroke, SvgWriter},
+    svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter},
     text::Text,
 };
 
-/// What a sample shows.
+/// A sample in a legend.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Sample {
+pub(crate) enum LegendSample {
     /// The line of a kind of solutions, stable or not.
     Line { look: PeriodLook, line: LineLook },
-    /// What the lines of a period have in common, as a broad line.
+    /// The look of all lines of a period, as a broad line.
     Period(PeriodLook),
     /// The line of a kind of curves.
     Pattern(Pattern),
@@ -31,8 +31,8 @@ pub(crate) enum Sample {
 
 /// A sample with its name.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Entry {
-    pub(crate) sample: Sample,
+pub(crate) struct LegendEntry {
+    pub(crate) sample: LegendSample,
     pub(crate) name: String,
 }
 
@@ -45,13 +45,13 @@ const SAMPLE_RADIUS: f64 = 1.2;
 const GAP_IN_ENTRY: f64 = 3.0;
 const GAP_BETWEEN_ENTRIES: f64 = 11.0;
 
-impl Entry {
+impl LegendEntry {
     fn sample_width(&self) -> f64 {
         match self.sample {
-            Sample::Line { .. } | Sample::Pattern(_) => LINE_LENGTH,
-            Sample::Period(_) => COLOUR_LENGTH,
-            Sample::Mark(_) | Sample::Dot(_) => MARK_WIDTH,
-            Sample::Cell(_) => CELL_WIDTH,
+            LegendSample::Line { .. } | LegendSample::Pattern(_) => LINE_LENGTH,
+            LegendSample::Period(_) => COLOUR_LENGTH,
+            LegendSample::Mark(_) | LegendSample::Dot(_) => MARK_WIDTH,
+            LegendSample::Cell(_) => CELL_WIDTH,
         }
     }
 
@@ -59,37 +59,37 @@ impl Entry {
         self.sample_width() + GAP_IN_ENTRY + Text::upright(&self.name).width(style.tick_size)
     }
 
-    fn draw(&self, svg: &mut SvgWriter, at: Point, style: &Style) {
+    fn draw(&self, svg: &mut SvgWriter, at: PagePoint, style: &Style) {
         let y = at.y - 0.5 * CAPITAL_HEIGHT * style.tick_size;
-        let ends = [Point { x: at.x, y }, Point { x: at.x + self.sample_width(), y }];
+        let ends = [PagePoint { x: at.x, y }, PagePoint { x: at.x + self.sample_width(), y }];
         match self.sample {
-            Sample::Line { look, line } => draw_stretches(svg, &[ends.to_vec()], line, look, style),
-            Sample::Pattern(Pattern { colour, dashes }) => {
+            LegendSample::Line { look, line } => draw_stretches(svg, &[ends.to_vec()], line, look, style),
+            LegendSample::Pattern(Pattern { colour, dashes }) => {
                 let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
                 let stroke = Stroke { colour, width: style.stable_width };
                 svg.polylines(std::iter::once((ends.as_slice(), dashes)), stroke);
             }
-            Sample::Period(PeriodLook { colour, strokes: count }) => {
+            LegendSample::Period(PeriodLook { colour, strokes: count }) => {
                 svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH });
                 let style = Style { stroke_reach: COLOUR_WIDTH, ..style.clone() };
                 let strokes = strokes(&ends, count, &style);
                 let stroke = Stroke { colour, width: style.stable_width };
                 svg.polylines(strokes.iter().map(|ends| (ends.as_slice(), None)), stroke);
             }
-            Sample::Dot(dot) => {
+            LegendSample::Dot(dot) => {
                 let radius = dot.radius.max(SAMPLE_RADIUS);
-                Dot { radius, ..dot }.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }]);
+                Dot { radius, ..dot }.draw(svg, &[PagePoint { x: at.x + 0.5 * MARK_WIDTH, y }]);
             }
-            Sample::Cell(colour) => {
+            LegendSample::Cell(colour) => {
                 let half = 0.5 * CELL_WIDTH;
-                let data = square(Point { x: at.x + half, y }, half);
+                let data = square(PagePoint { x: at.x + half, y }, half);
                 svg.path(&data, colour, Stroke { colour: INK, width: 0.5 * style.frame_width });
             }
-            Sample::Mark(mark) => {
-                mark.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }], style.mark_radius);
+            LegendSample::Mark(mark) => {
+                mark.draw(svg, &[PagePoint { x: at.x + 0.5 * MARK_WIDTH, y }], style.mark_radius);
             }
         }
-        let text_at = Point { x: ends[1].x + GAP_IN_ENTRY, y: at.y };
+        let text_at = PagePoint { x: ends[1].x + GAP_IN_ENTRY, y: at.y };
         svg.text(text_at, &Text::upright(&self.name), lettering(style.tick_size, Anchor::Start));
     }
 }
@@ -97,13 +97,13 @@ impl Entry {
 /// Entries in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Legend {
-    rows: Vec<Vec<Entry>>,
+    rows: Vec<Vec<LegendEntry>>,
 }
 
 impl Legend {
-    /// Breaks the entries into rows no wider than `width` (pt); each group starts a new row where that costs
-    /// none.
-    pub(crate) fn new(groups: Vec<Vec<Entry>>, style: &Style, width: f64) -> Self {
+    /// Breaks the entries into rows no wider than `width` (pt); each group starts a new row if that needs no
+    /// additional one.
+    pub(crate) fn new(groups: Vec<Vec<LegendEntry>>, style: &Style, width: f64) -> Self {
         let flowing = flow(groups.concat(), style, width);
         let grouped: Vec<_> = groups.into_iter().flat_map(|group| flow(group, style, width)).collect();
         Self { rows: if grouped.len() > flowing.len() { flowing } else { grouped } }
@@ -115,20 +115,20 @@ impl Legend {
     }
 
     /// Draws the legend with its upper left corner at `corner`.
-    pub(crate) fn draw(&self, svg: &mut SvgWriter, corner: Point, style: &Style) {
+    pub(crate) fn draw(&self, svg: &mut SvgWriter, corner: PagePoint, style: &Style) {
         for (i, row) in self.rows.iter().enumerate() {
             let baseline = corner.y + i as f64 * row_height(style) + CAPITAL_HEIGHT * style.tick_size;
             let mut x = corner.x;
             for entry in row {
-                entry.draw(svg, Point { x, y: baseline }, style);
+                entry.draw(svg, PagePoint { x, y: baseline }, style);
                 x += entry.width(style) + GAP_BETWEEN_ENTRIES;
             }
         }
     }
 }
 
-fn flow(entries: Vec<Entry>, style: &Style, width: f64) -> Vec<Vec<Entry>> {
-    let mut rows: Vec<Vec<Entry>> = Vec::new();
+fn flow(entries: Vec<LegendEntry>, style: &Style, width: f64) -> Vec<Vec<LegendEntry>> {
+    let mut rows: Vec<Vec<LegendEntry>> = Vec::new();
     let mut used = 0.0;
     for entry in entries {
         let needed = GAP_BETWEEN_ENTRIES + entry.width(style);
@@ -157,7 +157,10 @@ mod tests {
     #[test]
     fn rows_are_no_wider_than_the_plot_and_lose_nothing() {
         let style = Style::default();
-        let entry = |i: u32| Entry { sample: Sample::Cell("#000000"), name: format!("1/{i} subharmonic") };
+        let entry = |i: u32| LegendEntry {
+            sample: LegendSample::Cell("#000000"),
+            name: format!("1/{i} subharmonic"),
+        };
         let legend =
             Legend::new(vec![(1..=5).map(entry).collect(), (6..=9).map(entry).collect()], &style, 200.0);
         assert!(legend.rows.len() > 1);

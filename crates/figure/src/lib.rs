@@ -1,8 +1,8 @@
 //! Figures from stored results: SVG for print and screen, PDF for print, PNG for everything else.
 //!
-//! A figure is a function of the data it is given and of nothing else: no clock, no locale, no system font,
-//! no hash order. Drawn twice, it is the same file byte for byte. This crate owns the plain data that its
-//! figures take, so it knows neither the results store nor anything that solves.
+//! A figure depends on its data only: not on the clock, the locale, system fonts or hash order. Drawn twice,
+//! it is the same file byte for byte. This crate defines the plain data of its figures, so it depends neither
+//! on the results store nor on solvers.
 //!
 //! ```
 //! use hammerbeam_figure::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint};
@@ -22,29 +22,33 @@
 //! # Ok::<(), hammerbeam_figure::FigureError>(())
 //! ```
 //!
-//! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`], [`CurveDiagram`], [`StructureDiagram`] and
+//! # Modules
+//! Data flow from the diagram to the page. [`ResponseDiagram`], [`CurveDiagram`], [`StructureDiagram`] and
 //! [`ModeDiagram`] draw themselves; every other kind is a file that turns its data into a `chart`, panels of
 //! layers over one axis:
 //!
-//! | room | what it knows |
+//! | module | contents |
 //! |---|---|
 //! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
-//! | `scale`, `ticks`, `axis`, `plot` | a linear or logarithmic scale, where its ticks are, a frame with two axes |
-//! | `stretch`, `decimate`, `line` | a branch cut where its stability changes, fewer points for the same line, dashes |
-//! | `chart`, `layer` | panels on top of each other under one legend; lines, dots, intervals, cells, shades, reference lines |
+//! | `scale`, `ticks`, `axis`, `plot` | linear and logarithmic scales, their ticks, a frame with two axes |
+//! | `stretch` | a branch divided where its stability changes |
+//! | `decimate`, `line` | fewer points for the same line, dashes |
+//! | `chart` | panels on top of each other under one legend |
+//! | `layer` | lines, dots, intervals, cells, shades, reference lines |
 //! | `sketch` | symbols of mechanics: walls, springs, dampers, arrows, dimension lines |
-//! | `marks`, `dots`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
-//! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
-//! | `page` | the page that shows a whole results folder: what it is given, how that is packed, the HTML file; its script is TypeScript, in `page/` of this crate |
-//! | `svg`, `png`, `pdf` | the few elements we need, in points; the renderer with the bundled font alone; the PNG file in `png/file.rs`; from what the renderer reads to a PDF, its faces in `pdf/face.rs` |
+//! | `marks`, `dots`, `legend` | a mark for each kind of event, thinned where they overlap; the legend |
+//! | `text`, `font` | lines with italic parts, numbers as printed, widths of the bundled font's glyphs |
+//! | `page` | the page that shows a results folder: contents, coding, HTML file; its script is in `page/` |
+//! | `svg` | the few elements we need, in points |
+//! | `png` | the renderer with the bundled font alone; the PNG file is written by `png/file.rs` |
+//! | `pdf` | from what the renderer reads to a PDF; its faces are in `pdf/face.rs` |
 //!
 //! # Decisions
-//! - **Own SVG writer, not a plotting library.** What makes these figures good (dashes that fit their
-//!   stretch, decimation on the page, marks thinned on the page) is not what a plotting library has, and what
-//!   it has is 200 lines here.
-//! - **Line style and width tell stability, lightness and strokes across the line tell the period, shape
-//!   tells the event**, so a grey copy still says it all.
+//! - **Own SVG writer, not a plotting library.** The figures need dashes that fit their line, decimation and
+//!   thinning of marks on the page, which plotting libraries do not have; their other functions take 200
+//!   lines here.
+//! - **Line style and width show stability, lightness and strokes across the line show the period, shape
+//!   shows the event**, so a grey copy has the same information.
 //! - **A tenth of a pixel.** Lines are simplified on the page to 0.024 pt, a tenth of a pixel at 300 per
 //!   inch; folds, ends of stretches and the ends of the axis stay. A hundred thousand solutions become some
 //!   tens of kilobytes.
@@ -55,13 +59,14 @@
 //!   PDF, `svg2pdf` 0.13 and `krilla-svg` 0.8 are made for other versions of that tree than our renderer's:
 //!   they would bring a second parser of SVG (11 and 48 further crates, without text and images in the
 //!   first). `pdf-writer` brings two besides itself, and our figures are paths and text.
-//! - **The font is Arimo**, bundled. An SVG carries the glyphs that it uses, some 10 kB, so that nothing has
-//!   to be installed where it is opened; text stays text, to be searched and changed. A program that does not
-//!   read such fonts takes Arial or Helvetica, whose widths are the same.
+//! - **The font is Arimo**, bundled. An SVG embeds the glyphs that it uses, some 10 kB, so that no font has
+//!   to be installed; text can be searched and edited. A program that ignores embedded fonts uses Arial or
+//!   Helvetica, which have the same widths.
 
 mod axis;
 mod base64;
 mod basin_map;
+mod bifurcation;
 mod chart;
 mod curve_diagram;
 mod decimate;
@@ -97,8 +102,9 @@ mod sweep_diagram;
 mod text;
 mod ticks;
 
-pub use basin_map::{BasinMap, Destination};
-pub use curve_diagram::{Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint};
+pub use basin_map::{BasinAttractor, BasinMap};
+pub use bifurcation::Bifurcation;
+pub use curve_diagram::{BifurcationCurve, BifurcationCurvePoint, CurveDiagram};
 pub use error::FigureError;
 pub use excitation_diagram::ExcitationDiagram;
 pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
@@ -116,7 +122,8 @@ pub use page::{
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
-    MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+    MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,
+    ResponseSettings,
 };
 pub use scale::ScaleChoice;
 pub use structure_diagram::{
@@ -124,5 +131,5 @@ pub use structure_diagram::{
     SketchStop, StopKind, StructureDiagram,
 };
 pub use style::Style;
-pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};
+pub use sweep_diagram::{SweepDiagram, SweepOrigin, SweptMotion};
 pub use text::plain_number;

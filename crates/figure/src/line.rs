@@ -1,21 +1,21 @@
 //! Stable, marginal and unstable lines.
 //!
-//! Marginal lines are as broad as stable ones, and dotted. Unstable lines are dashed *and* thinner: a stretch
-//! shorter than a dash still reads as unstable. The
-//! pattern is stretched to fit a whole number of times, and starts and ends with half a gap, so that both
-//! ends of a stretch can be seen. Strokes across a line tell its period, whatever its stability.
+//! Marginal lines are as broad as stable ones, and dotted. Unstable lines are dashed *and* thinner: a line
+//! shorter than a dash still reads as unstable. The pattern is scaled to fit a whole number of times, and
+//! starts and ends with half a gap, so that both ends of a line are visible. Strokes across a line show its
+//! period, for any stability.
 
 use crate::{
     decimate::distance,
     stretch::LineLook,
     style::{PAPER, PeriodLook, Style},
-    svg::{Dashes, Point, Stroke, SvgWriter, number},
+    svg::{Dashes, PagePoint, Stroke, SvgWriter, number},
 };
 
-/// Draws stretches of one stability, each through points on the page; a single point becomes a dot.
+/// Draws lines of one stability, each through points on the page; a single point becomes a dot.
 pub(crate) fn draw_stretches(
     svg: &mut SvgWriter,
-    stretches: &[Vec<Point>],
+    stretches: &[Vec<PagePoint>],
     line: LineLook,
     look: PeriodLook,
     style: &Style,
@@ -29,7 +29,7 @@ pub(crate) fn draw_stretches(
     let lines = stretches.iter().filter(|points| points.len() > 1);
     let lines = lines.map(|points| (points.as_slice(), pattern.and_then(|pattern| dashes(points, pattern))));
     svg.polylines(lines, Stroke { colour, width });
-    let strokes: Vec<[Point; 2]> =
+    let strokes: Vec<[PagePoint; 2]> =
         stretches.iter().flat_map(|points| strokes(points, look.strokes, style)).collect();
     let thin = Stroke { colour, width: style.unstable_width };
     svg.polylines(strokes.iter().map(|ends| (ends.as_slice(), None)), thin);
@@ -40,8 +40,8 @@ pub(crate) fn draw_stretches(
     }
 }
 
-/// The pattern that fits a line; none for one without length.
-fn dashes(points: &[Point], (dash, gap): (f64, f64)) -> Option<Dashes> {
+/// The dash pattern fitted to a line; `None` for a line without length.
+fn dashes(points: &[PagePoint], (dash, gap): (f64, f64)) -> Option<Dashes> {
     let length: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     let period = dash + gap;
     let stretched = length / (length / period).round().max(1.0);
@@ -49,9 +49,8 @@ fn dashes(points: &[Point], (dash, gap): (f64, f64)) -> Option<Dashes> {
     (length > 0.0).then_some(Dashes { dash, gap, offset: dash + 0.5 * gap })
 }
 
-/// Strokes across a line, in groups of a number at equal distances; none across one that is shorter than a
-/// stroke.
-pub(crate) fn strokes(points: &[Point], in_a_group: usize, style: &Style) -> Vec<[Point; 2]> {
+/// Strokes across a line, in groups at equal distances; none across a line shorter than a stroke.
+pub(crate) fn strokes(points: &[PagePoint], in_a_group: usize, style: &Style) -> Vec<[PagePoint; 2]> {
     let length: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     if in_a_group == 0 || length < 2.0 * style.stroke_reach {
         return Vec::new();
@@ -77,16 +76,17 @@ pub(crate) fn strokes(points: &[Point], in_a_group: usize, style: &Style) -> Vec
     strokes
 }
 
-/// A stroke across a straight line, at a share of it, reaching so far to both sides.
-fn across([from, to]: [Point; 2], share: f64, reach: f64) -> [Point; 2] {
+/// A stroke across a straight line, at a fraction of its length.
+fn across([from, to]: [PagePoint; 2], share: f64, reach: f64) -> [PagePoint; 2] {
     let length = distance(from, to);
     let normal = ((from.y - to.y) / length, (to.x - from.x) / length);
     let at = (from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-    [reach, -reach].map(|side| Point { x: at.0 + side * normal.0, y: at.1 + side * normal.1 })
+    [reach, -reach].map(|side| PagePoint { x: at.0 + side * normal.0, y: at.1 + side * normal.1 })
 }
 
-/// A solution alone: full where stable, open where unstable, and open with a broad line where marginal.
-fn draw_dot(svg: &mut SvgWriter, at: Point, line: LineLook, colour: &str, style: &Style) {
+/// A single solution: a full dot if stable, an open one if unstable, an open one with a broad line if
+/// marginal.
+fn draw_dot(svg: &mut SvgWriter, at: PagePoint, line: LineLook, colour: &str, style: &Style) {
     let fill = if line == LineLook::Stable { colour } else { PAPER };
     let width = if line == LineLook::Marginal { style.stable_width } else { style.unstable_width };
     let (r, x) = (number(style.stable_width), number(at.x - style.stable_width));
@@ -103,7 +103,7 @@ mod tests {
     fn a_whole_number_of_dashes_fits_into_every_stretch() {
         let style = Style::default();
         for length in [0.3, 2.0, 7.0, 399.0] {
-            let line = [Point { x: 0.0, y: 0.0 }, Point { x: length, y: 0.0 }];
+            let line = [PagePoint { x: 0.0, y: 0.0 }, PagePoint { x: length, y: 0.0 }];
             let dashes = dashes(&line, style.dash).unwrap();
             let count = length / (dashes.dash + dashes.gap);
             assert!((count - count.round()).abs() < 1e-9 && count >= 0.999);
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn strokes_stand_across_the_line_at_equal_distances() {
         let style = Style::default();
-        let at = |x: f64, y: f64| Point { x, y };
+        let at = |x: f64, y: f64| PagePoint { x, y };
         // 3-4-5 triangles: 50 pt to the corner, as many behind it.
         let line = [at(0.0, 0.0), at(30.0, 40.0), at(60.0, 0.0)];
         let strokes = strokes(&line, 2, &style);

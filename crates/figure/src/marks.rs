@@ -1,11 +1,11 @@
-//! One mark for each kind of event on a branch, and which of many to draw.
+//! One mark for each kind of event on a branch, and thinning of marks.
 
 use std::collections::HashMap;
 
 use crate::{
     decimate::distance,
     style::{INK, PALE_INK, PAPER},
-    svg::{Point, Stroke, SvgWriter, number},
+    svg::{PagePoint, Stroke, SvgWriter, number},
 };
 
 /// An event on a branch that has a mark.
@@ -34,13 +34,13 @@ impl Mark {
         Self::Grazing,
     ];
 
-    /// Whether the mark stands behind the lines: some events are so frequent that they would bury them.
+    /// Whether the mark is drawn behind the lines: some events are so frequent that they would cover them.
     pub(crate) fn is_behind(self) -> bool {
         matches!(self, Self::Grazing | Self::OfUnstable)
     }
 
     /// The places of the marks that are drawn.
-    pub(crate) fn thin_out(self, places: &[Point], least_distance: f64) -> Vec<Point> {
+    pub(crate) fn thin_out(self, places: &[PagePoint], least_distance: f64) -> Vec<PagePoint> {
         thin_out(places, if self.is_behind() { 1.5 * least_distance } else { least_distance })
     }
 
@@ -58,7 +58,7 @@ impl Mark {
     }
 
     /// Draws the mark at each place.
-    pub(crate) fn draw(self, svg: &mut SvgWriter, places: &[Point], radius: f64) {
+    pub(crate) fn draw(self, svg: &mut SvgWriter, places: &[PagePoint], radius: f64) {
         if places.is_empty() {
             return;
         }
@@ -72,7 +72,7 @@ impl Mark {
         svg.path(&data, fill, stroke);
     }
 
-    fn outline(self, at: Point, radius: f64) -> String {
+    fn outline(self, at: PagePoint, radius: f64) -> String {
         match self {
             Self::Grazing => triangle(at, 1.4 * radius),
             Self::Fold => circle(at, 0.8 * radius),
@@ -85,7 +85,7 @@ impl Mark {
     }
 }
 
-pub(crate) fn circle(at: Point, radius: f64) -> String {
+pub(crate) fn circle(at: PagePoint, radius: f64) -> String {
     let (r, diameter) = (number(radius), number(2.0 * radius));
     format!(
         "M{} {}a{r} {r} 0 1 0 {diameter} 0a{r} {r} 0 1 0 -{diameter} 0z",
@@ -95,27 +95,28 @@ pub(crate) fn circle(at: Point, radius: f64) -> String {
 }
 
 /// Upright and equilateral, its centre at the place.
-pub(crate) fn triangle(at: Point, radius: f64) -> String {
+pub(crate) fn triangle(at: PagePoint, radius: f64) -> String {
     let (half, height) = (radius * 0.75f64.sqrt(), 1.5 * radius);
     let start = format!("M{} {}", number(at.x), number(at.y - radius));
     format!("{start}l{} {}h-{}z", number(half), number(height), number(2.0 * half))
 }
 
-fn diamond(at: Point, radius: f64) -> String {
+fn diamond(at: PagePoint, radius: f64) -> String {
     let r = number(radius);
     format!("M{} {}l{r} {r}l-{r} {r}l-{r} -{r}z", number(at.x), number(at.y - radius))
 }
 
-pub(crate) fn square(at: Point, half: f64) -> String {
+pub(crate) fn square(at: PagePoint, half: f64) -> String {
     let side = number(2.0 * half);
     format!("M{} {}h{side}v{side}h-{side}z", number(at.x - half), number(at.y - half))
 }
 
 /// The places at least `least_distance` from all earlier ones that stay.
-fn thin_out(places: &[Point], least_distance: f64) -> Vec<Point> {
-    let cell_of =
-        |place: Point| ((place.x / least_distance).floor() as i64, (place.y / least_distance).floor() as i64);
-    let mut cells: HashMap<(i64, i64), Vec<Point>> = HashMap::new();
+fn thin_out(places: &[PagePoint], least_distance: f64) -> Vec<PagePoint> {
+    let cell_of = |place: PagePoint| {
+        ((place.x / least_distance).floor() as i64, (place.y / least_distance).floor() as i64)
+    };
+    let mut cells: HashMap<(i64, i64), Vec<PagePoint>> = HashMap::new();
     let mut kept = Vec::new();
     for &place in places {
         let (column, row) = cell_of(place);
@@ -143,7 +144,7 @@ mod tests {
         fn marks_that_stay_are_apart_and_cover_those_that_go(
             places in prop::collection::vec((-20.0..20.0, -20.0..20.0), 0..200),
         ) {
-            let places: Vec<Point> = places.into_iter().map(|(x, y)| Point { x, y }).collect();
+            let places: Vec<PagePoint> = places.into_iter().map(|(x, y)| PagePoint { x, y }).collect();
             let kept = thin_out(&places, 3.0);
             for (i, &a) in kept.iter().enumerate() {
                 prop_assert!(kept[..i].iter().all(|&b| distance(a, b) >= 3.0));
@@ -154,7 +155,7 @@ mod tests {
 
     #[test]
     fn every_mark_has_its_own_outline() {
-        let outlines = Mark::ALL.map(|mark| mark.outline(Point { x: 10.0, y: 10.0 }, 1.3));
+        let outlines = Mark::ALL.map(|mark| mark.outline(PagePoint { x: 10.0, y: 10.0 }, 1.3));
         for (i, outline) in outlines.iter().enumerate() {
             assert!(!outlines[..i].contains(outline));
         }

@@ -1,20 +1,22 @@
 //! The mode shapes of a structure, each in a band of its own with its frequency, its points and the stops.
 //!
 //! Shapes are relative to the support and scaled to the same largest displacement. Between the places of a
-//! beam the line is a cubic with slopes by differences; where an end cannot turn its slope is zero.
+//! beam the line is a cubic with slopes by differences; at an end with fixed rotation the slope is zero.
 
 use crate::{
-    Figure, FigureError, FrequencyUnit, Style,
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     font::CAPITAL_HEIGHT,
+    frequency_unit::FrequencyUnit,
     plot::lettering,
     sketch::{Behind, at, wall},
-    style::{GRID, INK, PALE_INK, PERIOD_COLOUR},
-    svg::{Anchor, Dashes, Point, Stroke, SvgWriter, points},
+    style::{GRID, INK, PALE_INK, PERIOD_COLOUR, Style},
+    svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
     text::{Text, cut, decimal, wrap},
 };
 
-/// Most modes that are drawn, the lowest.
+/// Largest number of modes that are drawn.
 const MOST: usize = 8;
 /// Height of a band without its heading, and largest displacement in it (pt).
 const BAND: f64 = 34.0;
@@ -22,9 +24,9 @@ const LARGEST: f64 = 11.0;
 const MARGIN: f64 = 3.0;
 /// Distance of a stop from the largest displacement (pt).
 const CLEAR: f64 = 4.0;
-/// Room beside the outer masses of a lumped structure (pt).
+/// Room next to the outer masses of a lumped structure (pt).
 const OUTER: f64 = 24.0;
-/// Room beside the shape for what holds the ends (pt).
+/// Room next to the shape for the supports of its ends (pt).
 const SIDE: f64 = 12.0;
 /// Points drawn between two places of a beam.
 const BETWEEN: usize = 6;
@@ -32,13 +34,13 @@ const BETWEEN: usize = 6;
 /// The modes of a structure.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModeDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// Whether a line joins the places: a beam, not masses.
     pub is_beam: bool,
     /// Places of the structure along it, ascending (m, or numbers of masses).
     pub places: Vec<f64>,
-    /// For the left and the right end of a beam: whether it is held at all, and whether it cannot turn.
+    /// For the left and the right end of a beam: whether it is supported, and whether its rotation is fixed.
     pub ends: [(bool, bool); 2],
     /// Named points: where, and the name.
     pub points: Vec<(f64, String)>,
@@ -127,7 +129,7 @@ impl ModeDiagram {
         }
     }
 
-    /// Names above the first band; one that would cover another is left out.
+    /// Names above the first band; a name that would overlap another is left out.
     fn draw_names(&self, svg: &mut SvgWriter, top: f64, style: &Style) {
         let mut taken = f64::NEG_INFINITY;
         let mut sorted: Vec<&(f64, String)> =
@@ -155,7 +157,7 @@ impl ModeDiagram {
             let x = self.across(place, style);
             [at(x, middle - 0.5 * BAND), at(x, middle + 0.5 * BAND)]
         };
-        let guides: Vec<[Point; 2]> = self.points.iter().map(|(place, _)| guide(*place)).collect();
+        let guides: Vec<[PagePoint; 2]> = self.points.iter().map(|(place, _)| guide(*place)).collect();
         let pale = Stroke { colour: GRID, width: 0.7 };
         svg.polylines(guides.iter().map(|guide| (guide.as_slice(), None)), pale);
         let rest = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
@@ -174,7 +176,7 @@ impl ModeDiagram {
             };
             Dot { shape, colour: PALE_INK, full: true, radius: 2.0 }.draw(svg, &[at(x, y)]);
         }
-        let places: Vec<Point> = self
+        let places: Vec<PagePoint> = self
             .places
             .iter()
             .zip(&mode.shape)
@@ -185,11 +187,12 @@ impl ModeDiagram {
             svg.polyline(&curve(&places, [self.ends[0].1, self.ends[1].1]), stroke);
             self.draw_ends(svg, (first, last), middle);
         } else {
-            let stems: Vec<[Point; 2]> = places.iter().map(|place| [at(place.x, middle), *place]).collect();
+            let stems: Vec<[PagePoint; 2]> =
+                places.iter().map(|place| [at(place.x, middle), *place]).collect();
             svg.polylines(stems.iter().map(|stem| (stem.as_slice(), None)), stroke);
         }
         let dot = Dot { shape: Shape::Circle, colour: INK, full: true, radius: 1.7 };
-        let named: Vec<Point> =
+        let named: Vec<PagePoint> =
             self.points.iter().filter_map(|(place, _)| self.nearest(*place).map(|k| places[k])).collect();
         dot.draw(svg, if self.is_beam { &named } else { &places });
     }
@@ -231,7 +234,7 @@ fn five_digits(value: f64) -> String {
 }
 
 /// A smooth line through places.
-fn curve(places: &[Point], is_level: [bool; 2]) -> Vec<Point> {
+fn curve(places: &[PagePoint], is_level: [bool; 2]) -> Vec<PagePoint> {
     let last = places.len() - 1;
     let slope = |k: usize| {
         if (k == 0 && is_level[0]) || (k == last && is_level[1]) {
@@ -263,7 +266,7 @@ mod tests {
     /// A cubic whose slopes are known at both ends is met at the places and has the slope asked for.
     #[test]
     fn the_line_meets_every_place_and_is_level_where_it_cannot_turn() {
-        let places: Vec<Point> = (0..9).map(|k| at(f64::from(k), f64::from(k).powi(2))).collect();
+        let places: Vec<PagePoint> = (0..9).map(|k| at(f64::from(k), f64::from(k).powi(2))).collect();
         let line = curve(&places, [true, false]);
         for place in &places {
             assert!(

@@ -1,20 +1,18 @@
-//! Kinds of settled motions, and how each looks.
+//! Kinds of settled motions.
 
-use crate::style::kind_colour;
-
-/// What a settled motion does.
+/// Kind of a settled motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MotionKind {
-    /// It repeats after so many excitation periods.
+    /// It repeats after a number of excitation periods.
     Periodic {
         /// In excitation periods, from 1.
         period: u32,
     },
     /// Regular and without a period.
     QuasiPeriodic,
-    /// Neighbouring motions part exponentially.
+    /// Neighbouring motions diverge exponentially.
     Chaotic,
-    /// Not told.
+    /// Undecided.
     #[default]
     Doubtful,
 }
@@ -45,10 +43,5 @@ impl MotionKind {
             Self::Periodic { period } => format!("period {period}"),
             other => other.name().to_owned(),
         }
-    }
-
-    /// Colour of its samples.
-    pub(crate) fn colour(self) -> &'static str {
-        kind_colour(self)
     }
 }

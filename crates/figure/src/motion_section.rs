@@ -2,11 +2,12 @@
 //! period.
 
 use crate::{
-    Figure, FigureError, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    style::PERIOD_COLOUR,
+    style::{PERIOD_COLOUR, Style},
 };
 
 /// Points up to which they are drawn larger.
@@ -15,7 +16,7 @@ const FEW: usize = 100;
 /// A section.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SectionDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
@@ -24,7 +25,7 @@ pub struct SectionDiagram {
 }
 
 impl SectionDiagram {
-    /// The figure, in that style.
+    /// The figure, in a style.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no point is finite.
@@ -36,7 +37,7 @@ impl SectionDiagram {
             self.points.iter().map(|&(displacement, velocity)| (1e3 * displacement, velocity)).collect();
         let layers = vec![Layer::Dots { points, dot }];
         let y = Measure::new("Velocity (m/s)");
-        let panels = vec![Panel { quantity: "point of the section", y, layers, heading: String::new() }];
+        let panels = vec![ChartPanel { quantity: "point of the section", y, layers, heading: String::new() }];
         let count = self.points.len();
         let description = format!(
             "Poincaré section at phase 0 at {}, {count} points",

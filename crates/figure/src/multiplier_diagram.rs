@@ -4,19 +4,20 @@
 use std::f64::consts::TAU;
 
 use crate::{
-    Figure, FigureError, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
+    legend::{LegendEntry, LegendSample},
     stretch::LineLook,
-    style::{INK, Pattern, line_pattern, stability_colour},
+    style::{INK, Pattern, Style, line_pattern, stability_colour},
 };
 
-/// Most moduli that are drawn, and the least that is.
+/// Largest number of moduli that are drawn, and the least modulus.
 const MOST: usize = 6;
 const LEAST: f64 = 1e-4;
-/// Most multipliers of a solution that are drawn in the complex plane.
+/// Largest number of multipliers of a solution in the complex plane.
 const MOST_IN_PLANE: usize = 4;
 /// Half the width of the frame around the unit circle.
 const FRAME: f64 = 1.5;
@@ -24,7 +25,7 @@ const FRAME: f64 = 1.5;
 /// Multipliers along a branch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MultiplierDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// Solutions in order along the branch.
     pub solutions: Vec<Multipliers>,
@@ -35,9 +36,9 @@ pub struct MultiplierDiagram {
 pub struct Multipliers {
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
-    /// Whether it is stable, as far as is known.
+    /// Whether no multiplier is known to lie outside the unit circle.
     pub stable: bool,
-    /// Whether that is not known, since a multiplier is on the unit circle as well as it is known.
+    /// Whether stability is undecided: a multiplier is on the unit circle to its accuracy.
     pub marginal: bool,
     /// Real and imaginary parts, in any order; one that is not finite is left out.
     pub multipliers: Vec<[f64; 2]>,
@@ -72,9 +73,9 @@ impl MultiplierDiagram {
         let mut layers = vec![Layer::Levels { at: vec![1.0] }];
         layers.extend((0..drawn).rev().map(line));
         let name = |k: usize| if k == 0 { "1 (largest)".to_owned() } else { (k + 1).to_string() };
-        let entry = |k: usize| Entry { sample: Sample::Pattern(line_pattern(k)), name: name(k) };
+        let entry = |k: usize| LegendEntry { sample: LegendSample::Pattern(line_pattern(k)), name: name(k) };
         let y = Measure::logarithmic("Modulus of multiplier (–)");
-        let panels = vec![Panel { quantity: "multiplier", y, layers, heading: String::new() }];
+        let panels = vec![ChartPanel { quantity: "multiplier", y, layers, heading: String::new() }];
         let description = format!(
             "moduli of Floquet multipliers over the excitation frequency, {} solutions; not finite: {}",
             self.solutions.len(),
@@ -120,7 +121,10 @@ impl MultiplierDiagram {
             if !points.is_empty() {
                 legend.insert(
                     0,
-                    Entry { sample: Sample::Dot(dot), name: format!("of {} solutions", line.name()) },
+                    LegendEntry {
+                        sample: LegendSample::Dot(dot),
+                        name: format!("of {} solutions", line.name()),
+                    },
                 );
             }
             layers.push(Layer::Dots { points, dot });
@@ -133,7 +137,7 @@ impl MultiplierDiagram {
         } else {
             format!("{outside} of {} multipliers lie outside the frame", finite.len())
         };
-        let panels = vec![Panel { quantity: "multiplier", y, layers, heading: heading.clone() }];
+        let panels = vec![ChartPanel { quantity: "multiplier", y, layers, heading: heading.clone() }];
         let missing = self.not_finite();
         let description = format!(
             "Floquet multipliers in the complex plane, {} solutions; {heading}; not finite: {missing}",
@@ -150,7 +154,7 @@ impl MultiplierDiagram {
             let mut finite = solution.multipliers.clone();
             finite.retain(|[re, im]| re.is_finite() && im.is_finite());
             finite.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
-            // Of a pair both or none, which have one modulus but for rounding.
+            // Both or none of a pair, which have one modulus except for rounding.
             let least = finite.get(MOST_IN_PLANE - 1).map_or(0.0, |[re, im]| (1.0 - 1e-9) * re.hypot(*im));
             finite.retain(|[re, im]| re.hypot(*im) >= least);
             let line = LineLook::of(solution.stable, solution.marginal);

@@ -1,15 +1,12 @@
-//! From SVG to PDF: paths as they are, text as text in the bundled faces, of which the file carries what it
-//! uses.
+//! From SVG to PDF: paths, and text in the bundled faces, of which the used glyphs are embedded.
 //!
-//! The SVG is read by the renderer that draws the PNG, so both show the same. Nothing of the day or the
-//! machine goes into the file: the same figure is the same file, byte for byte. Only what our figures are
-//! made of is known here, opaque paths and text; anything else is refused.
+//! The SVG is parsed by the renderer of the PNG, so both show the same. The file does not depend on date or
+//! machine: equal figures give equal files, byte for byte. Only the elements of our figures are supported,
+//! opaque paths and text; others are refused.
 
 mod face;
+mod stream;
 
-use std::io::Write;
-
-use flate2::{Compression, write::ZlibEncoder};
 use pdf_writer::{
     Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr,
     types::{LineCapStyle, LineJoinStyle},
@@ -23,15 +20,16 @@ use resvg::{
 };
 
 use crate::{
-    FigureError,
+    error::FigureError,
     font::{self, Characters},
     png,
     svg::points,
 };
 
 use face::Face;
+use stream::deflated;
 
-/// Numbers of the objects of a file; those of the faces follow.
+/// Numbers of the objects of a file, before the objects of the faces.
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
@@ -41,11 +39,11 @@ const FIRST_OF_FACES: i32 = 6;
 
 /// Draws an SVG of a size (mm) as a PDF of one page.
 ///
-/// * `characters`: those of its text.
-/// * `title`: what the figure shows, in words.
+/// * `characters`: the characters of its text.
+/// * `title`: description of the figure.
 ///
 /// # Errors
-/// [`FigureError::Rendering`] if the SVG is not valid, or has what our figures do not have.
+/// [`FigureError::Rendering`] if the SVG is invalid or has unsupported elements.
 pub(crate) fn pdf(
     svg: &str,
     characters: &Characters,
@@ -55,7 +53,7 @@ pub(crate) fn pdf(
     let tree = png::tree(svg)?;
     let faces = Faces::of(characters)?;
     let [width, height] = size_mm.map(|side| points(side) as f32);
-    let mut page = Page { content: Content::new(), faces: &faces };
+    let mut page = PdfPage { content: Content::new(), faces: &faces };
     let scale = width / tree.size().width();
     page.content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
     page.draw_group(tree.root())?;
@@ -79,12 +77,6 @@ pub(crate) fn pdf(
         face.write(&mut pdf);
     }
     Ok(pdf.finish())
-}
-
-/// Bytes as a stream of a PDF is stored.
-fn deflated(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("writing into memory does not fail")
 }
 
 fn unknown(what: &str) -> FigureError {
@@ -114,12 +106,12 @@ impl Faces {
 }
 
 /// A page that is being drawn.
-struct Page<'a> {
+struct PdfPage<'a> {
     content: Content,
     faces: &'a Faces,
 }
 
-impl Page<'_> {
+impl PdfPage<'_> {
     fn draw_group(&mut self, group: &Group) -> Result<(), FigureError> {
         if group.clip_path().is_some() || group.mask().is_some() || !group.filters().is_empty() {
             return Err(unknown("clips, masks and filters"));
@@ -189,7 +181,7 @@ impl Page<'_> {
             match segment {
                 PathSegment::MoveTo(to) => content.move_to(to.x, to.y),
                 PathSegment::LineTo(to) => content.line_to(to.x, to.y),
-                // A curve of the second degree is one of the third.
+                // A quadratic curve as a cubic one.
                 PathSegment::QuadTo(by, to) => {
                     let third = |end: f32, by: f32| end + (by - end) * 2.0 / 3.0;
                     let (from_x, from_y) = last;
@@ -213,7 +205,7 @@ impl Page<'_> {
         text.chunks().iter().try_for_each(|chunk| self.draw_line(chunk, text.abs_transform()))
     }
 
-    /// A line of text, part by part: each goes on where the one before ends.
+    /// A line of text, part by part, each starting at the end of the previous one.
     fn draw_line(&mut self, line: &TextChunk, transform: Transform) -> Result<(), FigureError> {
         let (upright, italic) = (&self.faces.upright, &self.faces.italic);
         let parts = line.spans().iter().map(|span| {
@@ -228,7 +220,7 @@ impl Page<'_> {
             TextAnchor::End => 1.0,
         };
         let start = (line.x().unwrap_or(0.0) - share * length, line.y().unwrap_or(0.0));
-        // Letters stand upright in a page whose y points downwards.
+        // The y axis of the page points downwards, so letters are mirrored back.
         let placed = transform.pre_translate(start.0, start.1).pre_scale(1.0, -1.0);
         self.content.begin_text().set_text_matrix(matrix(placed));
         for (span, face, text) in parts {
@@ -258,56 +250,4 @@ fn rgb(paint: &Paint, opacity: f32) -> Result<[f32; 3], FigureError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn drawn(inside: &str) -> Result<Vec<u8>, FigureError> {
-        let svg = format!(
-            "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='10mm' viewBox='0 0 40 20'>{inside}</svg>"
-        );
-        let characters = Characters { upright: "Aé".chars().collect(), ..Characters::default() };
-        pdf(&svg, &characters, "a test", [20.0, 10.0])
-    }
-
-    #[test]
-    fn what_our_figures_do_not_have_is_refused() {
-        assert!(drawn("<path d='M0 0h9v9z' fill='#123456'/><text x='1' y='9'>A</text>").is_ok());
-        for other in [
-            "<path d='M0 0h9v9z' fill='#123456' opacity='0.5' fill-opacity='0.5'/>",
-            "<path d='M0 0h9v9z' fill='#123456' opacity='0.5'/>",
-            "<g opacity='0.5'><text x='1' y='9'>A</text></g>",
-            "<g style='mix-blend-mode:multiply'><path d='M0 0h9v9z'/></g>",
-            "<defs><linearGradient id='g'><stop offset='0' stop-color='red'/><stop offset='1' stop-color='blue'/></linearGradient></defs><path d='M0 0h9v9z' fill='url(#g)'/>",
-            "<defs><clipPath id='c'><path d='M0 0h4v4z'/></clipPath></defs><path d='M0 0h9v9z' clip-path='url(#c)'/>",
-        ] {
-            assert!(matches!(drawn(other), Err(FigureError::Rendering { .. })), "{other}");
-        }
-        assert!(matches!(
-            pdf("no svg", &Characters::default(), "", [1.0; 2]),
-            Err(FigureError::Rendering { .. })
-        ));
-    }
-
-    /// The table at the end of the file says where each object begins, and nothing says when it was made.
-    #[test]
-    fn objects_stand_where_the_table_says_and_no_date_is_in_the_file() {
-        let file = drawn("<text x='1' y='9'>Aé</text>").unwrap();
-        let text = String::from_utf8_lossy(&file);
-        assert!(text.starts_with("%PDF-1.7") && text.ends_with("%%EOF"));
-        assert!(!text.contains("Date") && !text.contains("/ID"));
-        let find = |start: usize, word: &[u8]| {
-            start + file[start..].windows(word.len()).position(|part| part == word).unwrap()
-        };
-        let tail = std::str::from_utf8(&file[file.len() - 60..]).unwrap();
-        let table: usize = tail.split("startxref").nth(1).unwrap().lines().nth(1).unwrap().parse().unwrap();
-        assert_eq!(&file[table..table + 4], b"xref");
-        let entries = std::str::from_utf8(&file[table..find(table, b"trailer")]).unwrap().lines().skip(3);
-        let mut count = 0;
-        for (number, entry) in (1..).zip(entries) {
-            let at: usize = entry[..10].parse().unwrap();
-            assert!(file[at..].starts_with(format!("{number} 0 obj").as_bytes()), "{number}");
-            count = number;
-        }
-        assert_eq!(count, FIRST_OF_FACES + Face::OBJECTS - 1);
-    }
-}
+mod tests;

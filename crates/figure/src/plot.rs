@@ -1,11 +1,11 @@
-//! A plot: a frame with two axes, in which data have places.
+//! A plot: a frame with two axes, which map data to positions.
 
 use crate::{
-    axis::Axis,
+    axis::PlotAxis,
     font::CAPITAL_HEIGHT,
     scale::Scale,
     style::{GRID, INK, Style},
-    svg::{Anchor, Point, Stroke, SvgWriter, TextStyle, points},
+    svg::{Anchor, PagePoint, Stroke, SvgWriter, TextStyle, points},
     text::Text,
     ticks::Tick,
 };
@@ -27,10 +27,9 @@ pub(crate) struct Area {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plot {
     pub(crate) area: Area,
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
-    /// Whether the horizontal axis has its numbers and its label; of plots on top of each other only the
-    /// lowest has.
+    pub(crate) x: PlotAxis,
+    pub(crate) y: PlotAxis,
+    /// Whether the horizontal axis has numbers and a label; of stacked plots only the lowest has.
     pub(crate) labelled_below: bool,
 }
 
@@ -44,14 +43,14 @@ pub(crate) fn room_left(style: &Style, label_width: f64) -> f64 {
     style.tick_length + LABEL_GAP + label_width + AXIS_LABEL_GAP + style.label_size
 }
 
-/// Room right of the frame (pt): for as much of a number of the horizontal axis as juts out there.
+/// Room right of the frame (pt) for the part of a number of the horizontal axis that extends beyond it.
 ///
 /// * `scale`: of the axis, and the factor of its numbers.
 /// * `left`: of the frame (pt).
 /// * `spacing`: distance of the numbers of the axis (pt).
 pub(crate) fn room_right(style: &Style, (scale, factor): (&Scale, f64), left: f64, spacing: f64) -> f64 {
     let length = points(style.width_mm) - left - style.tick_size;
-    let axis = Axis::in_unit((*scale, factor), Text::default(), length, spacing);
+    let axis = PlotAxis::in_unit((*scale, factor), Text::default(), length, spacing);
     let jut = |tick| 0.5 * number(tick).width(style.tick_size) - (1.0 - scale.share(tick.value)) * length;
     labelled(&axis).map(jut).fold(style.tick_size, f64::max)
 }
@@ -62,8 +61,8 @@ fn tick_label_depth(style: &Style) -> f64 {
 
 impl Plot {
     /// Where a pair of values is on the page.
-    pub(crate) fn place(&self, x: f64, y: f64) -> Point {
-        Point { x: self.across(x), y: self.up(y) }
+    pub(crate) fn place(&self, x: f64, y: f64) -> PagePoint {
+        PagePoint { x: self.across(x), y: self.up(y) }
     }
 
     fn across(&self, x: f64) -> f64 {
@@ -78,9 +77,9 @@ impl Plot {
     pub(crate) fn draw_grid(&self, svg: &mut SvgWriter, style: &Style) {
         let Area { left, right, top, bottom } = self.area;
         let upright = labelled(&self.x).map(|tick| self.across(tick.value));
-        let upright = upright.map(|x| [Point { x, y: top }, Point { x, y: bottom }]);
+        let upright = upright.map(|x| [PagePoint { x, y: top }, PagePoint { x, y: bottom }]);
         let level = labelled(&self.y).map(|tick| self.up(tick.value));
-        let level = level.map(|y| [Point { x: left, y }, Point { x: right, y }]);
+        let level = level.map(|y| [PagePoint { x: left, y }, PagePoint { x: right, y }]);
         draw_lines(svg, upright.chain(level), Stroke { colour: GRID, width: 0.7 * style.frame_width });
     }
 
@@ -88,11 +87,11 @@ impl Plot {
     pub(crate) fn draw_axes(&self, svg: &mut SvgWriter, style: &Style) {
         let Area { left, right, top, bottom } = self.area;
         let stroke = Stroke { colour: INK, width: style.frame_width };
-        svg.rectangle(Point { x: left, y: top }, Point { x: right, y: bottom }, stroke);
+        svg.rectangle(PagePoint { x: left, y: top }, PagePoint { x: right, y: bottom }, stroke);
         let below = self.x.ticks.iter().map(|tick| (self.across(tick.value), bottom + length(tick, style)));
-        let below = below.map(|(x, y)| [Point { x, y: bottom }, Point { x, y }]);
+        let below = below.map(|(x, y)| [PagePoint { x, y: bottom }, PagePoint { x, y }]);
         let beside = self.y.ticks.iter().map(|tick| (left - length(tick, style), self.up(tick.value)));
-        let beside = beside.map(|(x, y)| [Point { x, y }, Point { x: left, y }]);
+        let beside = beside.map(|(x, y)| [PagePoint { x, y }, PagePoint { x: left, y }]);
         draw_lines(svg, below.chain(beside), stroke);
         if self.labelled_below {
             self.letter_horizontal(svg, style);
@@ -104,11 +103,11 @@ impl Plot {
         let Area { left, right, bottom, .. } = self.area;
         let baseline = bottom + tick_label_depth(style);
         for tick in labelled(&self.x) {
-            let at = Point { x: self.across(tick.value), y: baseline };
+            let at = PagePoint { x: self.across(tick.value), y: baseline };
             svg.text(at, &number(tick), lettering(style.tick_size, Anchor::Middle));
         }
         let below = baseline + AXIS_LABEL_GAP + CAPITAL_HEIGHT * style.label_size;
-        let middle = Point { x: 0.5 * (left + right), y: below };
+        let middle = PagePoint { x: 0.5 * (left + right), y: below };
         svg.text(middle, &self.x.label, lettering(style.label_size, Anchor::Middle));
     }
 
@@ -116,21 +115,21 @@ impl Plot {
         let Area { left, top, bottom, .. } = self.area;
         for tick in labelled(&self.y) {
             let x = left - style.tick_length - LABEL_GAP;
-            let at = Point { x, y: self.up(tick.value) + 0.5 * CAPITAL_HEIGHT * style.tick_size };
+            let at = PagePoint { x, y: self.up(tick.value) + 0.5 * CAPITAL_HEIGHT * style.tick_size };
             svg.text(at, &number(tick), lettering(style.tick_size, Anchor::End));
         }
         let x = 0.25 * style.label_size + CAPITAL_HEIGHT * style.label_size;
         let text = TextStyle { upwards: true, ..lettering(style.label_size, Anchor::Middle) };
-        svg.text(Point { x, y: 0.5 * (top + bottom) }, &self.y.label, text);
+        svg.text(PagePoint { x, y: 0.5 * (top + bottom) }, &self.y.label, text);
     }
 }
 
-fn draw_lines(svg: &mut SvgWriter, lines: impl Iterator<Item = [Point; 2]>, stroke: Stroke<'_>) {
-    let lines: Vec<[Point; 2]> = lines.collect();
+fn draw_lines(svg: &mut SvgWriter, lines: impl Iterator<Item = [PagePoint; 2]>, stroke: Stroke<'_>) {
+    let lines: Vec<[PagePoint; 2]> = lines.collect();
     svg.polylines(lines.iter().map(|line| (line.as_slice(), None)), stroke);
 }
 
-fn labelled(axis: &Axis) -> impl Iterator<Item = &Tick> {
+fn labelled(axis: &PlotAxis) -> impl Iterator<Item = &Tick> {
     axis.ticks.iter().filter(|tick| tick.label.is_some())
 }
 

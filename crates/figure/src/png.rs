@@ -9,7 +9,7 @@ use resvg::{
     usvg::{Options, Tree, fontdb},
 };
 
-use crate::{FigureError, font};
+use crate::{error::FigureError, font};
 
 const ALLOWED_PIXELS_PER_INCH: std::ops::RangeInclusive<f64> = 24.0..=1200.0;
 

@@ -1,22 +1,23 @@
 //! The error of a reduction: relative errors of the eigenfrequencies over the frequency.
 
 use crate::{
-    Figure, FigureError, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
+    legend::{LegendEntry, LegendSample},
     stretch::LineLook,
-    style::{INK, stability_colour},
+    style::{INK, Style, stability_colour},
 };
 
-/// The least error that is drawn as it is: below it there is rounding alone.
+/// The least error that is drawn; smaller ones are rounding.
 const LEAST: f64 = 1e-12;
 
 /// Errors of eigenfrequencies.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReductionDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// The modes, in any order.
     pub modes: Vec<ReducedMode>,
@@ -34,8 +35,7 @@ pub struct ReducedMode {
 }
 
 impl ReductionDiagram {
-    /// The figure, in that style; errors below 1e-12 stand there as triangles that point down, which the
-    /// legend says.
+    /// The figure, in a style; errors below 1e-12 are drawn there as triangles that point down.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no mode has a positive frequency and a finite error.
@@ -56,7 +56,7 @@ impl ReductionDiagram {
             let modes = self.modes.iter().filter(|mode| mode.below_cut_off == below && mode.full_hz > 0.0);
             let points: Vec<(f64, f64)> = modes.filter(|mode| !is_rounding(mode)).map(place).collect();
             if !points.is_empty() {
-                legend.push(Entry { sample: Sample::Dot(dot), name: name.to_owned() });
+                legend.push(LegendEntry { sample: LegendSample::Dot(dot), name: name.to_owned() });
             }
             layers.push(Layer::Dots { points, dot });
         }
@@ -65,11 +65,12 @@ impl ReductionDiagram {
         let lesser = self.modes.iter().filter(|mode| is_rounding(mode) && mode.full_hz > 0.0);
         let points: Vec<(f64, f64)> = lesser.map(place).collect();
         if !points.is_empty() {
-            legend.push(Entry { sample: Sample::Dot(dot), name: "less than 10⁻¹²".to_owned() });
+            legend
+                .push(LegendEntry { sample: LegendSample::Dot(dot), name: "less than 10⁻¹²".to_owned() });
         }
         layers.push(Layer::Dots { points, dot });
         let y = Measure::logarithmic("Error of eigenfrequency (–)");
-        let panels = vec![Panel { quantity: "error", y, layers, heading: String::new() }];
+        let panels = vec![ChartPanel { quantity: "error", y, layers, heading: String::new() }];
         let description =
             format!("relative errors of {} eigenfrequencies by the reduction", self.modes.len());
         let x = Measure::frequency("Unreduced eigenfrequency", style).over_decades();

@@ -1,25 +1,24 @@
 //! Symbols of sketches of structures: walls, springs, dampers, arrows, dimension lines, in points on the
 //! page.
 //!
-//! The symbols are those of mechanics textbooks, so that a sketch needs no legend.
+//! The symbols are standard in mechanics textbooks, so that a sketch needs no legend.
 
 use crate::{
-    Style,
     font::CAPITAL_HEIGHT,
     plot::lettering,
-    style::{GRID, INK, PALE_INK, PAPER},
-    svg::{Anchor, Point, Stroke, SvgWriter, number},
+    style::{GRID, INK, PALE_INK, PAPER, Style},
+    svg::{Anchor, PagePoint, Stroke, SvgWriter, number},
     text::Text,
 };
 
 /// Line width of a sketch (pt).
 pub(crate) const LINE: f64 = 0.7;
-/// Line width of what only explains (pt).
+/// Line width of auxiliary lines (pt).
 const THIN: f64 = 0.4;
 /// Length of hatching behind a wall (pt).
 pub(crate) const HATCH: f64 = 3.0;
 
-/// Where a wall has its hatching.
+/// Side of the hatching of a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Behind {
     Left,
@@ -28,8 +27,8 @@ pub(crate) enum Behind {
     Above,
 }
 
-pub(crate) fn at(x: f64, y: f64) -> Point {
-    Point { x, y }
+pub(crate) fn at(x: f64, y: f64) -> PagePoint {
+    PagePoint { x, y }
 }
 
 fn ink(width: f64) -> Stroke<'static> {
@@ -37,12 +36,12 @@ fn ink(width: f64) -> Stroke<'static> {
 }
 
 /// A line in ink.
-pub(crate) fn line(svg: &mut SvgWriter, points: &[Point]) {
+pub(crate) fn line(svg: &mut SvgWriter, points: &[PagePoint]) {
     svg.polyline(points, ink(LINE));
 }
 
-/// A wall that stands still: a line with hatching behind it.
-pub(crate) fn wall(svg: &mut SvgWriter, from: Point, to: Point, behind: Behind) {
+/// A fixed wall: a line with hatching behind it.
+pub(crate) fn wall(svg: &mut SvgWriter, from: PagePoint, to: PagePoint, behind: Behind) {
     let length = (to.x - from.x).hypot(to.y - from.y);
     let count = (length / 3.0).ceil().max(2.0);
     let (dx, dy) = match behind {
@@ -51,7 +50,7 @@ pub(crate) fn wall(svg: &mut SvgWriter, from: Point, to: Point, behind: Behind) 
         Behind::Below => (-HATCH, HATCH),
         Behind::Above => (HATCH, -HATCH),
     };
-    let strokes: Vec<[Point; 2]> = (0..count as u32)
+    let strokes: Vec<[PagePoint; 2]> = (0..count as u32)
         .map(|k| {
             let share = (f64::from(k) + 0.5) / count;
             let foot = at(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
@@ -63,35 +62,35 @@ pub(crate) fn wall(svg: &mut SvgWriter, from: Point, to: Point, behind: Behind) 
 }
 
 /// A body that moves with the support: a grey block.
-pub(crate) fn block(svg: &mut SvgWriter, corner: Point, opposite: Point) {
+pub(crate) fn block(svg: &mut SvgWriter, corner: PagePoint, opposite: PagePoint) {
     filled(svg, corner, opposite, GRID);
 }
 
 /// A body on paper.
-pub(crate) fn body(svg: &mut SvgWriter, corner: Point, opposite: Point) {
+pub(crate) fn body(svg: &mut SvgWriter, corner: PagePoint, opposite: PagePoint) {
     filled(svg, corner, opposite, PAPER);
 }
 
-fn filled(svg: &mut SvgWriter, a: Point, b: Point, fill: &str) {
+fn filled(svg: &mut SvgWriter, a: PagePoint, b: PagePoint, fill: &str) {
     let (x, y) = (number(b.x), number(b.y));
     let data = format!("M{} {}H{x}V{y}H{}z", number(a.x), number(a.y), number(a.x));
     svg.path(&data, fill, ink(LINE));
 }
 
 /// A spring between two places: a zigzag with straight ends.
-pub(crate) fn spring(svg: &mut SvgWriter, from: Point, to: Point) {
+pub(crate) fn spring(svg: &mut SvgWriter, from: PagePoint, to: PagePoint) {
     let place = along(from, to);
     let coils = share_of(from, to, 24.0);
     let zigzag = (0..9).map(|k| {
         let side = if k == 0 || k == 8 { 0.0 } else { 2.6 * if k % 2 == 0 { 1.0 } else { -1.0 } };
         place(0.5 + coils * (f64::from(k) / 8.0 - 0.5), side)
     });
-    let points: Vec<Point> = std::iter::once(from).chain(zigzag).chain([to]).collect();
+    let points: Vec<PagePoint> = std::iter::once(from).chain(zigzag).chain([to]).collect();
     line(svg, &points);
 }
 
 /// A damper between two places: a piston in a cylinder.
-pub(crate) fn damper(svg: &mut SvgWriter, from: Point, to: Point) {
+pub(crate) fn damper(svg: &mut SvgWriter, from: PagePoint, to: PagePoint) {
     let place = along(from, to);
     let half = 0.5 * share_of(from, to, 10.0);
     line(svg, &[from, place(0.5, 0.0)]);
@@ -102,25 +101,25 @@ pub(crate) fn damper(svg: &mut SvgWriter, from: Point, to: Point) {
 }
 
 /// Share of the way between two places that a symbol of a length takes, at most six tenths.
-fn share_of(from: Point, to: Point, length: f64) -> f64 {
+fn share_of(from: PagePoint, to: PagePoint, length: f64) -> f64 {
     (length / (to.x - from.x).hypot(to.y - from.y).max(1e-9)).min(0.6)
 }
 
 /// A place by its share of the way between two places and its distance to the side.
-fn along(from: Point, to: Point) -> impl Fn(f64, f64) -> Point {
+fn along(from: PagePoint, to: PagePoint) -> impl Fn(f64, f64) -> PagePoint {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let length = dx.hypot(dy).max(1e-9);
     move |share, side| at(from.x + share * dx - side * dy / length, from.y + share * dy + side * dx / length)
 }
 
 /// A circle, full or open.
-pub(crate) fn disc(svg: &mut SvgWriter, centre: Point, radius: f64, fill: &str) {
+pub(crate) fn disc(svg: &mut SvgWriter, centre: PagePoint, radius: f64, fill: &str) {
     svg.path(&crate::marks::circle(centre, radius), fill, ink(LINE));
 }
 
-/// A turn of a rotational spring or damper around a point.
-pub(crate) fn turn(svg: &mut SvgWriter, centre: Point, radius: f64) {
-    let points: Vec<Point> = (0..=18)
+/// The spiral of a rotational spring or damper around a point.
+pub(crate) fn turn(svg: &mut SvgWriter, centre: PagePoint, radius: f64) {
+    let points: Vec<PagePoint> = (0..=18)
         .map(|k| {
             let angle = std::f64::consts::TAU * f64::from(k) / 24.0;
             at(centre.x + radius * angle.cos(), centre.y - radius * angle.sin())
@@ -130,11 +129,11 @@ pub(crate) fn turn(svg: &mut SvgWriter, centre: Point, radius: f64) {
 }
 
 /// An arrow; with heads at both ends for a motion.
-pub(crate) fn arrow(svg: &mut SvgWriter, from: Point, to: Point, both: bool) {
+pub(crate) fn arrow(svg: &mut SvgWriter, from: PagePoint, to: PagePoint, both: bool) {
     arrow_of(svg, (from, to), both, LINE);
 }
 
-fn arrow_of(svg: &mut SvgWriter, (from, to): (Point, Point), both: bool, width: f64) {
+fn arrow_of(svg: &mut SvgWriter, (from, to): (PagePoint, PagePoint), both: bool, width: f64) {
     let size = 3.4;
     let place = along(from, to);
     let length = (to.x - from.x).hypot(to.y - from.y).max(1e-9);
@@ -148,13 +147,12 @@ fn arrow_of(svg: &mut SvgWriter, (from, to): (Point, Point), both: bool, width: 
     svg.path(&data, INK, Stroke { colour: INK, width: 0.0 });
 }
 
-fn head(tip: Point, left: Point, right: Point) -> String {
-    let pair = |point: Point| format!("{} {}", number(point.x), number(point.y));
+fn head(tip: PagePoint, left: PagePoint, right: PagePoint) -> String {
+    let pair = |point: PagePoint| format!("{} {}", number(point.x), number(point.y));
     format!("M{}L{}L{}z", pair(tip), pair(left), pair(right))
 }
 
-/// A dimension line between two places of the horizontal, with its label in the middle, and thin lines up to
-/// what it measures.
+/// A dimension line between two horizontal positions, with its label in the middle and thin extension lines.
 pub(crate) fn dimension(
     svg: &mut SvgWriter,
     (from, to): (f64, f64),
@@ -178,11 +176,11 @@ pub(crate) fn dimension(
 }
 
 /// A short label.
-pub(crate) fn label(svg: &mut SvgWriter, place: Point, text: &str, anchor: Anchor, style: &Style) {
+pub(crate) fn label(svg: &mut SvgWriter, place: PagePoint, text: &str, anchor: Anchor, style: &Style) {
     svg.text(place, &Text::upright(text), lettering(style.tick_size, anchor));
 }
 
 /// A variable as a label.
-pub(crate) fn variable(svg: &mut SvgWriter, place: Point, text: &str, anchor: Anchor, style: &Style) {
+pub(crate) fn variable(svg: &mut SvgWriter, place: PagePoint, text: &str, anchor: Anchor, style: &Style) {
     svg.text(place, &Text::default().variable(text), lettering(style.tick_size, anchor));
 }

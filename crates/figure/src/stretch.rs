@@ -1,20 +1,20 @@
-//! A branch cut into stretches of one stability, without gaps, inside the frequency axis.
+//! A branch divided into parts of one stability, without gaps, inside the frequency axis.
 
-/// A solution as far as a line through it is concerned.
+/// A solution on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Sample {
+pub(crate) struct BranchSample {
     pub(crate) x: f64,
     pub(crate) y: f64,
     pub(crate) look: LineLook,
-    /// Stability may change here, so that the look of the point says nothing about the lines on both sides.
+    /// Stability may change here, so that the look of the point does not determine the lines on both sides.
     pub(crate) bifurcation: bool,
 }
 
-/// How a line says whether its solutions are stable.
+/// How a line shows the stability of its solutions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LineLook {
     Stable,
-    /// A multiplier stays on the unit circle, as well as it is known.
+    /// A multiplier stays on the unit circle, to its accuracy.
     Marginal,
     Unstable,
 }
@@ -40,27 +40,27 @@ impl LineLook {
     }
 }
 
-/// A stretch of a branch: a line, or a dot where a solution stands alone.
+/// A part of a branch of one stability: a line, or a dot for a single solution.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stretch {
+pub(crate) struct BranchStretch {
     pub(crate) look: LineLook,
     pub(crate) vertices: Vec<Vertex>,
 }
 
-/// A place on a stretch, in the units of the axes.
+/// A point of a part, in the units of the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vertex {
     pub(crate) x: f64,
     pub(crate) y: f64,
-    /// A turning point, which no simplification may take away.
+    /// A turning point, which simplification must keep.
     pub(crate) keep: bool,
 }
 
-/// Cuts a branch into stretches.
+/// Divides a branch into parts of one stability.
 ///
 /// * `samples`: the solutions in order; one that is not finite is a gap.
 /// * `range`: ends of the horizontal axis; lines are cut exactly there.
-pub(crate) fn stretches(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
+pub(crate) fn stretches(samples: &[BranchSample], range: (f64, f64)) -> Vec<BranchStretch> {
     samples
         .split(|sample| !(sample.x.is_finite() && sample.y.is_finite()))
         .flat_map(|connected| match connected {
@@ -71,13 +71,13 @@ pub(crate) fn stretches(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
         .collect()
 }
 
-fn dot(lone: &Sample, (from, to): (f64, f64)) -> Option<Stretch> {
+fn dot(lone: &BranchSample, (from, to): (f64, f64)) -> Option<BranchStretch> {
     let vertices = vec![Vertex { x: lone.x, y: lone.y, keep: true }];
-    (from..=to).contains(&lone.x).then_some(Stretch { look: lone.look, vertices })
+    (from..=to).contains(&lone.x).then_some(BranchStretch { look: lone.look, vertices })
 }
 
-fn lines(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
-    let mut stretches: Vec<Stretch> = Vec::new();
+fn lines(samples: &[BranchSample], range: (f64, f64)) -> Vec<BranchStretch> {
+    let mut stretches: Vec<BranchStretch> = Vec::new();
     let passing = passing_marginal(samples);
     for (k, pair) in samples.windows(2).enumerate() {
         let Some((start, end)) = cut(&pair[0], &pair[1], range) else { continue };
@@ -86,7 +86,7 @@ fn lines(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
             Some(open) if open.look == look && same_place(open.vertices.last(), &start) => {
                 open.vertices.push(end);
             }
-            _ => stretches.push(Stretch { look, vertices: vec![start, end] }),
+            _ => stretches.push(BranchStretch { look, vertices: vec![start, end] }),
         }
     }
     stretches
@@ -96,21 +96,19 @@ fn same_place(last: Option<&Vertex>, start: &Vertex) -> bool {
     last.is_some_and(|last| last.x == start.x && last.y == start.y)
 }
 
-/// Which solutions are marginal between neighbours that are not: a multiplier passes the unit circle, and
-/// their look says
-/// as little of the lines beside them as that of a bifurcation.
-fn passing_marginal(samples: &[Sample]) -> Vec<bool> {
+/// Which solutions are marginal between neighbours that are not: a multiplier passes the unit circle, and, as
+/// at a bifurcation, their look does not determine the lines on both sides.
+fn passing_marginal(samples: &[BranchSample]) -> Vec<bool> {
     let is_marginal = |k: usize| samples.get(k).is_some_and(|sample| sample.look == LineLook::Marginal);
     let alone = |k: usize| is_marginal(k) && !is_marginal(k + 1) && (k == 0 || !is_marginal(k - 1));
     (0..samples.len()).map(alone).collect()
 }
 
-/// The look of the line between two neighbours: as the one says at which stability does not change, else the
-/// less stable
-/// one. Two bifurcations side by side may have stable solutions between them.
+/// The look of the line between two neighbours: the look of the one at which stability does not change, else
+/// the less stable one. Two successive bifurcations may have stable solutions between them.
 ///
-/// * `passing`: whether they are marginal in passing.
-fn look_between([start, end]: [&Sample; 2], passing: [bool; 2]) -> LineLook {
+/// * `passing`: whether each is marginal in passing only.
+fn look_between([start, end]: [&BranchSample; 2], passing: [bool; 2]) -> LineLook {
     let looks = [start.look, end.look];
     let has = |look: LineLook| looks.contains(&look);
     match (start.bifurcation || passing[0], end.bifurcation || passing[1]) {
@@ -123,14 +121,14 @@ fn look_between([start, end]: [&Sample; 2], passing: [bool; 2]) -> LineLook {
 }
 
 /// The part of the line between two solutions inside the axis.
-fn cut(start: &Sample, end: &Sample, (from, to): (f64, f64)) -> Option<(Vertex, Vertex)> {
+fn cut(start: &BranchSample, end: &BranchSample, (from, to): (f64, f64)) -> Option<(Vertex, Vertex)> {
     let (low, high) = (start.x.min(end.x), start.x.max(end.x));
     let inside = low <= to && high >= from;
     inside.then(|| (cut_end(start, end, (from, to)), cut_end(end, start, (from, to))))
 }
 
 /// `near`, or where the line from it to `far` enters the axis.
-fn cut_end(near: &Sample, far: &Sample, (from, to): (f64, f64)) -> Vertex {
+fn cut_end(near: &BranchSample, far: &BranchSample, (from, to): (f64, f64)) -> Vertex {
     if (from..=to).contains(&near.x) {
         return Vertex { x: near.x, y: near.y, keep: near.bifurcation };
     }
@@ -146,15 +144,15 @@ mod tests {
 
     const EVERYWHERE: (f64, f64) = (-1e9, 1e9);
 
-    fn sample(x: f64, stable: bool) -> Sample {
-        Sample { x, y: 10.0 * x, look: LineLook::of(stable, false), bifurcation: false }
+    fn sample(x: f64, stable: bool) -> BranchSample {
+        BranchSample { x, y: 10.0 * x, look: LineLook::of(stable, false), bifurcation: false }
     }
 
-    fn marginal(x: f64) -> Sample {
-        Sample { look: LineLook::Marginal, ..sample(x, true) }
+    fn marginal(x: f64) -> BranchSample {
+        BranchSample { look: LineLook::Marginal, ..sample(x, true) }
     }
 
-    fn ends(stretches: &[Stretch]) -> Vec<(bool, f64, f64)> {
+    fn ends(stretches: &[BranchStretch]) -> Vec<(bool, f64, f64)> {
         stretches
             .iter()
             .map(|s| (s.look == LineLook::Stable, s.vertices[0].x, s.vertices.last().unwrap().x))
@@ -164,7 +162,7 @@ mod tests {
     #[test]
     fn stretches_meet_at_the_bifurcation_whatever_its_own_flag_says() {
         for flag in [true, false] {
-            let fold = Sample { bifurcation: true, ..sample(2.0, flag) };
+            let fold = BranchSample { bifurcation: true, ..sample(2.0, flag) };
             let branch = [sample(0.0, true), sample(1.0, true), fold, sample(1.5, false), sample(1.0, false)];
             assert_eq!(ends(&stretches(&branch, EVERYWHERE)), [(true, 0.0, 2.0), (false, 2.0, 1.0)]);
         }
@@ -194,7 +192,7 @@ mod tests {
 
     #[test]
     fn two_bifurcations_side_by_side_may_have_stable_solutions_between_them() {
-        let at = |x| Sample { bifurcation: true, ..marginal(x) };
+        let at = |x| BranchSample { bifurcation: true, ..marginal(x) };
         let found = stretches(&[sample(0.0, true), at(1.0), at(2.0), sample(3.0, false)], EVERYWHERE);
         let looks: Vec<_> = found.iter().map(|s| (s.look, s.vertices.last().unwrap().x)).collect();
         assert_eq!(looks, [(LineLook::Stable, 2.0), (LineLook::Unstable, 3.0)]);
@@ -202,7 +200,7 @@ mod tests {
 
     #[test]
     fn solutions_that_are_not_finite_are_gaps() {
-        let hole = Sample { y: f64::NAN, ..sample(2.0, true) };
+        let hole = BranchSample { y: f64::NAN, ..sample(2.0, true) };
         let branch = [sample(0.0, true), sample(1.0, true), hole, sample(3.0, true), hole];
         assert_eq!(ends(&stretches(&branch, EVERYWHERE)), [(true, 0.0, 1.0), (true, 3.0, 3.0)]);
         assert!(stretches(&[hole, hole], EVERYWHERE).is_empty());
@@ -210,14 +208,14 @@ mod tests {
 
     #[test]
     fn a_line_from_far_outside_does_not_round_to_zero() {
-        let far = Sample { x: -1e99, y: 9e53, ..sample(0.0, true) };
-        let near = Sample { x: 0.0, y: 1e-91, ..sample(0.0, true) };
+        let far = BranchSample { x: -1e99, y: 9e53, ..sample(0.0, true) };
+        let near = BranchSample { x: 0.0, y: 1e-91, ..sample(0.0, true) };
         assert!(stretches(&[far, near], (-1e39, 1e39))[0].vertices[0].y > 0.0);
     }
 
     #[test]
     fn lines_end_exactly_at_the_ends_of_the_axis() {
-        let branch: Vec<Sample> = [0.0, 4.0, 9.0, 12.0, 8.0].map(|x| sample(x, true)).into();
+        let branch: Vec<BranchSample> = [0.0, 4.0, 9.0, 12.0, 8.0].map(|x| sample(x, true)).into();
         let cut = stretches(&branch, (3.0, 10.0));
         assert_eq!(cut.len(), 1, "the line leaves and comes back at the same place here");
         assert_eq!(cut[0].vertices.iter().map(|v| v.x).collect::<Vec<_>>(), [3.0, 4.0, 9.0, 10.0, 8.0]);

@@ -1,7 +1,7 @@
 //! A small writer of SVG: the few elements that figures need, in points on the page, y downwards.
 //!
 //! Coordinates have two decimals, 0.01 pt, which is a twentieth of a pixel at 300 pixels per inch. There are
-//! no ids, so any number of figures may stand in one page.
+//! no ids, so any number of figures can share one page.
 
 use std::{collections::BTreeSet, fmt::Write};
 
@@ -10,12 +10,12 @@ use crate::{
     text::Text,
 };
 
-/// What is drawn in place of a character that the font lacks.
+/// Replacement for a character missing in the font.
 const LACKING: char = '\u{fffd}';
 
 /// A place on the page (pt), y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct PagePoint {
     pub(crate) x: f64,
     pub(crate) y: f64,
 }
@@ -27,7 +27,7 @@ pub(crate) struct Stroke<'a> {
     pub(crate) width: f64,
 }
 
-/// Where a text stands relative to its anchor point.
+/// Position of a text relative to its anchor point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -49,7 +49,7 @@ pub(crate) struct TextStyle<'a> {
 #[derive(Debug)]
 pub(crate) struct SvgWriter {
     document: String,
-    /// Where the fonts stand in it (bytes).
+    /// Position of the fonts in it (bytes).
     fonts_at: usize,
     characters: Characters,
     lacking: BTreeSet<char>,
@@ -57,17 +57,17 @@ pub(crate) struct SvgWriter {
 
 /// An SVG document, and the fonts that it needs.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Document {
+pub(crate) struct SvgDocument {
     /// The document without fonts.
     pub(crate) text: String,
     fonts_at: usize,
-    /// Those of its text.
+    /// Characters of its text.
     pub(crate) characters: Characters,
-    /// Characters that the font lacks: [`LACKING`] stands for them.
+    /// Characters missing in the font, drawn as [`LACKING`].
     pub(crate) lacking: BTreeSet<char>,
 }
 
-impl Document {
+impl SvgDocument {
     /// The document with the glyphs that it uses.
     pub(crate) fn with_fonts(&self) -> String {
         let (head, rest) = self.text.split_at(self.fonts_at);
@@ -96,14 +96,14 @@ impl SvgWriter {
     }
 
     /// A polyline with blunt ends.
-    pub(crate) fn polyline(&mut self, points: &[Point], stroke: Stroke<'_>) {
+    pub(crate) fn polyline(&mut self, points: &[PagePoint], stroke: Stroke<'_>) {
         self.polylines([(points, None)], stroke);
     }
 
     /// Polylines with blunt ends, each dashed or not, in one group.
     pub(crate) fn polylines<'p>(
         &mut self,
-        lines: impl IntoIterator<Item = (&'p [Point], Option<Dashes>)>,
+        lines: impl IntoIterator<Item = (&'p [PagePoint], Option<Dashes>)>,
         stroke: Stroke<'_>,
     ) {
         let (colour, width) = (stroke.colour, number(stroke.width));
@@ -122,7 +122,7 @@ impl SvgWriter {
     }
 
     /// A closed frame through two opposite corners.
-    pub(crate) fn rectangle(&mut self, corner: Point, opposite: Point, stroke: Stroke<'_>) {
+    pub(crate) fn rectangle(&mut self, corner: PagePoint, opposite: PagePoint, stroke: Stroke<'_>) {
         let (x, y) = (number(opposite.x), number(opposite.y));
         let start = (number(corner.x), number(corner.y));
         self.path(&format!("M{} {}H{x}V{y}H{}z", start.0, start.1, start.0), "none", stroke);
@@ -131,14 +131,15 @@ impl SvgWriter {
     /// A path given by its data, filled and stroked.
     pub(crate) fn path(&mut self, data: &str, fill: &str, stroke: Stroke<'_>) {
         self.add(format_args!(
-            "<path d=\"{data}\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"miter\"/>\n",
+            "<path d=\"{data}\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\" \
+             stroke-linejoin=\"miter\"/>\n",
             stroke.colour,
             number(stroke.width),
         ));
     }
 
     /// A line of text, its baseline through `at`.
-    pub(crate) fn text(&mut self, at: Point, text: &Text, style: TextStyle<'_>) {
+    pub(crate) fn text(&mut self, at: PagePoint, text: &Text, style: TextStyle<'_>) {
         let anchor = match style.anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -164,7 +165,7 @@ impl SvgWriter {
         self.document.push_str("</text>\n");
     }
 
-    /// A character, or what stands for one that the font lacks, which is remembered.
+    /// A character, or the replacement for one missing in the font, which is recorded.
     fn drawable(&mut self, character: char, italic: bool) -> char {
         if character.is_control() || font::has(if italic { font::ITALIC } else { font::UPRIGHT }, character) {
             return character;
@@ -174,10 +175,10 @@ impl SvgWriter {
     }
 
     /// Ends the document.
-    pub(crate) fn finish(mut self) -> Document {
+    pub(crate) fn finish(mut self) -> SvgDocument {
         self.document.push_str("</svg>\n");
         let Self { document: text, fonts_at, characters, lacking } = self;
-        Document { text, fonts_at, characters, lacking }
+        SvgDocument { text, fonts_at, characters, lacking }
     }
 
     fn add(&mut self, arguments: std::fmt::Arguments<'_>) {
@@ -205,7 +206,7 @@ pub(crate) fn points(millimetres: f64) -> f64 {
     millimetres * 72.0 / 25.4
 }
 
-fn polyline_data(points: &[Point]) -> String {
+fn polyline_data(points: &[PagePoint]) -> String {
     let mut data = String::new();
     for (i, point) in points.iter().enumerate() {
         let command = if i == 0 { 'M' } else { 'L' };
@@ -230,7 +231,7 @@ fn trimmed(mut digits: String) -> String {
     if digits == "-0" { "0".to_owned() } else { digits }
 }
 
-/// Text as it may stand in XML; characters that XML does not allow become the replacement character.
+/// Text escaped for XML; characters that XML does not allow become the replacement character.
 pub(crate) fn escape(content: &str) -> String {
     let mut escaped = String::with_capacity(content.len());
     for character in content.chars() {
@@ -271,7 +272,7 @@ mod tests {
     fn a_character_that_the_font_lacks_is_replaced_and_told() {
         let mut writer = SvgWriter::new(84.0, 20.0, "振動", "");
         let style = TextStyle { size: 7.0, colour: "#222222", anchor: Anchor::Start, upwards: false };
-        writer.text(Point { x: 5.0, y: 20.0 }, &Text::upright("Größe 振 🔨\tЖ").variable("梁x"), style);
+        writer.text(PagePoint { x: 5.0, y: 20.0 }, &Text::upright("Größe 振 🔨\tЖ").variable("梁x"), style);
         let document = writer.finish();
         assert_eq!(document.lacking, ['振', '梁', '🔨'].into());
         assert!(document.text.contains("Größe \u{fffd} \u{fffd} Ж<tspan font-style=\"italic\">\u{fffd}x<"));

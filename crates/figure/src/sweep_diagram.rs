@@ -1,16 +1,19 @@
-//! The bifurcation diagram of settled motions: where the response point is at phase 0 of every period, over
-//! the excitation frequency, and how far it gets.
+//! The bifurcation diagram of settled motions: displacement of the response point at phase 0 of every period,
+//! and its maximum, over the excitation frequency.
 //!
 //! Sweeps up and down have a panel each, so that neither covers the other; the panel of the maxima has both
 //! and shows the hysteresis.
 
 use crate::{
-    Figure, FigureError, MotionKind, Style,
-    chart::{Chart, Measure, Panel},
+    chart::{Chart, ChartPanel, Measure},
     dots::{Dot, Shape},
+    error::FigureError,
+    figure::Figure,
     layer::Layer,
-    legend::{Entry, Sample},
-    style::PALE_INK,
+    legend::{LegendEntry, LegendSample},
+    motion::MotionKind,
+    scale::extent,
+    style::{PALE_INK, Style, kind_colour},
 };
 
 /// Radius of a sample, of a sample of a motion with few of them, and of a maximum (pt).
@@ -23,32 +26,32 @@ const FEW: usize = 40;
 /// Settled motions over the frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweepDiagram {
-    /// Title above the figure; empty for none.
+    /// Title above the figure; may be empty.
     pub title: String,
     /// The motions, in any order.
     pub motions: Vec<SweptMotion>,
 }
 
-/// Where a motion of a sweep comes from.
+/// Initial state of a motion of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Origin {
+pub enum SweepOrigin {
     /// From the motion at a lower frequency.
     #[default]
     Up,
     /// From the motion at a higher frequency.
     Down,
-    /// From a state of its own.
+    /// From a separate initial state.
     Start,
 }
 
 /// A settled motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweptMotion {
-    /// Where it comes from.
-    pub origin: Origin,
+    /// Its initial state.
+    pub origin: SweepOrigin,
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
-    /// What it does.
+    /// Kind of the motion.
     pub kind: MotionKind,
     /// Displacement of the response point at phase 0 of each period (m).
     pub samples_m: Vec<f64>,
@@ -56,7 +59,7 @@ pub struct SweptMotion {
     pub max_displacement_m: f64,
 }
 
-impl Origin {
+impl SweepOrigin {
     const ALL: [Self; 3] = [Self::Up, Self::Down, Self::Start];
 
     fn heading(self) -> &'static str {
@@ -78,12 +81,12 @@ impl Origin {
 }
 
 impl SweepDiagram {
-    /// The figure, in that style.
+    /// The figure, in a style.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no motion has a finite sample.
     pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
-        let origins: Vec<Origin> = Origin::ALL
+        let origins: Vec<SweepOrigin> = SweepOrigin::ALL
             .into_iter()
             .filter(|origin| self.motions.iter().any(|m| m.origin == *origin))
             .collect();
@@ -91,20 +94,20 @@ impl SweepDiagram {
             return Err(FigureError::Empty { quantity: "displacement", curves: 0, points: 0 });
         }
         let all = self.motions.iter().flat_map(|motion| &motion.samples_m).map(|sample| 1e3 * sample);
-        let ends = crate::scale::extent(all.filter(|sample| sample.is_finite()));
+        let ends = extent(all.filter(|sample| sample.is_finite()));
         let ends = ends.filter(|(least, greatest)| least < greatest);
         let ends = ends.map(|(least, greatest)| {
             let margin = 0.05 * (greatest - least);
             (least - margin, greatest + margin)
         });
-        let sampled = |origin: &Origin| Panel {
+        let sampled = |origin: &SweepOrigin| ChartPanel {
             quantity: "displacement at phase 0",
             y: Measure { ends, ..Measure::new("Displ. at phase 0 (mm)") },
             layers: self.samples(*origin),
             heading: origin.heading().to_owned(),
         };
-        let mut panels: Vec<Panel> = origins.iter().map(sampled).collect();
-        panels.push(Panel {
+        let mut panels: Vec<ChartPanel> = origins.iter().map(sampled).collect();
+        panels.push(ChartPanel {
             quantity: "maximum displacement",
             y: Measure::new("Max. displ. (mm)"),
             layers: origins.iter().flat_map(|origin| self.maxima(*origin)).collect(),
@@ -115,11 +118,11 @@ impl SweepDiagram {
         Chart { title, x, panels, legend: self.legend(&origins), description, aspect: None }.draw(style)
     }
 
-    fn of(&self, origin: Origin, kind: MotionKind) -> impl Iterator<Item = &SweptMotion> {
+    fn of(&self, origin: SweepOrigin, kind: MotionKind) -> impl Iterator<Item = &SweptMotion> {
         self.motions.iter().filter(move |motion| motion.origin == origin && motion.kind.is_like(kind))
     }
 
-    fn samples(&self, origin: Origin) -> Vec<Layer> {
+    fn samples(&self, origin: SweepOrigin) -> Vec<Layer> {
         let layer = |kind: MotionKind, few: bool| Layer::Dots {
             points: self
                 .of(origin, kind)
@@ -131,21 +134,23 @@ impl SweepDiagram {
         MotionKind::ALL.into_iter().flat_map(|kind| [layer(kind, false), layer(kind, true)]).collect()
     }
 
-    fn maxima(&self, origin: Origin) -> Vec<Layer> {
+    fn maxima(&self, origin: SweepOrigin) -> Vec<Layer> {
         let points =
             |kind| self.of(origin, kind).map(|motion| (motion.frequency_hz, 1e3 * motion.max_displacement_m));
         let kinds = MotionKind::ALL.into_iter();
         kinds
-            .map(|kind| Layer::Dots { points: points(kind).collect(), dot: origin.dot(kind.colour()) })
+            .map(|kind| Layer::Dots { points: points(kind).collect(), dot: origin.dot(kind_colour(kind)) })
             .collect()
     }
 
-    fn legend(&self, origins: &[Origin]) -> Vec<Vec<Entry>> {
+    fn legend(&self, origins: &[SweepOrigin]) -> Vec<Vec<LegendEntry>> {
         let has = |kind: &MotionKind| self.motions.iter().any(|motion| motion.kind.is_like(*kind));
-        let kind =
-            |kind: MotionKind| Entry { sample: Sample::Cell(kind.colour()), name: kind.name().to_owned() };
-        let origin = |origin: &Origin| Entry {
-            sample: Sample::Dot(origin.dot(PALE_INK)),
+        let kind = |kind: MotionKind| LegendEntry {
+            sample: LegendSample::Cell(kind_colour(kind)),
+            name: kind.name().to_owned(),
+        };
+        let origin = |origin: &SweepOrigin| LegendEntry {
+            sample: LegendSample::Dot(origin.dot(PALE_INK)),
             name: format!("maximum, {}", origin.heading()),
         };
         let kinds = MotionKind::ALL.into_iter().filter(has).map(kind);
@@ -164,5 +169,5 @@ impl SweepDiagram {
 
 fn speck(kind: MotionKind, few: bool) -> Dot {
     let (shape, radius) = if few { (Shape::Circle, SINGLE) } else { (Shape::Speck, SPECK) };
-    Dot { shape, colour: kind.colour(), full: true, radius }
+    Dot { shape, colour: kind_colour(kind), full: true, radius }
 }

@@ -49,7 +49,7 @@ impl Span {
     }
 }
 
-/// Breaks a text at spaces into lines no wider than `width` (pt); a longer word keeps a line for itself.
+/// Breaks a text at spaces into lines no wider than `width` (pt); a longer word has its own line.
 pub(crate) fn wrap(content: &str, size: f64, width: f64) -> Vec<Text> {
     let mut lines: Vec<String> = Vec::new();
     for word in content.split_whitespace() {
@@ -64,7 +64,7 @@ pub(crate) fn wrap(content: &str, size: f64, width: f64) -> Vec<Text> {
     lines.into_iter().map(Text::upright).collect()
 }
 
-/// A text no wider than `width` (pt): cut behind what has room, with an ellipsis there.
+/// A text no wider than `width` (pt), truncated with an ellipsis if necessary.
 pub(crate) fn cut(content: &str, size: f64, width: f64) -> Text {
     let whole = Text::upright(content);
     if whole.width(size) <= width {
@@ -75,7 +75,7 @@ pub(crate) fn cut(content: &str, size: f64, width: f64) -> Text {
     cut.into_iter().find(|text| text.width(size) <= width).unwrap_or_default()
 }
 
-/// A number with so many decimals, a true minus sign, and thin spaces between thousands from 10 000 on.
+/// A number with a given count of decimals, a true minus sign, and thin spaces between thousands from 10 000.
 pub(crate) fn decimal(value: f64, decimals: usize) -> String {
     let digits = format!("{:.decimals$}", value.abs());
     let (whole, fraction) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
@@ -97,11 +97,11 @@ fn grouped(whole: &str) -> String {
     grouped
 }
 
-/// A number as a reader would write it, without the last digits, which are rounding: up to nine of them.
+/// A number with at most nine significant digits and without trailing zeros.
 #[must_use]
 pub fn plain_number(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>().unwrap_or(value);
-    // Nothing has no sign.
+    // Zero has no sign.
     (rounded + 0.0).to_string()
 }
 

@@ -1,4 +1,4 @@
-//! Where the ticks of an axis are, and what is written at them.
+//! Positions and labels of the ticks of an axis.
 
 use crate::{
     scale::{Scale, ScaleKind},
@@ -20,14 +20,13 @@ pub(crate) fn ticks(scale: &Scale, wanted: f64) -> Vec<Tick> {
     }
 }
 
-/// At least two labels, since one alone says nothing of the scale: more than are wanted where these would not
-/// give them.
+/// Ticks with at least two labels, since one does not show the scale: more than `wanted` if necessary.
 fn linear(scale: &Scale, wanted: f64) -> Vec<Tick> {
     let labels = |ticks: &[Tick]| ticks.iter().filter(|tick| tick.label.is_some()).count();
     let mut wanted = wanted.max(1.0);
     loop {
         let ticks = linear_of_about(scale, wanted);
-        // Five steps in the length, none longer than half of it, have two ends within it.
+        // Five steps per length, none longer than half of it, have two ends within it.
         if ticks.is_empty() || labels(&ticks) >= 2 || wanted > 5.0 {
             return ticks;
         }
@@ -81,8 +80,8 @@ fn linear_label(value: f64, step: f64, step_exponent: i32, magnitude: f64) -> St
     power_of_ten(&decimal(value / 10f64.powi(exponent), decimals), exponent)
 }
 
-/// Decades, with 2 and 5 labelled where there is room and all of 2 to 9 marked where they can be told apart.
-/// Decades may stand almost twice as close as other labels before some are left out.
+/// Decades, with labels at 2 and 5 if there is room, and ticks at 2 to 9 if they can be distinguished.
+/// Labels of decades may be almost twice as close as others before some are left out.
 fn logarithmic(scale: &Scale, wanted: f64) -> Vec<Tick> {
     let decades = (scale.to / scale.from).log10();
     if !decades.is_normal() {
@@ -159,7 +158,7 @@ mod tests {
         assert_eq!(labels(ScaleKind::Linear, (0.0, 2.1e-7), 3.0), ["0", "10⁻⁷", "2\u{2009}×\u{2009}10⁻⁷"]);
     }
 
-    /// A section of a motion that nearly repeats: digits, not a power of ten behind eight of them.
+    /// A section of a nearly periodic motion has plain digits, not eight of them with a power of ten.
     #[test]
     fn labels_of_values_close_to_each_other_are_plain() {
         let found = labels(ScaleKind::Linear, (-112.178_25, -112.178_21), 3.0);

@@ -1,15 +1,17 @@
 //! What a diagram of curves promises to those who draw it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use hammerbeam_figure::{Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, FigureError, Style};
+use hammerbeam_figure::{
+    Bifurcation, BifurcationCurve, BifurcationCurvePoint, CurveDiagram, FigureError, Style,
+};
 
-fn point(parameter: f64, frequency_hz: f64, name: &str) -> CurvePoint {
-    CurvePoint { parameter, frequency_hz, name: name.to_owned() }
+fn point(parameter: f64, frequency_hz: f64, name: &str) -> BifurcationCurvePoint {
+    BifurcationCurvePoint { parameter, frequency_hz, name: name.to_owned() }
 }
 
 /// Two folds that meet in a cusp, and a flip that crosses one of them.
 fn diagram() -> CurveDiagram {
-    let folds: Vec<CurvePoint> = (-40..=40)
+    let folds: Vec<BifurcationCurvePoint> = (-40..=40)
         .map(|k| {
             let s = f64::from(k) / 40.0;
             point(1.0 + s * s, 30.0 + 3.0 * s * s + s * s * s, if k == 0 { "cusp" } else { "" })

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use hammerbeam_figure::{
-    Figure, FigureError, MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram,
-    ResponsePoint, ResponseSettings, ScaleChoice, Style,
+    Figure, FigureError, MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint,
+    ResponseQuantity, ResponseSettings, ScaleChoice, Style,
 };
 
 fn point(frequency_hz: f64, displacement_mm: f64) -> ResponsePoint {
@@ -46,7 +46,7 @@ fn folded_branch() -> Vec<ResponsePoint> {
 }
 
 fn displacement(diagram: &ResponseDiagram) -> Figure {
-    diagram.draw(Quantity::Displacement).expect("there is something to draw")
+    diagram.draw(ResponseQuantity::Displacement).expect("there is something to draw")
 }
 
 #[test]
@@ -100,15 +100,16 @@ fn measured_points_beyond_the_axes_are_counted() {
     assert!(all.contains(">measured, periodic<") && !all.contains("beyond"));
     over.measured.extend(periodic[3..].iter().chain(&aperiodic));
     let figure = displacement(&over);
-    for told in
+    for entry in
         ["periodic (2 beyond the axes)<", "aperiodic (1 beyond the axes)<", ">measured, kind unknown<"]
     {
-        assert!(figure.svg().contains(told), "{told}");
+        assert!(figure.svg().contains(entry), "{entry}");
     }
-    let words = "measured, periodic: 3 of maximum displacement, 2 more beyond the axes; measured, aperiodic: 0 of maximum displacement, 1 more";
+    let words = "measured, periodic: 3 of maximum displacement, 2 more beyond the axes; \
+                 measured, aperiodic: 0 of maximum displacement, 1 more";
     assert!(figure.svg().contains(words), "{}", figure.svg());
     // What was not measured is not beyond anything.
-    let acceleration = over.draw(Quantity::Acceleration).unwrap();
+    let acceleration = over.draw(ResponseQuantity::Acceleration).unwrap();
     assert!(!acceleration.svg().contains("beyond"));
 }
 
@@ -128,7 +129,7 @@ fn axes_have_units_and_unstable_lines_are_dashed() {
 
 #[test]
 fn nothing_to_draw_is_an_error_that_says_so() {
-    let empty = diagram(&[]).draw(Quantity::Displacement).unwrap_err();
+    let empty = diagram(&[]).draw(ResponseQuantity::Displacement).unwrap_err();
     assert!(matches!(empty, FigureError::Empty { curves: 0, points: 0, .. }));
     let nan = diagram(&[(1, &[point(20.0, f64::NAN), point(f64::INFINITY, 1.0)])]).draw_both().unwrap_err();
     assert_eq!(
@@ -137,7 +138,10 @@ fn nothing_to_draw_is_an_error_that_says_so() {
     );
     let elsewhere =
         ResponseDiagram { frequency_range_hz: Some((70.0, 90.0)), ..diagram(&[(1, &folded_branch())]) };
-    assert!(matches!(elsewhere.draw(Quantity::Acceleration), Err(FigureError::Empty { points: 7, .. })));
+    assert!(matches!(
+        elsewhere.draw(ResponseQuantity::Acceleration),
+        Err(FigureError::Empty { points: 7, .. })
+    ));
     assert_eq!(elsewhere.draw_with(&[], &ResponseSettings::default()), Err(FigureError::NoQuantity));
 }
 
@@ -166,8 +170,9 @@ fn zero_is_a_gap_on_a_logarithmic_axis() {
     let points = [point(20.0, 1.0), point(21.0, 2.0), point(22.0, 0.0), point(23.0, 3.0), point(24.0, 2.0)];
     let settings =
         ResponseSettings { displacement_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
-    let draw =
-        |settings| diagram(&[(1, &points)]).draw_with(&[Quantity::Displacement], settings).unwrap().svg();
+    let draw = |settings| {
+        diagram(&[(1, &points)]).draw_with(&[ResponseQuantity::Displacement], settings).unwrap().svg()
+    };
     let lines = |svg: &str| svg.matches("<path d=\"M").count();
     let (gap, no_gap) = (draw(&settings), draw(&ResponseSettings::default()));
     let data = |svg: &str| svg.split("stroke=\"#262d72\"").last().map(lines);
@@ -223,7 +228,7 @@ fn a_hundred_thousand_solutions_and_thousands_of_events_stay_small() {
 #[test]
 fn a_single_column_is_as_wide_as_one() {
     let settings = ResponseSettings { style: Style::single_column(), ..ResponseSettings::default() };
-    let quantities = [Quantity::Displacement];
+    let quantities = [ResponseQuantity::Displacement];
     let figure = diagram(&[(1, &folded_branch())]).draw_with(&quantities, &settings).unwrap();
     assert_eq!((figure.width_mm(), figure.height_mm().round()), (84.0, 66.0));
     assert!(figure.svg().contains("width=\"84mm\""));
@@ -245,7 +250,7 @@ proptest! {
         let points: Vec<ResponsePoint> = numbers.iter().map(point).collect();
         let displacement_scale = if logarithmic { ScaleChoice::Logarithmic } else { ScaleChoice::Linear };
         let settings = ResponseSettings { displacement_scale, ..ResponseSettings::default() };
-        if let Ok(figure) = diagram(&[(1, &points)]).draw_with(&[Quantity::Displacement], &settings) {
+        if let Ok(figure) = diagram(&[(1, &points)]).draw_with(&[ResponseQuantity::Displacement], &settings) {
             let svg = figure.svg();
             prop_assert!(!svg.contains("NaN") && !svg.contains("inf\"") && svg.len() < 200_000);
             prop_assert!(figure.png(24.0).is_ok());

@@ -229,7 +229,8 @@ fn of_many_modes_the_lowest_are_drawn_and_said_so() {
 /// Labels and names that have no room would run over the edge of the paper.
 #[test]
 fn long_names_and_long_last_numbers_stay_on_the_page() {
-    let long = "première masse with a very very long name indeed, longer than any frame of any figure in a column of a journal";
+    let long = "première masse with a very very long name indeed, longer than any frame of any figure in a \
+                column of a journal";
     let mut named = modes(2);
     named.points = vec![(0.0, long.to_owned())];
     let figure = named.draw(&Style::single_column()).unwrap();

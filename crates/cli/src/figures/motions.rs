@@ -2,8 +2,8 @@
 
 use hammerbeam_attractor::{Attractor, Axis, Class, Grid, behind_rigid_stops};
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, FrequencyUnit, MotionKind,
-    Origin, SectionDiagram, SweepDiagram, SweptMotion,
+    BasinAttractor, BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, FrequencyUnit, MotionKind,
+    SectionDiagram, SweepDiagram, SweepOrigin, SweptMotion,
 };
 use hammerbeam_study::{
     Model, Store, StoreError, StoredBranches, StudyFile,
@@ -114,7 +114,7 @@ pub fn draw_basins(
                 _ => None,
             };
             let places = places(&request, model.system.dof(), attractor);
-            destinations.push(Destination { kind: kind(attractor.class), branch, places });
+            destinations.push(BasinAttractor { kind: kind(attractor.class), branch, places });
         }
         let range = |axis: &str| {
             let scale =
@@ -191,9 +191,9 @@ fn ranges_of(seen: &[(f64, bool)]) -> Vec<(f64, f64)> {
 fn swept(motion: &SettledMotion) -> SweptMotion {
     SweptMotion {
         origin: match motion.origin.as_str() {
-            "up" => Origin::Up,
-            "down" => Origin::Down,
-            _ => Origin::Start,
+            "up" => SweepOrigin::Up,
+            "down" => SweepOrigin::Down,
+            _ => SweepOrigin::Start,
         },
         frequency_hz: motion.point.frequency_hz,
         kind: kind(motion.point.class),

@@ -1,13 +1,13 @@
-//! A face with the glyphs of some characters alone: what an SVG carries, so that it looks the same wherever
-//! it is opened.
+//! A face with the glyphs of some characters only, for embedding: an SVG looks the same wherever it is
+//! opened.
 //!
-//! Of a TrueType face are kept the outlines of these glyphs and of those that they are put together of, their
-//! widths and the map from characters; hints, kerning and names are left out. The tables are those of the
-//! OpenType specification, version 1.9.
+//! The subset of a TrueType face keeps the outlines of these glyphs and of their components, their widths and
+//! the map from characters; hints, kerning and names are left out. Tables follow the OpenType specification,
+//! version 1.9.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{glyph_index, read_u16, read_u32, table};
+use super::tables::{glyph_index, read_u16, read_u32, table};
 
 /// Flags of a component of a glyph.
 const ARE_WORDS: u16 = 0x0001;
@@ -76,8 +76,7 @@ fn place(glyphs: &mut Vec<u16>, glyph: u16) -> u16 {
     found as u16
 }
 
-/// The outline of a glyph without its instructions; glyphs that it is put together of are added to those that
-/// are kept.
+/// The outline of a glyph without its instructions; its component glyphs are added to those that are kept.
 fn outline(face: &[u8], glyph: u16, glyphs: &mut Vec<u16>) -> Option<Vec<u8>> {
     let (loca, glyph) = (table(face, b"loca")?, usize::from(glyph));
     let is_long = read_u16(face, table(face, b"head")? + 50)? == 1;

@@ -1,44 +1,17 @@
 //! Impacts on rigid stops in the figures of an orbit: a velocity that jumps, and an impulse instead of a
 //! force.
 
-use super::{OrbitDiagram, OrbitSample};
+use super::data::{OrbitDiagram, OrbitImpulse, OrbitSample};
 use crate::{
-    chart::{Measure, Panel},
+    chart::{ChartPanel, Measure},
     dots::{Dot, Shape},
     layer::Layer,
-    legend::{Entry, Sample},
+    legend::{LegendEntry, LegendSample},
     style::line_pattern,
-    text::plain_number,
 };
 
-/// Impulses up to which each is said in words.
-const FEW: usize = 4;
 /// Radius of the dot on an impulse (pt).
 const RADIUS: f64 = 1.4;
-
-/// An impact on a rigid stop.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct OrbitImpulse {
-    /// Number of the local element, from 0, as among the forces of a sample.
-    pub element: usize,
-    /// Excitation periods since phase 0 in the first period of the orbit.
-    pub cycles: f64,
-    /// Impulse along the relative displacement of the element, as its forces are (N s).
-    pub impulse_n_s: f64,
-    /// Displacement of the response point (m).
-    pub displacement_m: f64,
-    /// Its velocity before and after the impact (m/s).
-    pub velocity_m_s: [f64; 2],
-    /// Its acceleration before and after the impact, without the impulse (m/s²).
-    pub acceleration_m_s2: [f64; 2],
-}
-
-impl OrbitImpulse {
-    /// Velocity after the impact less that before it (m/s).
-    pub(super) fn velocity_jump(&self) -> f64 {
-        self.velocity_m_s[1] - self.velocity_m_s[0]
-    }
-}
 
 /// A gap in a line.
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
@@ -47,7 +20,7 @@ impl OrbitDiagram {
     /// Displacement (mm) over the time, with its corners.
     pub(super) fn displacement(&self) -> Vec<(f64, f64)> {
         let at = |impulse: &OrbitImpulse| vec![(impulse.cycles, 1e3 * impulse.displacement_m)];
-        self.course(|time, sample| (time, 1e3 * sample.displacement_m), at)
+        self.motion_history(|time, sample| (time, 1e3 * sample.displacement_m), at)
     }
 
     /// Acceleration over the time, with a gap at each impact.
@@ -56,7 +29,7 @@ impl OrbitDiagram {
             let [before, after] = impulse.acceleration_m_s2;
             vec![(impulse.cycles, before), GAP, (impulse.cycles, after)]
         };
-        self.course(|time, sample| (time, sample.acceleration_m_s2), at)
+        self.motion_history(|time, sample| (time, sample.acceleration_m_s2), at)
     }
 
     /// Velocity over displacement (mm), with a gap at each impact.
@@ -65,7 +38,7 @@ impl OrbitDiagram {
             let [before, after] = ends(impulse);
             vec![before, GAP, after]
         };
-        self.course(|_, sample| (1e3 * sample.displacement_m, sample.velocity_m_s), at)
+        self.motion_history(|_, sample| (1e3 * sample.displacement_m, sample.velocity_m_s), at)
     }
 
     /// The jumps of the velocity, each a line of its own.
@@ -74,7 +47,7 @@ impl OrbitDiagram {
     }
 
     /// Points of the samples and of the impacts between them, closed at the end of the period.
-    fn course(
+    fn motion_history(
         &self,
         of_sample: impl Fn(f64, &OrbitSample) -> (f64, f64),
         of_impulse: impl Fn(&OrbitImpulse) -> Vec<(f64, f64)>,
@@ -92,16 +65,16 @@ impl OrbitDiagram {
         points
     }
 
-    /// Whether a force acts over a time, or might: without a rigid stop there is a panel of forces.
+    /// Whether there is a panel of forces: a force acts over a finite time, or there is no rigid stop.
     pub(super) fn has_forces(&self) -> bool {
         let forces = || self.samples.iter().flat_map(|sample| &sample.forces_n);
         forces().next().is_some() && (self.impulses.is_empty() || forces().any(|force| *force != 0.0))
     }
 
     /// The impulses as stems over the time.
-    pub(super) fn impulse_panel(&self) -> Option<Panel> {
+    pub(super) fn impulse_panel(&self) -> Option<ChartPanel> {
         let mut layers = vec![Layer::Levels { at: vec![0.0] }];
-        for element in self.struck() {
+        for element in self.hit_elements() {
             let of_element = self.impulses.iter().filter(|impulse| impulse.element == element);
             let tips: Vec<(f64, f64)> =
                 of_element.map(|impulse| (impulse.cycles, impulse.impulse_n_s)).collect();
@@ -112,42 +85,24 @@ impl OrbitDiagram {
         }
         let heading = self.impulses_in_words();
         let y = Measure::new("Impulse (N s)");
-        (!self.impulses.is_empty()).then_some(Panel { quantity: "impulse", y, layers, heading })
+        (!self.impulses.is_empty()).then_some(ChartPanel { quantity: "impulse", y, layers, heading })
     }
 
-    /// What the stems are of, where several stops are struck.
-    pub(super) fn impulse_entries(&self) -> Vec<Entry> {
-        let struck = self.struck();
+    /// Legend of the stems, if several stops are hit.
+    pub(super) fn impulse_entries(&self) -> Vec<LegendEntry> {
+        let elements = self.hit_elements();
         let name = |element: usize| format!("impulse of {}", self.element_name(element));
-        let entry = |&element: &usize| Entry { sample: Sample::Dot(dot(element)), name: name(element) };
-        if struck.len() > 1 { struck.iter().map(entry).collect() } else { Vec::new() }
+        let entry =
+            |&element: &usize| LegendEntry { sample: LegendSample::Dot(dot(element)), name: name(element) };
+        if elements.len() > 1 { elements.iter().map(entry).collect() } else { Vec::new() }
     }
 
-    /// Local elements that are struck, each once.
-    fn struck(&self) -> Vec<usize> {
+    /// Local elements that are hit, once each.
+    fn hit_elements(&self) -> Vec<usize> {
         let mut elements: Vec<usize> = self.impulses.iter().map(|impulse| impulse.element).collect();
         elements.sort_unstable();
         elements.dedup();
         elements
-    }
-
-    /// How many impulses there are, and how large.
-    pub(super) fn impulses_in_words(&self) -> String {
-        let size = |impulse: &OrbitImpulse| impulse.impulse_n_s.abs();
-        let digits = |value: f64| plain_number(format!("{value:.3e}").parse().unwrap_or(value));
-        let sum: f64 = self.impulses.iter().map(size).sum();
-        match self.impulses.len() {
-            1 => format!("impulse of the impact on a rigid stop: {} N s", digits(sum)),
-            count @ 2..=FEW => {
-                let each: Vec<String> = self.impulses.iter().map(|impulse| digits(size(impulse))).collect();
-                format!("impulses of {count} impacts on rigid stops: {} N s", each.join(", "))
-            }
-            count => {
-                let largest = self.impulses.iter().map(size).fold(0.0, f64::max);
-                let (sum, largest) = (digits(sum), digits(largest));
-                format!("{count} impacts on rigid stops: together {sum} N s, the largest {largest} N s")
-            }
-        }
     }
 }
 

@@ -1,10 +1,10 @@
-//! Solutions as columns of numbers, one after the other: what the page shows of every solution.
+//! Solutions as columns of numbers.
 //!
 //! `frequency` as f64, then displacement, acceleration, force, impact velocity and the leading multiplier
 //! (two columns) as f32, then contacts and flags as u16, all little-endian, over the solutions of all
 //! branches end to end. 36 bytes a solution.
 
-use super::{PageBranch, PageSolution};
+use super::content::{PageBranch, PageSolution};
 
 /// The columns of all branches.
 pub(super) fn pack(branches: &[PageBranch]) -> Vec<u8> {

@@ -1,8 +1,12 @@
-//! The HTML file: style, data, script, one after the other.
+//! The HTML file: style sheet, data and script.
 
 use serde_json::{Value, json};
 
-use super::{Page, PageStop, PageStructure, columns, measured, motions};
+use super::{
+    columns,
+    content::{Page, PageStop, PageStructure},
+    measured, motions,
+};
 use crate::{base64, style};
 
 const SCRIPT: &str = include_str!("../../page/dist/page.js");
@@ -27,7 +31,8 @@ pub(super) fn html(page: &Page) -> String {
         "-->\n<style>\n",
         LOOK,
         "</style>\n</head>\n<body>\n<div id=\"page\"></div>\n",
-        "<noscript>This page draws with a script that it holds itself; scripts are switched off in this browser.</noscript>\n",
+        "<noscript>This page draws with a script that it holds itself; ",
+        "scripts are switched off in this browser.</noscript>\n",
         &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
         &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
         &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
@@ -40,7 +45,7 @@ pub(super) fn html(page: &Page) -> String {
     .concat()
 }
 
-/// What is small.
+/// Everything but solutions, multipliers, orbits and figures.
 fn meta(page: &Page) -> Value {
     let mut first = 0;
     let branches = page.branches.iter().map(|branch| {
@@ -109,7 +114,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// JSON that cannot end the script it stands in.
+/// JSON that cannot close the script element around it.
 fn in_script(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -117,7 +122,7 @@ fn in_script(json: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::page::PageBranch;
+    use crate::page::content::{PageBranch, PageSolution};
 
     #[test]
     fn a_title_cannot_break_out_of_its_place() {
@@ -130,7 +135,7 @@ mod tests {
     #[test]
     fn branches_know_where_their_solutions_begin() {
         let branch = |count: usize| PageBranch {
-            solutions: vec![super::super::PageSolution::default(); count],
+            solutions: vec![PageSolution::default(); count],
             ..PageBranch::default()
         };
         let page = Page { branches: vec![branch(3), branch(0), branch(2)], ..Page::default() };
@@ -139,7 +144,7 @@ mod tests {
         assert_eq!(firsts, [0, 3, 3]);
     }
 
-    /// What the script is: no network, and nothing that ends its element.
+    /// The script uses no network and cannot close its element.
     #[test]
     fn the_script_stays_in_its_element_and_loads_nothing() {
         assert!(!SCRIPT.contains("</script") && !LOOK.contains("</style") && !LICENCE.contains("-->"));

@@ -1,8 +1,8 @@
-//! Printed figures on the page: those of results that it does not draw itself.
+//! Printed figures on the page, of results that it does not draw itself.
 
 use serde_json::{Value, json};
 
-use crate::Figure;
+use crate::figure::Figure;
 
 /// Length of all figures together (bytes).
 const MOST_BYTES: usize = 1_500_000;
@@ -12,7 +12,7 @@ const MOST_BYTES: usize = 1_500_000;
 pub struct PageFigure {
     /// Name of its file, without the suffix.
     pub name: String,
-    /// What kind of result it shows, in words.
+    /// Name of the kind of result.
     pub heading: String,
     description: String,
     svg: String,
@@ -37,7 +37,7 @@ pub struct PageFigures {
 }
 
 impl PageFigures {
-    /// Adds a figure, or notes its name where there is no room for it.
+    /// Adds a figure, or its name only if there is no room for it.
     pub fn push(&mut self, figure: PageFigure) {
         let length = self.length + figure.svg.len();
         if length <= MOST_BYTES {
@@ -48,14 +48,17 @@ impl PageFigures {
         }
     }
 
-    /// Notes why there is no figure of that name.
+    /// Adds the reason why a figure does not exist.
     pub fn refuse(&mut self, name: &str, reason: &str) {
         self.refused.push((name.to_owned(), reason.to_owned()));
     }
 
-    /// What is known of them before any is opened.
+    /// Names, headings and descriptions of all figures.
     pub(super) fn list(&self) -> Value {
-        let entry = |figure: &PageFigure| json!({ "name": figure.name, "heading": figure.heading, "description": figure.description });
+        let entry = |figure: &PageFigure| {
+            let (name, heading, description) = (&figure.name, &figure.heading, &figure.description);
+            json!({ "name": name, "heading": heading, "description": description })
+        };
         json!({
             "carried": self.carried.iter().map(entry).collect::<Vec<_>>(),
             "noRoom": self.no_room,
@@ -63,7 +66,7 @@ impl PageFigures {
         })
     }
 
-    /// The documents, in the order of the list.
+    /// The SVG documents, in the order of the list.
     pub(super) fn documents(&self) -> Value {
         self.carried.iter().map(|figure| figure.svg.as_str()).collect()
     }

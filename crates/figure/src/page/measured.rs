@@ -1,17 +1,17 @@
-//! Measured points over the response diagram.
+//! Measured points in the response diagram.
 
 use serde_json::{Value, json};
 
-use crate::{MeasuredMotion, Quantity};
+use crate::response_diagram::{MeasuredMotion, ResponseQuantity};
 
-/// Measured points of one quantity, as a comparison left them.
+/// Measured points of one quantity, as the result of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PageMeasured {
-    /// Where they are from, in words.
+    /// Description of their source.
     pub name: String,
-    /// What was measured.
-    pub quantity: Quantity,
-    /// What a reader has to know before points and branches are compared; empty for nothing.
+    /// The measured quantity.
+    pub quantity: ResponseQuantity,
+    /// Note on the comparison of points and branches; may be empty.
     pub note: String,
     /// The points.
     pub points: Vec<PageMeasuredPoint>,
@@ -20,21 +20,21 @@ pub struct PageMeasured {
 /// A measured point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PageMeasuredPoint {
-    /// Which line or record it is.
+    /// Its line or record.
     pub origin: String,
     /// Kind of the motion.
     pub motion: MeasuredMotion,
-    /// Its period over that of the excitation, if it is periodic and that is known.
+    /// Motion period over excitation period, if it is periodic and that is known.
     pub period_multiple: Option<u32>,
     /// Excitation frequency (Hz) and largest value (SI), as measured.
     pub measured: (f64, f64),
-    /// The same, shifted as the comparison has it.
+    /// The same after the shift of the comparison.
     pub shifted: (f64, f64),
-    /// What the comparison says of it, in words.
+    /// Result of the comparison in words.
     pub verdict: String,
 }
 
-/// A series as the script reads it.
+/// A series in the format of the script.
 pub(super) fn series(series: &PageMeasured) -> Value {
     let point = |point: &PageMeasuredPoint| {
         json!({
@@ -54,12 +54,12 @@ pub(super) fn series(series: &PageMeasured) -> Value {
     })
 }
 
-fn quantity(quantity: Quantity) -> &'static str {
+fn quantity(quantity: ResponseQuantity) -> &'static str {
     match quantity {
-        Quantity::Displacement => "displacement",
-        Quantity::Acceleration => "acceleration",
-        Quantity::ContactForce => "force",
-        Quantity::ImpactVelocity => "velocity",
+        ResponseQuantity::Displacement => "displacement",
+        ResponseQuantity::Acceleration => "acceleration",
+        ResponseQuantity::ContactForce => "force",
+        ResponseQuantity::ImpactVelocity => "velocity",
     }
 }
 

@@ -1,11 +1,11 @@
-//! Motions that do not repeat, and their stroboscopic points.
+//! Aperiodic motions, and their stroboscopic points.
 //!
-//! Points of a section are carried as pairs of u16, steps from the least value of each coordinate to the
-//! largest: a 65 535th of its range.
+//! Points of a section are stored as pairs of u16: steps of a 65 535th of the range of each coordinate from
+//! its least value.
 
 use serde_json::{Value, json};
 
-use crate::{MotionKind, base64};
+use crate::{base64, motion::MotionKind};
 
 /// Points of all sections together: 1.3 MB of a page.
 const MOST_POINTS: usize = 250_000;
@@ -28,15 +28,15 @@ pub struct PageMotion {
 pub struct PageSection {
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
-    /// Where the motion is from, in words.
+    /// Description of the source of the motion.
     pub origin: String,
-    /// What the motion is; `None` if that was not judged.
+    /// Kind of the motion; `None` if it was not classified.
     pub kind: Option<MotionKind>,
     /// Largest Lyapunov exponent with its half-width (1/s).
     pub exponent_per_s: Option<(f64, f64)>,
     /// Kaplan-Yorke dimension.
     pub dimension: Option<f64>,
-    /// What its points are.
+    /// Coordinates of its points.
     pub plane: SectionPlane,
     /// Its points at phase 0, in the order of time.
     pub points: Vec<(f64, f64)>,
@@ -52,12 +52,13 @@ pub enum SectionPlane {
     NextDisplacement,
 }
 
-/// A motion as the script reads it.
+/// A motion in the format of the script.
 pub(super) fn motion(motion: &PageMotion) -> Value {
-    json!({ "frequency": motion.frequency_hz, "displacement": motion.displacement_m, "kind": word(motion.kind) })
+    let kind = word(motion.kind);
+    json!({ "frequency": motion.frequency_hz, "displacement": motion.displacement_m, "kind": kind })
 }
 
-/// Sections as the script reads them: of each so many points that all of them have room.
+/// Sections in the format of the script, each limited to its share of all points.
 pub(super) fn sections(sections: &[PageSection]) -> Vec<Value> {
     let most = MOST_POINTS / sections.len().max(1);
     sections.iter().map(|one| section(one, most)).collect()
@@ -67,8 +68,8 @@ fn section(section: &PageSection, most: usize) -> Value {
     let is_finite = |point: &&(f64, f64)| point.0.is_finite() && point.1.is_finite();
     let points: Vec<(f64, f64)> = section.points.iter().filter(is_finite).copied().collect();
     let carried = &points[..points.len().min(most)];
-    let x = Range::of(carried.iter().map(|point| point.0));
-    let y = Range::of(carried.iter().map(|point| point.1));
+    let x = CoordinateRange::of(carried.iter().map(|point| point.0));
+    let y = CoordinateRange::of(carried.iter().map(|point| point.1));
     let pair = |point: &(f64, f64)| [x.steps(point.0), y.steps(point.1)];
     let bytes: Vec<u8> = carried.iter().flat_map(pair).flat_map(u16::to_le_bytes).collect();
     json!({
@@ -86,12 +87,12 @@ fn section(section: &PageSection, most: usize) -> Value {
 }
 
 /// Least and largest value of a coordinate.
-struct Range {
+struct CoordinateRange {
     low: f64,
     high: f64,
 }
 
-impl Range {
+impl CoordinateRange {
     fn of(values: impl Iterator<Item = f64>) -> Self {
         let widen = |range: Self, value: f64| Self { low: range.low.min(value), high: range.high.max(value) };
         values.fold(Self { low: f64::INFINITY, high: f64::NEG_INFINITY }, widen)
@@ -99,7 +100,7 @@ impl Range {
 
     fn steps(&self, value: f64) -> u16 {
         let share = (value - self.low) / (self.high - self.low);
-        (STEPS * share).round() as u16 // of no range 0 / 0, which becomes 0
+        (STEPS * share).round() as u16 // 0 / 0 for an empty range becomes 0
     }
 }
 

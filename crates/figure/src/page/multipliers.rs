@@ -1,12 +1,11 @@
 //! Floquet multipliers of every solution, the largest ones.
 //!
-//! A record for each solution, one behind the other, little-endian: a u16 whose lowest four bits are the
-//! number of entries and whose bit `4 + k` says that entry `k` is a pair, then the entries. An entry is a
-//! real multiplier, or the real and the imaginary part of a pair, of which the one above the axis stands for
-//! both. A number is an f32 without its lowest byte: cut, not rounded, so that what lies within the unit
-//! circle stays there. That is good to 2^-15 of it.
+//! One record per solution in sequence, little-endian: a u16 whose lowest four bits are the number of entries
+//! and whose bit `4 + k` marks entry `k` as a pair, then the entries. An entry is a real multiplier, or the
+//! real and the positive imaginary part of a pair. A number is an f32 without its lowest byte: truncated, not
+//! rounded, so that a multiplier within the unit circle stays there. The relative error is below 2^-15.
 
-/// Entries of a solution at most.
+/// Largest number of entries of a solution.
 const MOST_ENTRIES: usize = 12;
 
 /// Multipliers of solutions, packed.
@@ -18,8 +17,7 @@ pub struct MultiplierRecords {
 }
 
 impl MultiplierRecords {
-    /// Adds the multipliers of the next solution, over all branches end to end; none where they are not
-    /// known.
+    /// Adds the multipliers of the next solution, in the order of all branches; none if they are unknown.
     ///
     /// * `multipliers`: largest modulus first, a pair side by side.
     pub fn push(&mut self, multipliers: &[[f64; 2]]) {
@@ -45,12 +43,12 @@ impl MultiplierRecords {
         self.solutions
     }
 
-    /// The largest number of multipliers of a solution, those that are not carried included.
+    /// The largest number of multipliers of a solution, including those that are not stored.
     pub(super) fn most(&self) -> usize {
         self.most
     }
 
-    /// All records, one after the other.
+    /// All records in sequence.
     pub(super) fn bytes(&self) -> &[u8] {
         &self.bytes
     }

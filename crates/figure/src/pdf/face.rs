@@ -8,13 +8,13 @@ use pdf_writer::{
     types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap},
 };
 
-use super::deflated;
+use super::stream::deflated;
 use crate::font::{self, CAPITAL_HEIGHT, glyph_index, read_u16, table};
 
-/// Glyphs by their numbers, which are their codes, too.
+/// Character codes equal to glyph numbers.
 const IDENTITY: SystemInfo<'_> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
-/// Width of upright stems over the em, about that of the letter l.
+/// Width of upright stems over the em, about the width of the letter l.
 const STEM: f32 = 0.09;
 
 /// A face with some characters.
@@ -23,7 +23,7 @@ pub(super) struct Face {
     pub(super) resource: String,
     /// Number of its first object, the font.
     pub(super) first_object: Ref,
-    /// Its name, with six letters before it that are those of its characters.
+    /// Its name, with a prefix of six letters derived from its characters.
     name: String,
     italic: bool,
     characters: Vec<char>,
@@ -44,7 +44,7 @@ struct Metrics {
 }
 
 impl Face {
-    /// How many objects it takes.
+    /// Number of its objects.
     pub(super) const OBJECTS: i32 = 5;
 
     /// The characters of a face; `None` where the tables of the face cannot be read.
@@ -133,14 +133,14 @@ impl Metrics {
             bounds: [side(0)?, side(1)?, side(2)?, side(3)?],
             ascent: signed(hhea + 4)?,
             descent: signed(hhea + 6)?,
-            // The whole degrees of a number with 16 bits behind the point.
+            // The whole degrees of a fixed-point number with 16 fractional bits.
             italic_angle: f32::from(read_u16(file, post + 4)?.cast_signed()),
         })
     }
 }
 
-/// Six letters for a set of characters, so that faces with different ones are not taken for each other (hash
-/// of Fowler, Noll and Vo).
+/// Six letters for a set of characters, so that faces with different characters have different names (hash of
+/// Fowler, Noll and Vo).
 fn tag(characters: &BTreeSet<char>) -> String {
     let hash = characters.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, character| {
         (hash ^ u64::from(u32::from(*character))).wrapping_mul(0x0100_0000_01b3)

@@ -1,13 +1,13 @@
 //! Opaque pixels as a PNG file (ISO/IEC 15948).
 //!
-//! Figures are ink on white: most pixels are those above them, and many figures have at most 256 colours,
-//! edges smoothed. Where they have, a pixel is one byte, the place of its colour in a palette; else it is
-//! three. Rows are written as they are: what repeats from row to row the deflater finds as well without a
-//! filter, in files that are a fifth smaller than with differences of rows.
+//! Most pixels of a figure equal those above them, and many figures have at most 256 colours, including
+//! smoothed edges. Then a pixel is one byte, the index of its colour in a palette; else it is three bytes.
+//! Rows are written without filters: deflate finds repeated rows as well, in files a fifth smaller than with
+//! differences of rows.
 
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 
-/// How hard the deflater looks for what repeats, from 1 to 9.
+/// Compression level of deflate, from 1 to 9.
 ///
 /// Of the 104 figures of a beam, 3 makes 9.1 MB in two thirds of the time of 6, which makes 8.7 MB; 1 makes
 /// 15.3 MB in half of that.
@@ -57,7 +57,7 @@ struct Palette {
 const SLOTS: usize = 4 * PALETTE;
 
 impl Palette {
-    /// None where there are too many.
+    /// The palette of an image; `None` for too many colours.
     fn of(pixels: &[u8]) -> Option<Self> {
         let mut palette = Self { slots: vec![None; SLOTS], colours: Vec::new() };
         let mut last = None;
@@ -79,7 +79,7 @@ impl Palette {
         Some(palette)
     }
 
-    /// Where a colour is, or where it would be put.
+    /// Slot of a colour, present or not.
     fn slot(&self, colour: [u8; 3]) -> usize {
         let [red, green, blue] = colour.map(u32::from);
         let mut slot = (red << 16 | green << 8 | blue).wrapping_mul(0x9e37_79b1) as usize >> 22;

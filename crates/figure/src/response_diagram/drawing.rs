@@ -1,18 +1,22 @@
-//! The page: title, legend and panels put together.
+//! The layout of title, legend and panels.
 
-use super::{MeasuredMotion, Quantity, ResponseDiagram, ResponseSettings, panel::Panel};
+use super::{
+    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings},
+    panel::ResponsePanel,
+};
 use crate::{
-    Figure, FigureError,
-    axis::Axis,
+    axis::PlotAxis,
+    error::FigureError,
+    figure::Figure,
     font::CAPITAL_HEIGHT,
     layer::Layer,
-    legend::{Entry, Legend, Sample},
+    legend::{Legend, LegendEntry, LegendSample},
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent},
     stretch::LineLook,
     style::{INK, PeriodLook, SHADE, Style, period_look},
-    svg::{Anchor, Point, SvgWriter, points},
+    svg::{Anchor, PagePoint, SvgWriter, points},
     text::{Text, wrap},
 };
 
@@ -26,21 +30,21 @@ const TICK_SPACING: (f64, f64) = (42.0, 27.0);
 /// Draws a panel for each quantity.
 pub(super) fn draw(
     diagram: &ResponseDiagram,
-    quantities: &[Quantity],
+    quantities: &[ResponseQuantity],
     settings: &ResponseSettings,
 ) -> Result<Figure, FigureError> {
     let range_hz = frequency_range(diagram)?;
     let panels = quantities
         .iter()
-        .map(|&quantity| Panel::new(diagram, quantity, range_hz, settings))
+        .map(|&quantity| ResponsePanel::new(diagram, quantity, range_hz, settings))
         .collect::<Result<Vec<_>, _>>()?;
     if panels.is_empty() {
         return Err(FigureError::NoQuantity);
     }
-    Ok(Page::new(diagram, &panels, range_hz, &settings.style).draw())
+    Ok(ResponseLayout::new(diagram, &panels, range_hz, &settings.style).draw())
 }
 
-/// Ends of the frequency axis: as asked for, else those of the finite frequencies with a small margin.
+/// Ends of the frequency axis: the given ones, else the range of the finite frequencies with a small margin.
 fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError> {
     if let Some((from_hz, to_hz)) = diagram.frequency_range_hz {
         let shown = [from_hz, to_hz].into_iter().all(|end| ScaleKind::Linear.shows(end));
@@ -57,11 +61,11 @@ fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError>
     Ok((least - margin, greatest + margin))
 }
 
-/// A page with everything in its place.
-struct Page<'a> {
+/// The parts of the figure with their positions.
+struct ResponseLayout<'a> {
     diagram: &'a ResponseDiagram,
     style: &'a Style,
-    panels: &'a [Panel],
+    panels: &'a [ResponsePanel],
     title: Vec<Text>,
     legend: Legend,
     plots: Vec<Plot>,
@@ -69,17 +73,17 @@ struct Page<'a> {
     height: f64,
 }
 
-impl<'a> Page<'a> {
+impl<'a> ResponseLayout<'a> {
     fn new(
         diagram: &'a ResponseDiagram,
-        panels: &'a [Panel],
+        panels: &'a [ResponsePanel],
         range_hz: (f64, f64),
         style: &'a Style,
     ) -> Self {
         let panel_height = panel_share(panels.len()) * points(style.height_mm) - room_below(style);
-        let axes: Vec<Axis> = panels
+        let axes: Vec<PlotAxis> = panels
             .iter()
-            .map(|panel| Axis::new(panel.scale, panel.label(), 0.85 * panel_height, TICK_SPACING.1))
+            .map(|panel| PlotAxis::new(panel.scale, panel.label(), 0.85 * panel_height, TICK_SPACING.1))
             .collect();
         let label_width = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, label_width);
@@ -90,7 +94,8 @@ impl<'a> Page<'a> {
         let title = wrap(&diagram.title, style.label_size, right - left);
         let legend = Legend::new(entries(panels, diagram), style, right - left);
         let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
-        let horizontal = Axis::in_unit((across, factor), Text::upright(label), right - left, TICK_SPACING.0);
+        let horizontal =
+            PlotAxis::in_unit((across, factor), Text::upright(label), right - left, TICK_SPACING.0);
         let lowest = axes.len() - 1;
         let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
         let plot_height = labels.fold(panel_height - head, f64::max);
@@ -127,13 +132,13 @@ impl<'a> Page<'a> {
         let style = self.style;
         for (i, line) in self.title.iter().enumerate() {
             let y = MARGIN + i as f64 * title_height(style) + CAPITAL_HEIGHT * style.label_size;
-            svg.text(Point { x: self.left, y }, line, lettering(style.label_size, Anchor::Start));
+            svg.text(PagePoint { x: self.left, y }, line, lettering(style.label_size, Anchor::Start));
         }
         let y = MARGIN + self.title.len() as f64 * title_height(style);
-        self.legend.draw(svg, Point { x: self.left, y }, style);
+        self.legend.draw(svg, PagePoint { x: self.left, y }, style);
     }
 
-    /// What the figure shows, in words.
+    /// Description of the figure.
     fn description(&self) -> String {
         let names: Vec<&str> = self.panels.iter().map(|panel| panel.quantity.name()).collect();
         let curves = self.diagram.curves.len();
@@ -192,7 +197,7 @@ fn horizontal(diagram: &ResponseDiagram, style: &Style) -> (String, f64) {
     }
 }
 
-/// Height of a panel over that of a figure of one: panels on top of each other are lower.
+/// Height of a panel over the height of a single one: several panels are lower.
 fn panel_share(panels: usize) -> f64 {
     if panels == 1 { 1.0 } else { 0.85 }
 }
@@ -201,42 +206,42 @@ fn title_height(style: &Style) -> f64 {
     1.5 * style.label_size
 }
 
-/// What the legend explains, lines and marks: only what is drawn.
-fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
-    let mut multiples: Vec<u32> = panels.iter().flat_map(Panel::period_multiples).collect();
+/// Entries of the legend, for the lines and marks that are drawn.
+fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram) -> Vec<Vec<LegendEntry>> {
+    let mut multiples: Vec<u32> = panels.iter().flat_map(ResponsePanel::period_multiples).collect();
     multiples.sort_unstable();
     multiples.dedup();
     let any = PeriodLook { colour: INK, strokes: 0 };
     let look = if let [single] = multiples[..] { period_look(single) } else { any };
-    let colours = multiples.iter().filter(|_| multiples.len() > 1).map(|&multiple| Entry {
-        sample: Sample::Period(period_look(multiple)),
+    let colours = multiples.iter().filter(|_| multiples.len() > 1).map(|&multiple| LegendEntry {
+        sample: LegendSample::Period(period_look(multiple)),
         name: period_name(multiple),
     });
     let lines = LineLook::ALL
         .into_iter()
         .filter(|line| panels.iter().any(|panel| panel.has(*line)))
-        .map(|line| Entry { sample: Sample::Line { look, line }, name: line.name().to_owned() });
+        .map(|line| LegendEntry { sample: LegendSample::Line { look, line }, name: line.name().to_owned() });
     let marks = Mark::ALL
         .into_iter()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))
-        .map(|mark| Entry { sample: Sample::Mark(mark), name: mark_name(mark, panels) });
+        .map(|mark| LegendEntry { sample: LegendSample::Mark(mark), name: mark_name(mark, panels) });
     let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
-    let shade =
-        is_shaded.then(|| Entry { sample: Sample::Cell(SHADE), name: "chaotic motion found".to_owned() });
+    let shade = is_shaded
+        .then(|| LegendEntry { sample: LegendSample::Cell(SHADE), name: "chaotic motion found".to_owned() });
     let measured = MeasuredMotion::ALL.into_iter().filter_map(|motion| {
-        let there = panels.iter().flat_map(Panel::measured).filter(|of| of.motion == motion);
+        let there = panels.iter().flat_map(ResponsePanel::measured).filter(|of| of.motion == motion);
         let beyond = there.map(|of| of.beyond).max()?;
         let name = match beyond {
             0 => motion.name().to_owned(),
             beyond => format!("{} ({beyond} beyond the axes)", motion.name()),
         };
-        Some(Entry { sample: Sample::Dot(motion.dot(0.0)), name })
+        Some(LegendEntry { sample: LegendSample::Dot(motion.dot(0.0)), name })
     });
     vec![colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
 }
 
-/// The name of a mark, with what it stands for besides.
-fn mark_name(mark: Mark, panels: &[Panel]) -> String {
+/// The name of a mark, with its second meaning.
+fn mark_name(mark: Mark, panels: &[ResponsePanel]) -> String {
     let stands_for_both = mark == Mark::Flip && panels.iter().any(|panel| panel.branches_at_flips() > 0);
     if stands_for_both { "flip, branch point of twice the period".to_owned() } else { mark.name().to_owned() }
 }

@@ -1,13 +1,14 @@
-//! Events at one place of a panel have one mark.
+//! Coinciding events of a panel have one mark.
 //!
-//! At each flip a branch of twice the period begins, whose first row is a branch point at the same place: the
-//! mark of the flip stands for both. A fold that is the corner of a branch at a grazing has a mark of its own
-//! instead of one over the other. Events of other kinds stay apart, since where they meet is a finding.
+//! At each flip a branch of twice the period bifurcates, whose first row is a branch point at the same place:
+//! the mark of the flip represents both. A fold that is the corner of a branch at a grazing has a mark of its
+//! own instead of two overlapping marks. Events of other kinds keep their marks, since their coincidence is a
+//! result.
 
 use crate::marks::Mark;
 
 /// A place by frequency and value.
-type Place = (f64, f64);
+type PanelPlace = (f64, f64);
 
 /// Places count as one if they are no further apart than this, in lengths of the axes: the same event is
 /// located on both branches to far less, and others are that near by chance only.
@@ -18,27 +19,30 @@ const ONE_PLACE: f64 = 1e-5;
 pub(super) struct JoinedEvents {
     /// Places of each mark that has some, in the order of [`Mark::ALL`], and how many events of that kind
     /// there are, those with another mark included.
-    pub(super) events: Vec<(Mark, Vec<Place>, usize)>,
+    pub(super) events: Vec<(Mark, Vec<PanelPlace>, usize)>,
     /// Branch points that have the mark of a flip.
     pub(super) branches_at_flips: usize,
 }
 
-/// Joins events at one place.
+/// Joins coinciding events.
 ///
 /// * `events`: of each kind, along the branches.
-/// * `shares`: where a place lies, in lengths of the axes.
-pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Place) -> JoinedEvents {
+/// * `shares`: position of a place, in lengths of the axes.
+pub(super) fn join(
+    events: &[(Mark, Vec<PanelPlace>)],
+    shares: impl Fn(PanelPlace) -> PanelPlace,
+) -> JoinedEvents {
     let of = |mark: Mark| {
         events.iter().filter(move |(kind, _)| *kind == mark).flat_map(|(_, places)| places.iter().copied())
     };
     let near = |marks: &[Mark]| {
-        let mut places: Vec<Place> = marks.iter().flat_map(|&mark| of(mark)).map(&shares).collect();
+        let mut places: Vec<PanelPlace> = marks.iter().flat_map(|&mark| of(mark)).map(&shares).collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         places
     };
     let flips = near(&[Mark::Flip]);
     let (folds, grazings) = (near(&[Mark::Fold]), near(&[Mark::Grazing]));
-    let places = |mark: Mark| -> Vec<Place> {
+    let places = |mark: Mark| -> Vec<PanelPlace> {
         match mark {
             Mark::BranchPoint => of(mark).filter(|&place| !is_near(&flips, shares(place))).collect(),
             Mark::Fold => of(mark).filter(|&place| !is_near(&grazings, shares(place))).collect(),
@@ -54,7 +58,7 @@ pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Plac
         let count = of(mark).count().max(places.len());
         (mark, places, count)
     });
-    let hidden = |(mark, places, count): &(Mark, Vec<Place>, usize)| match mark {
+    let hidden = |(mark, places, count): &(Mark, Vec<PanelPlace>, usize)| match mark {
         Mark::BranchPoint => count - places.len(),
         _ => 0,
     };
@@ -63,8 +67,8 @@ pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Plac
     JoinedEvents { events, branches_at_flips }
 }
 
-/// Whether one of the places, in increasing order along the first axis, is that one.
-fn is_near(places: &[Place], (x, y): Place) -> bool {
+/// Whether one of the places, in increasing order along the first axis, coincides with a place.
+fn is_near(places: &[PanelPlace], (x, y): PanelPlace) -> bool {
     let first = places.partition_point(|place| place.0 < x - ONE_PLACE);
     let mut beside = places[first..].iter().take_while(|place| place.0 <= x + ONE_PLACE);
     beside.any(|place| (place.1 - y).abs() <= ONE_PLACE)

@@ -1,55 +1,56 @@
-//! One panel: the data of one quantity, made ready for the page.
+//! One panel: the data of one quantity, prepared for the page.
 
 use super::{
-    MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+    data::{
+        MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings,
+    },
     joined::{JoinedEvents, join},
 };
 use crate::{
-    FigureError, ScaleChoice,
     decimate::decimate,
+    error::FigureError,
     line::draw_stretches,
     marks::Mark,
     plot::Plot,
-    scale::{Scale, ScaleKind, extent},
-    stretch::{LineLook, Sample, Stretch, Vertex, stretches},
+    scale::{Scale, ScaleChoice, ScaleKind, extent},
+    stretch::{BranchSample, BranchStretch, LineLook, Vertex, stretches},
     style::{Style, period_look},
-    svg::{Point, SvgWriter},
+    svg::{PagePoint, SvgWriter},
     text::Text,
 };
 
 /// The data of one quantity.
-pub(super) struct Panel {
-    pub(super) quantity: Quantity,
+pub(super) struct ResponsePanel {
+    pub(super) quantity: ResponseQuantity,
     pub(super) scale: Scale,
-    lines: Vec<Line>,
+    lines: Vec<BranchLine>,
     events: JoinedEvents,
-    measured: Vec<Measured>,
+    measured: Vec<MeasuredPlaces>,
 }
 
-/// The measured points of a kind: places of those that are drawn, and how many are not, since they lie beyond
-/// the axes.
-pub(super) struct Measured {
+/// The measured points of a kind: places of those that are drawn, and the number of those beyond the axes.
+pub(super) struct MeasuredPlaces {
     pub(super) motion: MeasuredMotion,
     pub(super) places: Vec<(f64, f64)>,
     pub(super) beyond: usize,
 }
 
 /// The stretches of a branch.
-struct Line {
+struct BranchLine {
     period_multiple: u32,
-    stretches: Vec<Stretch>,
+    stretches: Vec<BranchStretch>,
 }
 
-impl Panel {
+impl ResponsePanel {
     /// Collects what lies between the ends of the frequency axis.
     pub(super) fn new(
         diagram: &ResponseDiagram,
-        quantity: Quantity,
+        quantity: ResponseQuantity,
         range_hz: (f64, f64),
         settings: &ResponseSettings,
     ) -> Result<Self, FigureError> {
         let kind = scale_choice(quantity, settings).decide(visible_values(diagram, quantity, range_hz));
-        let lines: Vec<Line> =
+        let lines: Vec<BranchLine> =
             diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
         let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
         let measured = MeasuredMotion::ALL.map(|motion| measured(diagram, quantity, kind, range_hz, motion));
@@ -67,12 +68,14 @@ impl Panel {
     /// What the vertical axis shows.
     pub(super) fn label(&self) -> Text {
         match self.quantity {
-            Quantity::Displacement => Text::upright("Displacement max\u{2009}|").variable("y").and("| (mm)"),
-            Quantity::Acceleration => {
+            ResponseQuantity::Displacement => {
+                Text::upright("Displacement max\u{2009}|").variable("y").and("| (mm)")
+            }
+            ResponseQuantity::Acceleration => {
                 Text::upright("Acceleration max\u{2009}|").variable("ÿ").and("| (m/s²)")
             }
-            Quantity::ContactForce => Text::upright("Largest contact force (N)"),
-            Quantity::ImpactVelocity => Text::upright("Largest impact velocity (m/s)"),
+            ResponseQuantity::ContactForce => Text::upright("Largest contact force (N)"),
+            ResponseQuantity::ImpactVelocity => Text::upright("Largest impact velocity (m/s)"),
         }
     }
 
@@ -95,9 +98,8 @@ impl Panel {
         multiples
     }
 
-    /// Draws marks and lines: unstable lines under marginal and stable ones, grazing marks under both, the
-    /// other marks on
-    /// top.
+    /// Draws marks and lines: unstable lines under marginal and stable ones, grazing marks below all lines,
+    /// other marks above them.
     pub(super) fn draw(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
         let marks = self.marks(plot, style);
         for (mark, places) in marks.iter().filter(|(mark, _)| mark.is_behind()) {
@@ -110,13 +112,13 @@ impl Panel {
             mark.draw(svg, places, style.mark_radius);
         }
         for of in &self.measured {
-            let places: Vec<Point> = of.places.iter().map(|&(x, y)| plot.place(x, y)).collect();
+            let places: Vec<PagePoint> = of.places.iter().map(|&(x, y)| plot.place(x, y)).collect();
             of.motion.dot(1.1 * style.mark_radius).draw(svg, &places);
         }
     }
 
-    /// Measured points of each kind that there is.
-    pub(super) fn measured(&self) -> &[Measured] {
+    /// Measured points by kind.
+    pub(super) fn measured(&self) -> &[MeasuredPlaces] {
         &self.measured
     }
 
@@ -131,9 +133,9 @@ impl Panel {
     }
 
     /// The marks that are drawn, and where.
-    pub(super) fn marks(&self, plot: &Plot, style: &Style) -> Vec<(Mark, Vec<Point>)> {
+    pub(super) fn marks(&self, plot: &Plot, style: &Style) -> Vec<(Mark, Vec<PagePoint>)> {
         let thinned = |mark: Mark, places: &[(f64, f64)]| {
-            let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
+            let places: Vec<PagePoint> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
             mark.thin_out(&places, style.mark_distance)
         };
         self.events.events.iter().map(|(mark, places, _)| (*mark, thinned(*mark, places))).collect()
@@ -150,22 +152,22 @@ impl Panel {
     }
 }
 
-fn scale_choice(quantity: Quantity, settings: &ResponseSettings) -> ScaleChoice {
+fn scale_choice(quantity: ResponseQuantity, settings: &ResponseSettings) -> ScaleChoice {
     match quantity {
-        Quantity::Displacement => settings.displacement_scale,
-        Quantity::Acceleration => settings.acceleration_scale,
-        Quantity::ContactForce | Quantity::ImpactVelocity => settings.contact_scale,
+        ResponseQuantity::Displacement => settings.displacement_scale,
+        ResponseQuantity::Acceleration => settings.acceleration_scale,
+        ResponseQuantity::ContactForce | ResponseQuantity::ImpactVelocity => settings.contact_scale,
     }
 }
 
-fn empty(diagram: &ResponseDiagram, quantity: Quantity) -> FigureError {
+fn empty(diagram: &ResponseDiagram, quantity: ResponseQuantity) -> FigureError {
     let points = diagram.curves.iter().map(|curve| curve.points.len()).sum();
     FigureError::Empty { quantity: quantity.name(), curves: diagram.curves.len(), points }
 }
 
 fn visible_values(
     diagram: &ResponseDiagram,
-    quantity: Quantity,
+    quantity: ResponseQuantity,
     (from, to): (f64, f64),
 ) -> impl Iterator<Item = f64> {
     let points = diagram.curves.iter().flat_map(|curve| &curve.points);
@@ -173,14 +175,19 @@ fn visible_values(
     inside.map(move |point| quantity.value(point)).filter(|&value| ScaleKind::Linear.shows(value))
 }
 
-fn line(curve: &ResponseCurve, quantity: Quantity, kind: ScaleKind, range_hz: (f64, f64)) -> Line {
-    let samples: Vec<Sample> = curve.points.iter().map(|point| sample(point, quantity, kind)).collect();
-    Line { period_multiple: curve.period_multiple, stretches: stretches(&samples, range_hz) }
+fn line(
+    curve: &ResponseCurve,
+    quantity: ResponseQuantity,
+    kind: ScaleKind,
+    range_hz: (f64, f64),
+) -> BranchLine {
+    let samples: Vec<BranchSample> = curve.points.iter().map(|point| sample(point, quantity, kind)).collect();
+    BranchLine { period_multiple: curve.period_multiple, stretches: stretches(&samples, range_hz) }
 }
 
-fn sample(point: &ResponsePoint, quantity: Quantity, kind: ScaleKind) -> Sample {
+fn sample(point: &ResponsePoint, quantity: ResponseQuantity, kind: ScaleKind) -> BranchSample {
     let value = quantity.value(point);
-    Sample {
+    BranchSample {
         x: point.frequency_hz,
         y: if kind.shows(value) && ScaleKind::Linear.shows(point.frequency_hz) { value } else { f64::NAN },
         look: LineLook::of(point.stable, point.marginal),
@@ -191,7 +198,7 @@ fn sample(point: &ResponsePoint, quantity: Quantity, kind: ScaleKind) -> Sample 
 /// Frequencies and values of the events of a kind, in order along the branches.
 fn events(
     diagram: &ResponseDiagram,
-    quantity: Quantity,
+    quantity: ResponseQuantity,
     kind: ScaleKind,
     (from, to): (f64, f64),
     mark: Mark,
@@ -211,20 +218,20 @@ fn events(
 /// The measured points of a kind.
 fn measured(
     diagram: &ResponseDiagram,
-    quantity: Quantity,
+    quantity: ResponseQuantity,
     kind: ScaleKind,
     (from, to): (f64, f64),
     motion: MeasuredMotion,
-) -> Measured {
+) -> MeasuredPlaces {
     let marks = diagram.measured.iter().filter(|mark| mark.motion == motion);
     let all = marks.map(|mark| (mark.frequency_hz, quantity.measured(mark))).filter(|(_, y)| !y.is_nan());
     let (places, beyond): (Vec<_>, Vec<_>) =
         all.partition(|&(x, y)| (from..=to).contains(&x) && kind.shows(y));
-    Measured { motion, places, beyond: beyond.len() }
+    MeasuredPlaces { motion, places, beyond: beyond.len() }
 }
 
 /// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable
-/// solutions change nothing that can be observed: they have a mark of their own.
+/// solutions have no observable effect: they have their own mark.
 fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
     let point = &points[index];
     let beside_stable = || {
@@ -243,8 +250,8 @@ fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
     }
 }
 
-fn on_page(vertices: &[Vertex], plot: &Plot, style: &Style) -> Vec<Point> {
-    let points: Vec<Point> = vertices.iter().map(|vertex| plot.place(vertex.x, vertex.y)).collect();
+fn on_page(vertices: &[Vertex], plot: &Plot, style: &Style) -> Vec<PagePoint> {
+    let points: Vec<PagePoint> = vertices.iter().map(|vertex| plot.place(vertex.x, vertex.y)).collect();
     let keep: Vec<bool> = vertices.iter().map(|vertex| vertex.keep).collect();
     decimate(&points, &keep, style.line_tolerance).into_iter().map(|i| points[i]).collect()
 }

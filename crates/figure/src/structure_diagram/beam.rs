@@ -2,45 +2,20 @@
 
 mod holders;
 mod labels;
+mod place;
 
 use super::{
-    MARGIN, Sketch, SketchBeam, SketchCarrier, SketchPoint, SketchStop, StopKind, StructureDiagram, stop,
+    data::{SketchBeam, SketchCarrier, SketchPoint, SketchStop, StructureDiagram},
+    layout::{MARGIN, Sketch},
+    stop,
 };
 use crate::{
-    FigureError, Style,
+    error::FigureError,
     sketch::{Behind, HATCH, arrow, at, block, body, damper, disc, line, spring, turn, variable, wall},
-    style::{INK, PAPER},
+    style::{INK, PAPER, Style},
     svg::{Anchor, SvgWriter, points},
 };
-
-/// Half the depth of the beam, and radius of a mass (pt).
-const HALF: f64 = 1.8;
-const MASS: f64 = 3.6;
-/// Room for stops on a side, and for what holds an end (pt).
-const REACH: f64 = 26.0;
-const END: f64 = 26.0;
-/// Half the height of what holds an end (pt).
-const END_HALF: f64 = 11.0;
-/// Thickness of what moves with the support, and distance of dimension lines (pt).
-const BASE: f64 = 5.0;
-const ROW: f64 = 11.0;
-/// Distance of what stands still from what moves (pt).
-const CLEAR: f64 = 7.0;
-/// Most points whose distances are drawn.
-const MEASURED: usize = 3;
-
-/// Where everything is on the page.
-struct Place<'a> {
-    diagram: &'a StructureDiagram,
-    beam: &'a SketchBeam,
-    style: &'a Style,
-    left: f64,
-    right: f64,
-    middle: f64,
-    /// Where stops above and below are fixed.
-    ceiling: f64,
-    floor: f64,
-}
+use place::{BASE, BeamLayout, CLEAR, END, HALF, MASS, REACH, ROW};
 
 /// Lays a beam out below `top`.
 pub(super) fn sketch<'a>(
@@ -56,7 +31,7 @@ pub(super) fn sketch<'a>(
             points: beam.points.len(),
         });
     }
-    let mut place = Place {
+    let mut place = BeamLayout {
         diagram,
         beam,
         style,
@@ -77,69 +52,7 @@ pub(super) fn sketch<'a>(
     Ok(Sketch { bottom, draw: Box::new(move |svg| place.draw(svg)) })
 }
 
-impl Place<'_> {
-    fn across(&self, at_m: f64) -> f64 {
-        self.left + (self.right - self.left) * at_m / self.beam.length_m
-    }
-
-    /// Where a point or an end is; none for the ground.
-    fn of(&self, name: &str) -> Option<f64> {
-        match name {
-            "left" => Some(self.left),
-            "right" => Some(self.right),
-            _ => {
-                let point = self.beam.points.iter().find(|point| point.name == name)?;
-                Some(self.across(point.at_m))
-            }
-        }
-    }
-
-    fn is_on(&self, stop: &SketchStop, above: bool) -> bool {
-        let is_free = !matches!(stop.carrier, SketchCarrier::Point(_));
-        is_free
-            && match stop.kind {
-                StopKind::TwoSided => true,
-                StopKind::Always => !above,
-                _ => stop.above == above,
-            }
-    }
-
-    fn has_above(&self) -> bool {
-        self.diagram.stops.iter().any(|stop| self.is_on(stop, true))
-    }
-
-    fn has_below(&self) -> bool {
-        let held = |point: &SketchPoint| point.has_spring || point.has_damper;
-        self.diagram.stops.iter().any(|stop| self.is_on(stop, false))
-            || self.diagram.stops.iter().any(|stop| matches!(stop.carrier, SketchCarrier::Point(_)))
-            || self.beam.points.iter().any(held)
-            || self.inner_moving().next().is_some()
-    }
-
-    /// Whether something stands below the beam so near to a place that a line down from there would cross it.
-    fn is_taken_below(&self, x: f64) -> bool {
-        let stops = self.diagram.stops.iter().filter(|stop| self.is_on(stop, false));
-        let held = self.beam.points.iter().filter(|point| point.has_spring || point.has_damper);
-        let places = stops.filter_map(|stop| self.of(&stop.point));
-        let mut places = places.chain(held.map(|point| self.across(point.at_m)));
-        (x == self.right && self.diagram.moves("right")) || places.any(|place| (place - x).abs() < 9.0)
-    }
-
-    /// Points between the ends that follow a support.
-    fn inner_moving(&self) -> impl Iterator<Item = f64> + '_ {
-        let inner = self.diagram.moving.iter().filter(|moving| !["left", "right"].contains(&&*moving.place));
-        inner.filter_map(|moving| self.of(&moving.place))
-    }
-
-    /// Points whose distance is drawn.
-    fn measured(&self) -> Vec<f64> {
-        let inner = self.beam.points.iter().map(|point| point.at_m);
-        let mut all: Vec<f64> = inner.filter(|at| *at > 0.0 && *at < self.beam.length_m).collect();
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        if all.len() > MEASURED { Vec::new() } else { all }
-    }
-
+impl BeamLayout<'_> {
     fn draw(&self, svg: &mut SvgWriter) {
         self.draw_carriers(svg);
         self.draw_end(svg, self.beam.left, true);
@@ -213,7 +126,7 @@ impl Place<'_> {
                 continue;
             }
             let (level, sign) = if above { (self.ceiling, -1.0) } else { (self.floor, 1.0) };
-            // What stands still keeps clear of what moves.
+            // Fixed parts keep a distance from moving parts.
             let is_still = drawn.carrier == SketchCarrier::Space;
             let foot = if is_still && self.has_bar(above) { level - sign * CLEAR } else { level };
             stop::draw(svg, drawn.kind, at(x, foot), at(x, self.middle + sign * surface), drawn.has_gap);

@@ -1,70 +1,39 @@
-//! The sketch of lumped masses on a line. In each space between two of them, and before the first and behind
-//! the last, elements stand in lanes on top of each other; what is fixed to the ground between two masses
-//! ends at a post of its own.
+//! The sketch of lumped masses on a line. In each space between two masses, before the first and after the
+//! last one, elements are drawn in lanes on top of each other. An element between a mass and the ground ends
+//! at its own post.
+
+mod arrangement;
 
 use super::{
-    MARGIN, MOST_MASSES, Sketch, SketchCarrier, SketchLumped, SketchStop, StopKind, StructureDiagram, stop,
+    data::{SketchLumped, StructureDiagram},
+    layout::{MARGIN, MAX_MASSES, Sketch},
+    stop,
 };
 use crate::{
-    FigureError, Style,
+    error::FigureError,
     font::CAPITAL_HEIGHT,
     sketch::{Behind, HATCH, arrow, at, block, body, damper, label, line, spring, variable, wall},
-    svg::{Anchor, Point, SvgWriter, points},
+    style::Style,
+    svg::{Anchor, PagePoint, SvgWriter, points},
     text::Text,
 };
+use arrangement::{Bridge, Element, Foot, Lane, arrange};
 
 /// Height of a lane, and least height of a mass (pt).
 const LANE: f64 = 13.0;
 const LEAST: f64 = 26.0;
 /// Widest space between masses (pt).
 const WIDEST: f64 = 64.0;
-/// Room beside a wall, for its hatching and the arrow of its motion (pt).
+/// Room next to a wall for its hatching and the arrow of its motion (pt).
 const BESIDE: f64 = 20.0;
 /// Thickness of a wall that moves (pt).
 const THICK: f64 = 4.0;
 
-/// What joins a mass to its left to something to its right.
-#[derive(Debug, Clone, Copy)]
-enum Element {
-    Spring,
-    Damper,
-    /// A stop, and whether what hits it comes from the left.
-    Stop {
-        kind: StopKind,
-        has_gap: bool,
-        from_left: bool,
-    },
-}
-
-/// An element in its lane.
-#[derive(Debug, Clone, Copy)]
-struct Lane {
-    element: Element,
-    /// Where it begins and ends.
-    ends: [Foot; 2],
-}
-
-/// Where an element ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Foot {
-    Mass,
-    /// The ground, or a support, which moves.
-    Ground {
-        support: Option<usize>,
-    },
-}
-
-/// Elements between masses that are no neighbours: numbers of the masses and what joins them.
-struct Bridge {
-    masses: [usize; 2],
-    element: Element,
-}
-
-struct Place<'a> {
+struct LumpedLayout<'a> {
     diagram: &'a StructureDiagram,
     lumped: &'a SketchLumped,
     style: &'a Style,
-    /// Lanes in the spaces: before the first mass, between masses, behind the last.
+    /// Lanes in the spaces: before the first mass, between masses, after the last.
     spaces: Vec<Vec<Lane>>,
     bridges: Vec<Bridge>,
     /// Left edge of each mass, their width, and top and bottom of them.
@@ -86,8 +55,8 @@ pub(super) fn sketch<'a>(
     if count == 0 {
         return Err(FigureError::Empty { quantity: "mass", curves: 0, points: 0 });
     }
-    if count > MOST_MASSES {
-        return Err(FigureError::Crowded { masses: count, most: MOST_MASSES });
+    if count > MAX_MASSES {
+        return Err(FigureError::Crowded { masses: count, most: MAX_MASSES });
     }
     let (spaces, bridges) = arrange(diagram, lumped);
     let lanes = spaces.iter().map(Vec::len).max().unwrap_or(0);
@@ -105,7 +74,7 @@ pub(super) fn sketch<'a>(
     let end = masses[count - 1] + width + outer[1] * gap;
     let head = LANE * bridges.len() as f64 + 14.0;
     let top = top + head;
-    let place = Place {
+    let place = LumpedLayout {
         diagram,
         lumped,
         style,
@@ -121,80 +90,7 @@ pub(super) fn sketch<'a>(
     Ok(Sketch { bottom, draw: Box::new(move |svg| place.draw(svg)) })
 }
 
-/// Every element in the space where it is drawn.
-fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>, Vec<Bridge>) {
-    let count = lumped.masses.len();
-    let mut spaces: Vec<Vec<Lane>> = vec![Vec::new(); count + 1];
-    let mut bridges = Vec::new();
-    let ground = Foot::Ground { support: diagram.support_of("ground") };
-    for link in &lumped.links {
-        let element = if link.is_damper { Element::Damper } else { Element::Spring };
-        match link.between {
-            [Some(a), Some(b)] => join(&mut spaces, &mut bridges, [a, b], element),
-            [Some(mass), None] | [None, Some(mass)] => {
-                fix(&mut spaces, mass, mass + 1 == count && count > 1, element, ground);
-            }
-            [None, None] => {}
-        }
-    }
-    let number = |name: &str| lumped.masses.iter().position(|mass| mass == name);
-    for stop in &diagram.stops {
-        let Some(mass) = number(&stop.point) else { continue };
-        for from_left in sides(stop) {
-            let element = Element::Stop { kind: stop.kind, has_gap: stop.has_gap, from_left };
-            match &stop.carrier {
-                SketchCarrier::Point(other) => match number(other) {
-                    Some(other) => {
-                        // The stop stands on the second mass; what hits it comes from the first.
-                        let comes_from_left = if other > mass { from_left } else { !from_left };
-                        let element = Element::Stop {
-                            kind: stop.kind,
-                            has_gap: stop.has_gap,
-                            from_left: comes_from_left,
-                        };
-                        join(&mut spaces, &mut bridges, [mass, other], element);
-                    }
-                    None => fix(&mut spaces, mass, from_left, element, ground),
-                },
-                SketchCarrier::Support(number) => {
-                    let support = Some(*number);
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { support });
-                }
-                SketchCarrier::Space => {
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { support: None });
-                }
-            }
-        }
-    }
-    (spaces, bridges)
-}
-
-/// Whether what hits a stop comes from its left, for each side on which there is one.
-fn sides(stop: &SketchStop) -> Vec<bool> {
-    match stop.kind {
-        StopKind::TwoSided => vec![true, false],
-        StopKind::Always => vec![false],
-        _ => vec![stop.above],
-    }
-}
-
-fn join(spaces: &mut [Vec<Lane>], bridges: &mut Vec<Bridge>, [a, b]: [usize; 2], element: Element) {
-    let (low, high) = (a.min(b), a.max(b));
-    if high == low + 1 {
-        spaces[high].push(Lane { element, ends: [Foot::Mass, Foot::Mass] });
-    } else if high > low {
-        bridges.push(Bridge { masses: [low, high], element });
-    }
-}
-
-/// Joins a mass to the ground, on its right side or on its left.
-fn fix(spaces: &mut [Vec<Lane>], mass: usize, on_right: bool, element: Element, ground: Foot) {
-    let (space, ends) =
-        if on_right { (mass + 1, [Foot::Mass, ground]) } else { (mass, [ground, Foot::Mass]) };
-    spaces[space].push(Lane { element, ends });
-}
-
-impl Place<'_> {
+impl LumpedLayout<'_> {
     fn draw(&self, svg: &mut SvgWriter) {
         for space in 0..self.spaces.len() {
             self.draw_space(svg, space);
@@ -234,7 +130,7 @@ impl Place<'_> {
         let [left, right] = self.ends(space);
         let is_outer = [space == 0, space + 1 == self.spaces.len()];
         let pitch = (self.bottom - self.top) / lanes.len().max(1) as f64;
-        // Lanes that end at a post stand lowest, so that the post crosses none of the others.
+        // Lanes that end at a post are lowest, so that the post crosses no others.
         let mut order: Vec<&Lane> = lanes.iter().collect();
         order.sort_by_key(|lane| lane.ends.iter().any(|foot| *foot != Foot::Mass));
         let ground = |side: usize| lanes.iter().any(|lane| lane.ends[side] != Foot::Mass);
@@ -248,7 +144,7 @@ impl Place<'_> {
                 if is_outer[side] {
                     self.draw_wall(svg, ends[side], y, (side == 0, pitch), moves);
                 } else {
-                    // Two posts stand beside each other, that of the left mass on the left.
+                    // Two posts are next to each other, the post of the left mass on the left.
                     let share = if is_shared { 0.12 } else { -0.12 };
                     let share = if side == 1 { 0.5 - share } else { 0.5 + share };
                     ends[side] = left + share * (right - left);
@@ -287,7 +183,7 @@ impl Place<'_> {
         }
     }
 
-    fn draw_post(&self, svg: &mut SvgWriter, head: Point, half: f64, moves: bool) {
+    fn draw_post(&self, svg: &mut SvgWriter, head: PagePoint, half: f64, moves: bool) {
         let floor = self.bottom + 3.0;
         line(svg, &[at(head.x, head.y - 4.0), at(head.x, floor)]);
         if moves {

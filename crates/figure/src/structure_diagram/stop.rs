@@ -1,10 +1,10 @@
-//! A stop, drawn along a line from what it is fixed to towards what hits it.
+//! A stop, drawn along the line from its carrier to the body that hits it.
 
-use super::StopKind;
+use super::data::StopKind;
 use crate::{
-    sketch::{at, disc, line, spring},
+    sketch::{LINE, at, disc, line, spring},
     style::{GRID, INK, PAPER},
-    svg::{Point, Stroke, SvgWriter, number},
+    svg::{PagePoint, Stroke, SvgWriter, number},
 };
 
 /// Distance drawn for a gap (pt).
@@ -16,8 +16,8 @@ const BLOCK: f64 = 8.0;
 /// Draws a stop.
 ///
 /// * `foot`: where it is fixed.
-/// * `tip`: surface of what hits it; the stop ends there, or a gap before.
-pub(super) fn draw(svg: &mut SvgWriter, kind: StopKind, foot: Point, tip: Point, has_gap: bool) {
+/// * `tip`: surface of the body that hits it; the stop ends there, or a gap before it.
+pub(super) fn draw(svg: &mut SvgWriter, kind: StopKind, foot: PagePoint, tip: PagePoint, has_gap: bool) {
     let length = (tip.x - foot.x).hypot(tip.y - foot.y).max(1e-9);
     let (dx, dy) = ((tip.x - foot.x) / length, (tip.y - foot.y) / length);
     let place = |along: f64, side: f64| at(foot.x + along * dx - side * dy, foot.y + along * dy + side * dx);
@@ -34,11 +34,7 @@ pub(super) fn draw(svg: &mut SvgWriter, kind: StopKind, foot: Point, tip: Point,
             let corners = [place(near, -4.0), place(end, -4.0), place(end, 4.0), place(near, 4.0)];
             let data: Vec<String> =
                 corners.iter().map(|corner| format!("{} {}", number(corner.x), number(corner.y))).collect();
-            svg.path(
-                &format!("M{}z", data.join("L")),
-                GRID,
-                Stroke { colour: INK, width: crate::sketch::LINE },
-            );
+            svg.path(&format!("M{}z", data.join("L")), GRID, Stroke { colour: INK, width: LINE });
         }
         StopKind::Spring | StopKind::TwoSided => {
             spring(svg, foot, place(end, 0.0));

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{
-    BasinMap, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
+    BasinMap, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
+    Style,
 };
 
 use super::samples::{basins, sweep};
@@ -19,7 +20,7 @@ fn basins_name_class_period_branch_and_fraction() {
     let cells = vec![0, 2, 1, 0];
     let stopped = BasinMap { cells, behind_stop: vec![true, false, false, false], ..basins() };
     let svg = stopped.draw(&Style::single_column()).unwrap().svg();
-    for words in ["not computed, 25.0\u{2009}%", "begins behind a rigid stop, 25.0\u{2009}%"] {
+    for words in ["not computed, 25.0\u{2009}%", "starts behind a rigid stop, 25.0\u{2009}%"] {
         assert!(svg.contains(words), "{words}");
     }
     let unfinished = BasinMap { cells: vec![1, 2, 1], ..basins() }.draw(&Style::default()).unwrap();
@@ -48,7 +49,8 @@ fn chaotic_ranges_are_shaded_and_named() {
     let curve = ResponseCurve { period_multiple: 1, points: vec![point(20.0), point(30.0)] };
     let plain = ResponseDiagram { curves: vec![curve], ..ResponseDiagram::default() };
     let shaded = ResponseDiagram { chaotic_ranges_hz: vec![(22.0, 24.0), (90.0, 95.0)], ..plain.clone() };
-    let [plain, shaded] = [plain, shaded].map(|diagram| diagram.draw(Quantity::Displacement).unwrap());
+    let [plain, shaded] =
+        [plain, shaded].map(|diagram| diagram.draw(ResponseQuantity::Displacement).unwrap());
     assert!(!plain.svg().contains("chaotic") && shaded.svg().contains(">chaotic motion found<"));
     assert!(shaded.description().contains("chaotic motion found at 22.000 to 24.000 Hz"));
     // What lies outside the axis is cut off: one rectangle, and the sample of the legend.
@@ -70,11 +72,19 @@ fn contact_forces_and_impact_velocities_have_their_diagrams() {
         curves: vec![ResponseCurve { period_multiple: 1, points: (1..9).map(|k| point(k, force)).collect() }],
         ..ResponseDiagram::default()
     };
-    assert!(diagram(5.0).draw(Quantity::ContactForce).unwrap().svg().contains("Largest contact force (N)"));
-    assert!(diagram(5.0).draw(Quantity::ImpactVelocity).unwrap().svg().contains("impact velocity (m/s)"));
+    assert!(
+        diagram(5.0)
+            .draw(ResponseQuantity::ContactForce)
+            .unwrap()
+            .svg()
+            .contains("Largest contact force (N)")
+    );
+    assert!(
+        diagram(5.0).draw(ResponseQuantity::ImpactVelocity).unwrap().svg().contains("impact velocity (m/s)")
+    );
     let settings =
         ResponseSettings { contact_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
-    assert!(diagram(0.0).draw_with(&[Quantity::ContactForce], &settings).is_err());
+    assert!(diagram(0.0).draw_with(&[ResponseQuantity::ContactForce], &settings).is_err());
 }
 
 #[test]
@@ -90,7 +100,7 @@ fn branches_over_another_parameter_say_which() {
         curves: vec![curve],
         ..ResponseDiagram::default()
     };
-    let figure = diagram.draw(Quantity::Displacement).unwrap();
+    let figure = diagram.draw(ResponseQuantity::Displacement).unwrap();
     assert!(figure.svg().contains(">Gap of stop 1 (m)<") && !figure.svg().contains("Excitation frequency"));
     assert!(figure.description().contains("over Gap of stop 1 (m)"));
 }

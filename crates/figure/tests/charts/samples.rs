@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, MotionKind, MultiplierDiagram,
-    Multipliers, OrbitDiagram, OrbitImpulse, OrbitSample, Origin, SectionDiagram, SweepDiagram, SweptMotion,
+    BasinAttractor, BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, MotionKind,
+    MultiplierDiagram, Multipliers, OrbitDiagram, OrbitImpulse, OrbitSample, SectionDiagram, SweepDiagram,
+    SweepOrigin, SweptMotion,
 };
 
 pub fn basins() -> BasinMap {
-    let destination = |kind, branch, places| Destination { kind, branch, places };
+    let destination = |kind, branch, places| BasinAttractor { kind, branch, places };
     BasinMap {
         title: "Basins".to_owned(),
         x_label: "Initial displacement (mm)".to_owned(),
@@ -38,9 +39,9 @@ pub fn sweep() -> SweepDiagram {
     SweepDiagram {
         title: "Sweep".to_owned(),
         motions: vec![
-            motion(Origin::Up, 20.0, periodic, &[1e-3]),
-            motion(Origin::Up, 21.0, MotionKind::Chaotic, &cloud),
-            motion(Origin::Down, 21.0, periodic, &[0.5e-3, f64::NAN]),
+            motion(SweepOrigin::Up, 20.0, periodic, &[1e-3]),
+            motion(SweepOrigin::Up, 21.0, MotionKind::Chaotic, &cloud),
+            motion(SweepOrigin::Down, 21.0, periodic, &[0.5e-3, f64::NAN]),
         ],
     }
 }

@@ -2,7 +2,7 @@
 //! paper.
 
 use hammerbeam_figure::{
-    MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,
+    MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity as Drawing,
     ResponseSettings,
 };
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};

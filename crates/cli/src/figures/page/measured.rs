@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use anyhow::{Context, anyhow};
-use hammerbeam_figure::{MeasuredMotion, PageMeasured, PageMeasuredPoint, Quantity as Drawing, plain_number};
+use hammerbeam_figure::{
+    MeasuredMotion, PageMeasured, PageMeasuredPoint, ResponseQuantity as Drawing, plain_number,
+};
 use hammerbeam_signal::{
     MeasuredQuantity,
     limits::{self, LARGEST_FILE},

@@ -1,29 +1,29 @@
-//! An orbit as a record, and what is rounded in it.
+//! The format of the record of an orbit, and its rounding.
 //!
-//! A record is written by the range coder of `coder.rs`; zeros follow up to a multiple of three bytes. First,
-//! as numbers of a kind of their own, the counts of `counts` below, and the distance of samples in s; then
-//! the series of `packed`, each with the size of its steps. Such a size is the upper half of an f32, 16 plain
-//! bits. A value is a whole number of steps.
+//! A record is written by the range coder of `coder.rs` and padded with zeros to a multiple of three bytes.
+//! It starts with the counts of `counts` below, as numbers of their own kind, and the sampling step in s. The
+//! series of `packed` follow, each with the size of its steps: the upper half of an f32, 16 unmodelled bits.
+//! A value is a whole number of steps.
 //!
-//! Of a series stand, as numbers of the kind of the series, the order of its predictor and what it misses
-//! each value by: order `n` continues the polynomial through the `n` values before, with zeros before the
-//! first. Velocity and displacement are continued otherwise: a velocity by the integral of the acceleration
-//! by Simpson's rule, a displacement by that of the velocity by the trapezoidal rule with its correction by
-//! the acceleration, both rounded down from a half more. So they cost little but where a contact makes the
-//! acceleration something else between its samples.
+//! A series is stored as the order of its predictor and the prediction errors. Order `n` extrapolates the
+//! polynomial through the `n` preceding values, with zeros before the first. Velocity and displacement have
+//! other predictors: the integral of the acceleration by Simpson's rule, and the integral of the velocity by
+//! the trapezoidal rule with a correction by the acceleration, both rounded half up. So their errors are
+//! small except where a contact changes the acceleration between its samples.
 
 use super::{
-    PageImpulse, PageOrbit,
-    coder::{Encoder, Kind},
+    coder::{Encoder, NumberModel},
+    content::{PageImpulse, PageOrbit},
 };
 
-/// Steps in the range of a series,
+/// Steps in the range of a series.
 pub(super) const STEPS: f64 = 1_023.0;
-/// in that of the mode that moves most: all modes have its steps, since they move the same drawing,
+/// Steps in the range of the mode with the largest range; all modes have its step size, since they move one
+/// drawing.
 pub(super) const STEPS_OF_MODES: f64 = 511.0;
-/// and in a power of ten of a spectrum.
+/// Steps per decade of a spectrum.
 pub(super) const STEPS_OF_A_DECADE: f64 = 50.0;
-/// What is smaller than the largest amplitude by this power of ten stands there.
+/// Decades below the largest amplitude at which smaller amplitudes are clipped.
 pub(super) const DECADES: f64 = 5.0;
 /// Largest number of steps of a value.
 const MOST_STEPS: f64 = 4_194_304.0;
@@ -55,11 +55,14 @@ pub(super) struct Stepped {
 
 struct Writer {
     encoder: Encoder,
-    kinds: [Kind; KINDS],
+    kinds: [NumberModel; KINDS],
 }
 
 impl Writer {
-    /// Writes a size, rounded up; returns what is written.
+    /// Writes a size, rounded up.
+    ///
+    /// # Returns
+    /// The rounded size.
     fn size(&mut self, size: f64) -> f64 {
         let bits = (size as f32).to_bits();
         let upper = bits.div_ceil(1 << 16).min(0x7f7f);
@@ -73,7 +76,7 @@ impl Writer {
         numbers.into_iter().for_each(|number| self.encoder.number(kind, number));
     }
 
-    /// Writes whole numbers by the predictor that suits them best.
+    /// Writes whole numbers with the best predictor.
     fn counts(&mut self, of: Of, counts: &[i32]) {
         let cost = |missed: &[i32]| -> u32 {
             missed.iter().map(|number| u32::BITS - number.unsigned_abs().leading_zeros()).sum()
@@ -99,10 +102,9 @@ impl Writer {
         Stepped { size, counts }
     }
 
-    /// Writes a series that something else continues.
+    /// Writes a series with a given predictor.
     ///
-    /// * `change`: by how many steps of this size it changes behind its value of that number, which may
-    ///   depend on its values.
+    /// * `change`: predicted change in steps of the given size after the value with the given index.
     fn continued(&mut self, of: Of, values: &[f64], change: impl Fn(f64, usize) -> f64) -> Stepped {
         let size = self.size(step(values, STEPS));
         let counts = stepped(values, size);
@@ -117,7 +119,8 @@ impl Writer {
 
 /// The record of an orbit.
 pub(super) fn packed(orbit: &PageOrbit) -> Vec<u8> {
-    let mut writer = Writer { encoder: Encoder::new(), kinds: std::array::from_fn(|_| Kind::default()) };
+    let mut writer =
+        Writer { encoder: Encoder::new(), kinds: std::array::from_fn(|_| NumberModel::default()) };
     let [samples, .., of_mode, _, _, _] = counts(orbit);
     writer.numbers(Of::Head, counts(orbit).map(|count| i32::try_from(count).unwrap_or(i32::MAX)));
     let distance_s = writer.size((orbit.duration_s / samples as f64).max(0.0));
@@ -126,7 +129,7 @@ pub(super) fn packed(orbit: &PageOrbit) -> Vec<u8> {
     let velocity = writer.continued(Of::Velocity, &fitted(&orbit.velocity_m_s, samples), |size, k| {
         velocity_change(&acceleration, size, distance_s, k)
     });
-    // The change of the displacement needs the velocities at both ends, all of which are written already.
+    // The change of the displacement depends on the velocities at both ends, which are written already.
     let displacement = writer.continued(Of::Displacement, &orbit.displacement_m, |size, k| {
         displacement_change((&acceleration, &velocity), size, distance_s, k)
     });
@@ -177,22 +180,22 @@ pub(super) fn numbers(impulse: &PageImpulse) -> [f64; 5] {
     [impulse.cycles, impulse.impulse_n_s, impulse.displacement_m, before, after]
 }
 
-/// Each number less the one before, with a zero before the first: what a predictor misses numbers by becomes
-/// what that of the next order does.
+/// Each number minus the preceding one, with a zero before the first: the errors of a predictor become those
+/// of the next order.
 fn differences(numbers: &mut [i32]) {
     for k in (1..numbers.len()).rev() {
         numbers[k] -= numbers[k - 1];
     }
 }
 
-/// By how many steps a velocity changes from a sample to the next.
+/// Predicted change of a velocity between successive samples, in steps.
 pub(super) fn velocity_change(acceleration: &Stepped, size: f64, distance_s: f64, k: usize) -> f64 {
     let at = |place: usize| acceleration.counts.get(place).copied().unwrap_or_default();
     let sum = f64::from(at(2 * k) + 4 * at(2 * k + 1) + at(2 * k + 2));
     distance_s * acceleration.size * sum / 6.0 / size
 }
 
-/// By how many steps a displacement changes from a sample to the next.
+/// Predicted change of a displacement between successive samples, in steps.
 pub(super) fn displacement_change(
     (acceleration, velocity): (&Stepped, &Stepped),
     size: f64,
@@ -205,17 +208,17 @@ pub(super) fn displacement_change(
     distance_s * (velocity.size * sum / 2.0 - distance_s * acceleration.size * bend / 12.0) / size
 }
 
-/// The nearest whole number within the largest one; 0 of what is none.
+/// The nearest whole number, clipped to the largest one; 0 for NaN.
 pub(super) fn rounded(number: f64) -> i32 {
     (number + 0.5).floor().clamp(-MOST_STEPS, MOST_STEPS) as i32
 }
 
-/// As many values as there have to be; what is missing is 0.
+/// Values truncated or padded with zeros to a count.
 fn fitted(values: &[f64], count: usize) -> Vec<f64> {
     values.iter().copied().chain(std::iter::repeat(0.0)).take(count).collect()
 }
 
-/// Size of the steps of a series: its range has so many of them, and no value too many.
+/// Size of the steps of a series: its range has `steps` of them, and no value exceeds the largest number.
 fn step(values: &[f64], steps: f64) -> f64 {
     let [low, high] = range(values);
     ((high - low) / steps).max(low.abs().max(high.abs()) / MOST_STEPS)
@@ -228,8 +231,8 @@ fn range(values: &[f64]) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
-/// Values as whole numbers of steps; an infinite value is the least or the largest one, what is not a number
-/// the least.
+/// Values as whole numbers of steps; infinite values are clipped to the finite range, and NaN becomes its
+/// least value.
 fn stepped(values: &[f64], size: f64) -> Vec<i32> {
     let [low, high] = range(values);
     let count = |value: &f64| {
@@ -243,7 +246,7 @@ fn stepped(values: &[f64], size: f64) -> Vec<i32> {
 fn levels(amplitudes: &[f64]) -> Vec<i32> {
     let finite = amplitudes.iter().copied().filter(|value| value.is_finite());
     let highest = finite.fold(0.0, f64::max).log10();
-    // Of no motion at all nothing stands out.
+    // Without any motion all amplitudes are zero.
     let highest = if highest.is_finite() { highest } else { -300.0 };
     let level = |amplitude: &f64| amplitude.log10().max(highest - DECADES).min(highest);
     amplitudes.iter().map(|amplitude| rounded(STEPS_OF_A_DECADE * level(amplitude))).collect()

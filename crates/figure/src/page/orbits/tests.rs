@@ -1,7 +1,8 @@
-//! Records are read again as their description says.
+//! Records are decoded according to their specification.
 
 use super::{
-    coder::{Kind, reader::Decoder},
+    coder::NumberModel,
+    decoder::Decoder,
     record::{
         DECADES, KINDS, Of, STEPS, STEPS_OF_A_DECADE, STEPS_OF_MODES, Stepped, displacement_change, rounded,
         velocity_change,
@@ -11,7 +12,7 @@ use super::{
 
 struct Reader<'a> {
     decoder: Decoder<'a>,
-    kinds: [Kind; KINDS],
+    kinds: [NumberModel; KINDS],
 }
 
 impl Reader<'_> {
@@ -60,7 +61,7 @@ type Impulses = Vec<(i32, [f64; 5])>;
 /// Displacement, velocity, acceleration, support, forces, modes, spectrum, the three of contacts; then
 /// numbers of impulses.
 fn read(record: &[u8]) -> (Vec<Vec<f64>>, Impulses) {
-    let kinds = std::array::from_fn(|_| Kind::default());
+    let kinds = std::array::from_fn(|_| NumberModel::default());
     let mut reader = Reader { decoder: Decoder::new(record), kinds };
     let counts = reader.numbers(Of::Head, 8);
     let [samples, elements, of_support, modes, of_mode, harmonics, inside, impulses] =
@@ -119,8 +120,7 @@ fn orbit(samples: usize) -> PageOrbit {
     }
 }
 
-/// Half a step, of which an upper half of an f32 may be longer by 2^-7, and the rounding of what stands in
-/// it.
+/// Half a step, with the rounding of its size to the upper half of an f32, and of the values.
 fn half_a_step(steps: f64) -> f64 {
     0.5 / steps * (1.0 + 2.0_f64.powi(-7)) + 1e-6
 }

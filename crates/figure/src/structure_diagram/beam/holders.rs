@@ -1,18 +1,16 @@
-//! What holds a beam and carries its stops.
+//! Supports of a beam and carriers of its stops.
 
-use super::{
-    super::{SketchCarrier, SketchEnd, SketchStop},
-    BASE, END_HALF, HALF, Place,
-};
+use super::place::{BASE, BeamLayout, END_HALF, HALF};
 use crate::{
     sketch::{Behind, arrow, at, block, disc, line, variable, wall},
+    structure_diagram::data::{SketchCarrier, SketchEnd, SketchStop},
     style::PAPER,
     svg::{Anchor, SvgWriter},
 };
 
-impl Place<'_> {
-    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from
-    /// what moves to them. Of supports that move differently each stop has a block of its own.
+impl BeamLayout<'_> {
+    /// Bodies that move with the support: bars that carry stops, and columns from moving parts to them. If
+    /// supports move differently, each stop has its own block.
     pub(super) fn draw_carriers(&self, svg: &mut SvgWriter) {
         let places = self.diagram.moving.iter().filter_map(|moving| self.of(&moving.place));
         let moving: Vec<f64> = places.collect();
@@ -34,14 +32,14 @@ impl Place<'_> {
         }
     }
 
-    /// The stops on a side that ride on the support.
+    /// The stops on a side that are carried by a support.
     pub(super) fn riding(&self, above: bool) -> impl Iterator<Item = &SketchStop> {
         let riding =
             self.diagram.stops.iter().filter(|stop| matches!(stop.carrier, SketchCarrier::Support(_)));
         riding.filter(move |stop| self.is_on(stop, above))
     }
 
-    /// Whether a bar that moves stands on a side.
+    /// Whether there is a moving bar on a side.
     pub(super) fn has_bar(&self, above: bool) -> bool {
         if self.diagram.supports_differ() {
             return false;
@@ -51,7 +49,10 @@ impl Place<'_> {
         is_needed && self.diagram.moving.iter().any(|moving| self.of(&moving.place).is_some())
     }
 
-    /// The bar above or below the beam; false if nothing needs it.
+    /// Draws the bar above or below the beam.
+    ///
+    /// # Returns
+    /// Whether there is one.
     pub(super) fn draw_bar(&self, svg: &mut SvgWriter, moving: &[f64], above: bool) -> bool {
         if !self.has_bar(above) {
             return false;

@@ -1,13 +1,14 @@
 //! Names of points and dimensions of a beam.
 
-use super::{super::SketchPoint, BASE, MASS, Place, ROW};
+use super::place::{BASE, BeamLayout, MASS, ROW};
 use crate::{
     sketch::{HATCH, at, dimension, label},
+    structure_diagram::data::SketchPoint,
     svg::{Anchor, SvgWriter},
-    text::decimal,
+    text::{Text, decimal},
 };
 
-impl Place<'_> {
+impl BeamLayout<'_> {
     /// Rows that the names need so that they do not cover each other.
     pub(super) fn name_rows(&self) -> u32 {
         self.rows_of_names().iter().map(|(_, row)| row + 1).max().unwrap_or(0)
@@ -20,7 +21,7 @@ impl Place<'_> {
         let mut ends: Vec<f64> = Vec::new();
         let mut rows = Vec::new();
         for point in sorted {
-            let half = 0.5 * crate::text::Text::upright(&point.name).width(self.style.tick_size);
+            let half = 0.5 * Text::upright(&point.name).width(self.style.tick_size);
             let x = self.across(point.at_m);
             let row = ends.iter().position(|end| x - half > *end + 3.0).unwrap_or(ends.len());
             if row == ends.len() {

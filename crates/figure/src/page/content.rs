@@ -1,0 +1,146 @@
+//! Data of the page: branches, solutions, the structure.
+
+use super::{
+    figures::PageFigures,
+    measured::PageMeasured,
+    motions::{PageMotion, PageSection},
+    multipliers::MultiplierRecords,
+    orbits::OrbitRecords,
+};
+
+/// Data of the whole page.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Page {
+    /// Title of the study.
+    pub title: String,
+    /// Name of the response point.
+    pub point: String,
+    /// Frequency range of the study (Hz).
+    pub frequency_range_hz: (f64, f64),
+    /// Notice at the top of the page, such as an unfinished run; may be empty.
+    pub notice: String,
+    /// Branches, in their order.
+    pub branches: Vec<PageBranch>,
+    /// Orbits of some of their solutions.
+    pub orbits: OrbitRecords,
+    /// Multipliers of all solutions, or of none.
+    pub multipliers: MultiplierRecords,
+    /// The structure; `None` if it is unknown.
+    pub structure: Option<PageStructure>,
+    /// Aperiodic motions of sweeps.
+    pub motions: Vec<PageMotion>,
+    /// Ranges of the frequency with chaotic motion (Hz).
+    pub chaotic_ranges_hz: Vec<(f64, f64)>,
+    /// Poincaré sections, by their frequencies.
+    pub sections: Vec<PageSection>,
+    /// Measured points in the response diagram.
+    pub measured: Vec<PageMeasured>,
+    /// Printed figures of results that the page does not draw.
+    pub figures: PageFigures,
+}
+
+/// A branch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageBranch {
+    /// Its number.
+    pub id: u32,
+    /// Orbit period over excitation period, from 1.
+    pub period_multiple: u32,
+    /// Description of both ends, at the first and the last solution.
+    pub ends: [String; 2],
+    /// Its solutions in order.
+    pub solutions: Vec<PageSolution>,
+}
+
+/// A solution: maxima over its orbit, stability, events.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an event of its own")]
+pub struct PageSolution {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Largest displacement of the response point (m).
+    pub displacement_m: f64,
+    /// Its largest acceleration (m/s²).
+    pub acceleration_m_s2: f64,
+    /// Largest contact force (N).
+    pub force_n: f64,
+    /// Largest speed with which a contact is reached (m/s).
+    pub impact_velocity_m_s: f64,
+    /// Contacts in an orbit period.
+    pub contacts: u32,
+    /// Multiplier of largest modulus.
+    pub leading_multiplier: [f64; 2],
+    /// Whether no multiplier is known to lie outside the unit circle.
+    pub stable: bool,
+    /// Whether stability is undecided: a multiplier is on the unit circle to its accuracy.
+    pub marginal: bool,
+    /// The branch turns in frequency.
+    pub fold: bool,
+    /// A multiplier passes −1.
+    pub flip: bool,
+    /// A pair of multipliers passes the unit circle.
+    pub neimark_sacker: bool,
+    /// Branches cross.
+    pub branch_point: bool,
+    /// A contact is reached with zero velocity.
+    pub grazing: bool,
+}
+
+/// The structure as drawn: places from left to right, and the stops they can hit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageStructure {
+    /// Whether its places form a beam; otherwise each is a separate mass.
+    pub is_beam: bool,
+    /// Places, with positions in m along a beam.
+    pub places: Vec<PagePlace>,
+    /// Stops.
+    pub stops: Vec<PageStop>,
+    /// Springs and dampers between masses.
+    pub links: Vec<PageLink>,
+    /// Eigenfrequencies without local elements (Hz).
+    pub eigenfrequencies_hz: Vec<f64>,
+    /// Names of the supports that move.
+    pub supports: Vec<String>,
+    /// The support that moves the ground, if one does.
+    pub ground: Option<u32>,
+}
+
+/// A place of a structure.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PagePlace {
+    /// Its name; may be empty.
+    pub name: String,
+    /// Distance from the left end (m), or number of the mass.
+    pub at: f64,
+    /// Displacement in each mode (kg^-1/2).
+    pub shape: Vec<f64>,
+    /// Displacement per unit displacement of each support that moves.
+    pub support_ratios: Vec<f64>,
+}
+
+/// A spring or a damper between masses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PageLink {
+    /// The places that it joins; `None` is the ground.
+    pub ends: [Option<u32>; 2],
+    /// Whether it is a damper.
+    pub is_damper: bool,
+}
+
+/// A stop that a place of a structure can hit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageStop {
+    /// Its name.
+    pub name: String,
+    /// Number of the local element whose force it has, from 0.
+    pub element: u32,
+    /// The place that hits it.
+    pub place: u32,
+    /// The place that carries it, if a place does.
+    pub other: Option<u32>,
+    /// Number of the moving support that carries it, from 0.
+    pub rides: Option<u32>,
+    /// Contact levels: displacement (m) of the place relative to the carrier of the stop, and whether the
+    /// stop lies above.
+    pub levels: Vec<(f64, bool)>,
+}
