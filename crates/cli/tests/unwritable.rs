@@ -94,7 +94,9 @@ fn standard_error_that_cannot_be_written_changes_nothing() {
     let workshop = Workshop::with(TWO_MASSES);
     let run = |arguments: &[&str]| {
         let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-        workshop.command(arguments).stderr(full).stdout(std::process::Stdio::null()).status().unwrap().code()
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"));
+        command.args(arguments).current_dir(workshop.path("")).stderr(full);
+        command.stdout(std::process::Stdio::null()).status().unwrap().code()
     };
     assert_eq!(run(&["check", "study.toml"]), Some(0));
     assert_eq!(run(&["check", "nowhere.toml"]), Some(2));
