@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use hammerbeam_study::{file::DrawnOrbit, verify::TOLERANCE};
+use hammerbeam_jobs::verify::TOLERANCE;
+use hammerbeam_study::file::DrawnOrbit;
 
 use crate::{
     compare_args::{CompareOptions, RigOptions},

@@ -1,12 +1,12 @@
 //! The record that a command works on, and what is said about it.
 
 use hammerbeam_figure::plain_number;
+use hammerbeam_results::export::word;
 use hammerbeam_signal::{
     Channel, Finding, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
     filter::{Band, Sections, butterworth},
     read::read_raw,
 };
-use hammerbeam_study::export::word;
 use serde_json::{Value, json};
 
 use crate::{
