@@ -5,6 +5,7 @@ from pathlib import Path
 
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
+from pygments.lexers.special import TextLexer
 from sphinx.util import logging
 from sphinx.util.math import get_node_equation_number
 
@@ -64,5 +65,6 @@ def links_out_of_the_book(app, page, source):
 
 def setup(app):
     """Names the renderer of formulas and the check of links."""
+    app.add_lexer("csv", TextLexer)
     app.connect("source-read", links_out_of_the_book)
     app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
