@@ -4,12 +4,12 @@
 //! orbits in which the branches of its period cross that frequency. What is not found is what a run misses,
 //! or where simulation and shooting disagree.
 
+use hammerbeam_jobs::corrected;
 use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, ExactSettings},
 };
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
-use hammerbeam_study::corrected;
 
 use crate::{
     attractors::{Attractor, Effort, Random, Simulator, attractors, distance},

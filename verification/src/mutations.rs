@@ -12,8 +12,9 @@ use std::{
     time::{Duration, Instant},
 };
 
+use hammerbeam_results::{Store, StoreError, export_csv, summary::summarise};
 use hammerbeam_signal::{RecordOptions, points, read};
-use hammerbeam_study::{Store, StoreError, StudyFile, export_csv, summary::summarise};
+use hammerbeam_study::StudyFile;
 
 use crate::attractors::Random;
 

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_study::{
-    Model, OrbitSolver, Store, StoredBranch, StoredBranches, StudyFile,
+use hammerbeam_jobs::{
+    OrbitSolver, StoredBranch, StoredBranches,
     run::{Observer, Plan, Quiet, run},
-    store::BranchRecord,
 };
+use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_results::{Store, store::BranchRecord};
+use hammerbeam_study::{Model, StudyFile};
 
 /// What ends a check before it has a result.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;

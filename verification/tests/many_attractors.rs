@@ -2,8 +2,9 @@
 
 use std::sync::{Mutex, OnceLock};
 
+use hammerbeam_jobs::OrbitSolver;
 use hammerbeam_orbit::{Matcher, OrbitSettings};
-use hammerbeam_study::{OrbitSolver, StudyFile};
+use hammerbeam_study::StudyFile;
 use hammerbeam_verification::{
     attractors::Effort,
     completeness::{Report, check_at},

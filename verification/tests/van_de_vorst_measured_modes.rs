@@ -15,10 +15,8 @@
 
 use std::path::Path;
 
-use hammerbeam_study::{
-    StudyFile,
-    update::{UpdateData, UpdateSettings, update},
-};
+use hammerbeam_jobs::update::{UpdateData, UpdateSettings, update};
+use hammerbeam_study::StudyFile;
 
 const MEASURED_HZ: [f64; 3] = [17.2, 128.9, 378.9];
 const DEVIATION: f64 = 0.005;

@@ -2,15 +2,14 @@
 
 use std::process::ExitCode;
 
-use hammerbeam_signal::SignalError;
-use hammerbeam_study::{
-    Report, StoreError, StudyError,
+use hammerbeam_jobs::{
     comparison::{ComparisonError, ObservationError, OverlayError},
-    export::ExportError,
     rig::RigError,
     run::RunError,
-    whole_file::WriteError,
 };
+use hammerbeam_results::{StoreError, export::ExportError, whole_file::WriteError};
+use hammerbeam_signal::SignalError;
+use hammerbeam_study::{Report, StudyError};
 
 /// Why a command does not end well.
 #[derive(Debug)]

@@ -14,12 +14,12 @@ use hammerbeam_figure::{
     ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
 };
 use hammerbeam_orbit::Stability;
-use hammerbeam_structure::ModeTables;
-use hammerbeam_study::{
-    Model, Store, StoreError, StudyFile,
-    file::DrawnOrbit,
+use hammerbeam_results::{
+    Store, StoreError,
     store::{PieceRecord, Row},
 };
+use hammerbeam_structure::ModeTables;
+use hammerbeam_study::{Model, StudyFile, file::DrawnOrbit};
 
 use crate::{
     args::{FigureKind, FigureScale},

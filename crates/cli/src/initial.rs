@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use hammerbeam_attractor::{AttractorError, SectionMap, SystemMap};
+use hammerbeam_jobs::StoredBranches;
 use hammerbeam_motion::Stretch;
 use hammerbeam_orbit::states_at_phase;
-use hammerbeam_study::{Model, PointStart, PointStartKind, StoredBranches, StudyFile};
+use hammerbeam_study::{Model, PointStart, PointStartKind, StudyFile};
 
 use crate::{failure::Failure, motion_args::MOST_OF_A_STATE};
 

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use hammerbeam_study::{
-    Store, StoredBranches, StudyFile,
+use hammerbeam_jobs::StoredBranches;
+use hammerbeam_results::{
+    Store,
     store::{DATABASE, RequestKind, StoreError},
 };
+use hammerbeam_study::StudyFile;
 
 use crate::failure::Failure;
 

@@ -2,10 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use hammerbeam_study::{
-    run::{Observer, Progress, VariedProgress},
-    store::{JobKind, JobRecord},
-};
+use hammerbeam_jobs::run::{Observer, Progress, VariedProgress};
+use hammerbeam_results::store::{JobKind, JobRecord};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::{

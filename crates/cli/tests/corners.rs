@@ -3,8 +3,10 @@
 //! lie where the linear response reaches the gap.
 use std::f64::consts::TAU;
 
+use hammerbeam_jobs::StoredBranches;
+use hammerbeam_study::{Model, StudyFile};
+
 use crate::common::{Workshop, number};
-use hammerbeam_study::{Model, StoredBranches, StudyFile};
 
 /// Two masses in a row with 2 % of damping, one stop: coming down, a walk on states alone lost its way at the
 /// corner at 0.04695 Hz, and another branch held the same orbits.

@@ -22,7 +22,8 @@ use hammerbeam_figure::{
 };
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{Side, states_at_phase};
-use hammerbeam_study::{Model, Store, StudyFile};
+use hammerbeam_results::Store;
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 const RANGE: &str = "frequency_hz = [30.0, 40.0]";

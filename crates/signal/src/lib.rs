@@ -48,7 +48,8 @@
 //! | `waveform/` | records folded onto periods, alignment of waveforms |
 //! | `chain/` | the response of a measuring chain to a computed motion |
 //!
-//! The formulas are in these files and, for users, in `docs/signals.md`. Errors are [`SignalError`].
+//! The formulas are in these files and, for users, in `docs/how-to/process-signals.md`. Errors are
+//! [`SignalError`].
 
 pub mod chain;
 pub mod classify;

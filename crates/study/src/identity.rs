@@ -57,7 +57,7 @@ fn fnv1a(bytes: &[u8]) -> u128 {
 
 /// What differs between two canonical texts: lines `path: value there, value here`, `limit` at most.
 #[must_use]
-pub(crate) fn differences(there: &str, here: &str, limit: usize) -> Vec<String> {
+pub fn differences(there: &str, here: &str, limit: usize) -> Vec<String> {
     let table = |text: &str| -> std::collections::BTreeMap<String, String> {
         text.lines()
             .filter_map(|line| line.split_once(" = "))

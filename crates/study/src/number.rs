@@ -26,7 +26,7 @@ const SMALL: f64 = 1e-6;
 
 /// A number in the text of a study.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Number {
+pub struct Number {
     /// Its paths, the one with names first.
     pub keys: Vec<String>,
     /// Where it stands [bytes].
@@ -38,7 +38,7 @@ pub(crate) struct Number {
 }
 
 /// All numbers of the model that the text of a study holds.
-pub(crate) fn numbers(text: &str) -> Vec<Number> {
+pub fn numbers(text: &str) -> Vec<Number> {
     let (document, _) = DeTable::parse_recoverable(text);
     let mut found = Vec::new();
     let tables =
@@ -54,7 +54,7 @@ pub(crate) fn numbers(text: &str) -> Vec<Number> {
 ///
 /// # Errors
 /// How many there are, if there are several: names of elements may be numbers of others.
-pub(crate) fn number_named(text: &str, key: &str) -> Result<Option<Number>, usize> {
+pub fn number_named(text: &str, key: &str) -> Result<Option<Number>, usize> {
     let mut named = numbers(text);
     named.retain(|number| number.keys.iter().any(|known| known == key));
     if named.len() > 1 { Err(named.len()) } else { Ok(named.pop()) }
@@ -115,11 +115,7 @@ fn extended(keys: &[String], names: &[String]) -> Vec<String> {
 ///
 /// # Errors
 /// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
-pub(crate) fn with_numbers(
-    file: &StudyFile,
-    numbers: &[Number],
-    values: &[f64],
-) -> Result<StudyFile, StudyError> {
+pub fn with_numbers(file: &StudyFile, numbers: &[Number], values: &[f64]) -> Result<StudyFile, StudyError> {
     StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
 }
 
@@ -128,17 +124,13 @@ pub(crate) fn with_numbers(
 ///
 /// # Errors
 /// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
-pub(crate) fn model_with(
-    file: &StudyFile,
-    numbers: &[Number],
-    values: &[f64],
-) -> Result<StudyFile, StudyError> {
+pub fn model_with(file: &StudyFile, numbers: &[Number], values: &[f64]) -> Result<StudyFile, StudyError> {
     StudyFile::parse_model(&file.name, replaced(&file.text, numbers, values))
 }
 
 /// Values that the study file allows for a number, as far as they do not hang on others: whether it may be
 /// negative or zero, and whether it may exceed one.
-pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
+pub fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
     let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };
     let allowed = |value: f64| with_numbers(file, std::slice::from_ref(number), &[value]).is_ok();
     let low = match (allowed(-SMALL * size), allowed(0.0)) {
@@ -155,7 +147,7 @@ pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
 }
 
 /// The text with other numbers in their places.
-pub(crate) fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String {
+pub fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     order.sort_by_key(|index| std::cmp::Reverse(numbers[*index].span.start));
     let mut text = text.to_owned();
@@ -168,7 +160,7 @@ pub(crate) fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String
 }
 
 /// A number as TOML has it, with every digit.
-pub(crate) fn written(value: f64) -> String {
+pub fn written(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{value:?}") } else { format!("{value:e}") }
 }

@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_study::{
-    Store, export_csv,
+use hammerbeam_jobs::{
     run::{Observer, Progress},
     verify::{VerifySettings, verify},
 };
+use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_results::{Store, export_csv};
 use toml::Table;
 
 use super::Units;
@@ -130,7 +130,7 @@ fn part([low, high]: [f64; 2], frequency_hz: f64) -> f64 {
 }
 
 fn branches(results: &Results) -> Vec<(u32, [f64; 2])> {
-    let of = |branch: &hammerbeam_study::StoredBranch| {
+    let of = |branch: &hammerbeam_jobs::StoredBranch| {
         let at = branch.rows.iter().map(|placed| part(results.range_hz, placed.row.frequency_hz));
         let (low, high) = (at.clone().fold(f64::INFINITY, f64::min), at.fold(f64::NEG_INFINITY, f64::max));
         (branch.record.period_multiple, [low, high])

@@ -2,8 +2,10 @@
 
 use hammerbeam_attractor::{Attractor, Axis, Basins, Class, Effort, Estimate, Grid, fractions};
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::StoredBranches;
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{Model, Store, StoredBranches, StudyFile, export::write_basins, store::RequestKind};
+use hammerbeam_results::{Store, export::write_basins, store::RequestKind};
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 use super::{run::threads, simulate::folder};

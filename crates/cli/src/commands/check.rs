@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::rig::changed_study;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
         Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
         MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
     },
-    rig::changed_study,
 };
 use serde_json::{Value, json};
 

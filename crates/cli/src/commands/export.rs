@@ -1,6 +1,6 @@
 //! `hammerbeam export`: stored results for other programs.
 
-use hammerbeam_study::{Store, export_csv, export_states, whole_file::subfolder};
+use hammerbeam_results::{Store, export_csv, export_states, whole_file::subfolder};
 use serde_json::json;
 
 use crate::{

@@ -1,6 +1,7 @@
 //! `hammerbeam figure`: pictures of everything in a results folder.
 
-use hammerbeam_study::{Model, Store, StudyFile};
+use hammerbeam_results::Store;
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::json;
 
 use super::run::threads;

@@ -3,11 +3,12 @@
 use hammerbeam_attractor::{Lyapunov, LyapunovSettings, SectionMap, SystemMap, WATCHED_PERIODS, zero_one};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{
-    Model, Store, StudyFile,
+use hammerbeam_results::{
+    Store,
     export::write_exponents,
     store::{ExponentRecord, RequestKind},
 };
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 use super::simulate::folder;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
-use hammerbeam_study::whole_file::replace;
+use hammerbeam_results::whole_file::replace;
 use serde_json::json;
 
 use crate::{

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use hammerbeam_study::whole_file::create;
+use hammerbeam_results::whole_file::create;
 use serde_json::json;
 
 use crate::{args::NewOptions, failure::Failure, output::Output};

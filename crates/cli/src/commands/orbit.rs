@@ -1,8 +1,9 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::OrbitSolver;
 use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
-use hammerbeam_study::{Model, OrbitSolver, StudyFile};
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 use crate::{

@@ -7,16 +7,19 @@ use std::{
 };
 
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_orbit::Stability;
-use hammerbeam_study::{
-    MirrorImage, Model, OrbitSolver, Store, StoredBranches, Study, StudyFile, UndampedInContact,
-    UndampedMode,
+use hammerbeam_jobs::{
+    MirrorImage, OrbitSolver, StoredBranches,
     run::{Plan, RunOutcome},
     settled::settled_states,
-    store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
-    summary::{BranchSummary, Peak, summarise},
     varied::{self, VariedOutcome},
 };
+use hammerbeam_orbit::Stability;
+use hammerbeam_results::{
+    Store,
+    store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
+    summary::{BranchSummary, Peak, summarise},
+};
+use hammerbeam_study::{Model, Study, StudyFile, UndampedInContact, UndampedMode};
 use serde_json::{Value, json};
 
 use crate::{
@@ -48,7 +51,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let begun = Instant::now();
     let threads = threads(options.jobs);
     let plan = Plan { met: solver.settled(&settled), ..Plan::of(&file.study) };
-    let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    let outcome = hammerbeam_jobs::run::run(&mut store, &solver, &plan, threads, &mut terminal);
     let varied = match outcome {
         Ok(RunOutcome::Done) => varied::run(&mut store, &model, &file.study, threads, &mut terminal),
         _ => Ok(VariedOutcome::Done),

@@ -14,11 +14,11 @@ use std::path::Path;
 
 use hammerbeam_attractor::{AttractorError, Simulation, SimulationCheckpoint, SystemMap};
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{
-    Model, StudyFile,
+use hammerbeam_results::{
     export::SimulationTables,
     store::{RequestKind, SimulatedChunk},
 };
+use hammerbeam_study::{Model, StudyFile};
 
 use crate::{
     failure::Failure,

@@ -4,12 +4,14 @@ use hammerbeam_attractor::{
     AttractorError, Class, Observable, SweepPoint, SweepSettings, Sweeper, SystemMap, in_order,
 };
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::StoredBranches;
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{
-    Model, Store, StoredBranches, StudyFile,
+use hammerbeam_results::{
+    Store,
     export::write_sweep,
     store::{RequestKind, SettledMotion},
 };
+use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 use super::{run::threads, simulate::folder};

@@ -4,14 +4,12 @@ use std::{fs, path::Path};
 
 use anyhow::Context;
 use hammerbeam_fit::{FitEnd, Interval};
-use hammerbeam_study::{
-    StudyError, StudyFile,
-    update::{
-        CandidateError, DataError, FittedDatum, FittedParameter, Observation, Update, UpdateData,
-        UpdateError, UpdateSettings, update,
-    },
-    whole_file::{WriteError, replace},
+use hammerbeam_jobs::update::{
+    CandidateError, DataError, FittedDatum, FittedParameter, Observation, Update, UpdateData, UpdateError,
+    UpdateSettings, update,
 };
+use hammerbeam_results::whole_file::{WriteError, replace};
+use hammerbeam_study::{StudyError, StudyFile};
 use serde_json::{Value, json};
 
 use crate::{

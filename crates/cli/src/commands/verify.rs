@@ -2,10 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use hammerbeam_study::{
-    Model, Store, StudyFile,
-    verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify},
-};
+use hammerbeam_jobs::verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify};
+use hammerbeam_results::Store;
+use hammerbeam_study::{Model, StudyFile};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 

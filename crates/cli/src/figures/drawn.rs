@@ -11,7 +11,7 @@ use std::{
 };
 
 use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, Style};
-use hammerbeam_study::whole_file::{WriteError, replace};
+use hammerbeam_results::whole_file::{WriteError, replace};
 
 use super::RESOLUTION;
 use crate::{

@@ -5,10 +5,12 @@ use hammerbeam_figure::{
     BasinAttractor, BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, FrequencyUnit, MotionKind,
     SectionDiagram, SweepDiagram, SweepOrigin, SweptMotion,
 };
-use hammerbeam_study::{
-    Model, Store, StoreError, StoredBranches, StudyFile,
+use hammerbeam_jobs::StoredBranches;
+use hammerbeam_results::{
+    Store, StoreError,
     store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
 };
+use hammerbeam_study::{Model, StudyFile};
 
 use super::Album;
 use crate::{commands::basins::direction, failure::Failure};

@@ -8,10 +8,11 @@ use std::path::Path;
 use hammerbeam_figure::{
     FilteredAcceleration, FrequencyUnit, OrbitDiagram, OrbitImpulse, OrbitSample, plain_number,
 };
+use hammerbeam_jobs::StoredBranches;
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{
-    Model, StoredBranches, StudyFile,
+    Model, StudyFile,
     file::{DrawnOrbit, Excitation},
 };
 

@@ -9,10 +9,11 @@ mod shape;
 
 use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
 use hammerbeam_orbit::{Side, Stability};
-use hammerbeam_study::{
-    Model, Store, StoreError, StudyFile,
+use hammerbeam_results::{
+    Store, StoreError,
     store::{BranchRecord, RequestKind, Row, WalkRecord},
 };
+use hammerbeam_study::{Model, StudyFile};
 
 use super::{Album, Drawn, motions};
 use crate::failure::Failure;

@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint};
 use hammerbeam_orbit::Stability;
-use hammerbeam_study::{
+use hammerbeam_results::{
     Store, StoreError,
     store::{PieceRecord, StoredVariedRow},
 };

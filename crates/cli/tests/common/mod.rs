@@ -20,7 +20,7 @@ use tempfile::TempDir;
 /// A results database, to be changed as the program itself would change it: with the checksums of its rows.
 pub fn database(path: impl AsRef<Path>) -> rusqlite::Connection {
     let connection = rusqlite::Connection::open(path).unwrap();
-    hammerbeam_study::store::add_checksums(&connection).unwrap();
+    hammerbeam_results::store::add_checksums(&connection).unwrap();
     connection
 }
 

@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use hammerbeam_study::Store;
+use hammerbeam_results::Store;
 
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run};
 

@@ -2,7 +2,7 @@
 
 use std::{fs, thread::sleep, time::Duration};
 
-use hammerbeam_study::{
+use hammerbeam_results::{
     Store,
     store::{SimulatedChunk, SimulationLayout, StoreError},
 };

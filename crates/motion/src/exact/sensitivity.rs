@@ -199,10 +199,10 @@ impl Sensitivity {
     /// Largest `sqrt(k p^2 + s^2)` over the blocks of one column: the largest velocity that it can reach.
     pub fn energy_norm_of(&self, column: usize, stiffness: &[f64]) -> f64 {
         let (positions, velocities) = self.values.split_at(self.values.len() / 2);
-        let entries = |half: &'_ [f64]| half.iter().skip(column).step_by(self.columns).copied().collect();
-        let (positions, velocities): (Vec<f64>, Vec<f64>) = (entries(positions), entries(velocities));
-        let pairs = positions.iter().zip(&velocities).zip(stiffness);
-        pairs.map(|((p, s), k)| (k * p * p + s * s).sqrt()).fold(0.0, f64::max)
+        let rows = positions.chunks_exact(self.columns).zip(velocities.chunks_exact(self.columns));
+        let squares =
+            rows.zip(stiffness).map(|((p, s), k)| k * p[column] * p[column] + s[column] * s[column]);
+        squares.fold(0.0, f64::max).sqrt()
     }
 
     /// Adds to an entry of a column.

@@ -22,8 +22,9 @@
 //! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
 //! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own:
-//! the largest velocity that they can reach. Their present one may vanish, as that by the frequency does with a
-//! load that is largest at the start of a stretch, and the rounding of the force would be held against nothing.
+//! their velocity, or [`LEAST_SHARE`] of the largest one that they can reach. The velocity alone may vanish, as
+//! that by the frequency does with a load that is largest at the start of a stretch; the rounding of the force
+//! would then be compared with nothing.
 //! Before the first contact the motion does not depend on its stiffness, so there that column has no other
 //! scale than what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the
 //! rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times
@@ -37,6 +38,9 @@ use super::{
     drive::Order,
     run::{ElementStart, Run},
 };
+
+/// Share of the velocity that a further column can reach: its scale where its own velocity is smaller.
+const LEAST_SHARE: f64 = 0.01;
 
 /// How the expansion of a function over a step ends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -291,7 +295,8 @@ impl ExactIntegrator {
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let further_column = column >= sensitivity.frequency_column();
                 let velocity = if further_column {
-                    sensitivity.energy_norm_of(column, &self.blocks.stiffness)
+                    let reachable = sensitivity.energy_norm_of(column, &self.blocks.stiffness);
+                    found.velocity.max(LEAST_SHARE * reachable)
                 } else {
                     found.velocity
                 };

@@ -3,14 +3,14 @@
 //! A step over which a test function changes its sign ends at the zero instead, found by few probes
 //! (`bracket.rs`). A function may also jump through zero (when what it is made of changes its kind); then the
 //! bracket shrinks and the value does not, and nothing is recorded. Two zeros within one step leave no trace
-//! in the signs; where a parabola through three values nearly meets zero between the last two, the step is in
-//! doubt. So is one at whose end a function has no value any more (it is infinite), and one would have met
-//! zero by the line through its last two, and a step at whose end a function has a value that it had not
-//! before, and one comes from zero by the line through its value there and one a little behind. Any of them:
-//! functions may be the smallest of several values, and what begins or ends among them moves those behind by
-//! one place. So is one over which the problem itself knows of zeros that undo each other: on the way to its
-//! end, or to the zero that was found before it. A change of signature is bracketed by bisection, since a
-//! signature has no size.
+//! in the signs; where a parabola through three values nearly meets zero between the last two, or the last value
+//! is nearly zero, the step is in doubt. So is one at whose end a function has no value any more (it is
+//! infinite), and one would have met zero by the line through its last two, and a step at whose end a function
+//! has a value that it had not before, and one comes from zero by the line through its value there and one a
+//! little behind. Any of them: functions may be the smallest of several values, and what begins or ends among
+//! them moves those behind by one place. So is one over which the problem itself knows of zeros that undo each
+//! other: on the way to its end, or to the zero that was found before it. A change of signature is bracketed by
+//! bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket, outside::Counted};
 use crate::{
@@ -31,6 +31,9 @@ const JUMP_SIZE: f64 = 0.05;
 const LEFT: f64 = 1e-3;
 /// A function that falls inside a step to this share of its smaller end value is looked at more closely.
 const DIP: f64 = 0.5;
+/// A function that falls over a step to less than this share of its value has come as near to zero as makes
+/// it likely that it was there.
+const NEARLY: f64 = 0.1;
 /// Lowest points this close to an end of the step (share of the step) belong to that end.
 const EDGE: f64 = 0.02;
 /// Behind a trial at which a function begins to have a value its slope is taken over this share of the step.
@@ -62,7 +65,7 @@ impl Follower {
         }
         for index in (0..self.trial.tests.len()).filter(|index| apart >> index & 1 == 0) {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
-            if is_long && (apart >= 2 || apart == 0 && self.dips(index)) {
+            if is_long && (apart >= 2 || apart == 0 && (self.dips(index) || self.nearly_vanishes(index))) {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
@@ -117,6 +120,13 @@ impl Follower {
         let place = 0.5 * (behind - slope / bend);
         let inside = bend > 0.0 && (EDGE * ahead..=(1.0 - EDGE) * ahead).contains(&place);
         inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
+    }
+
+    /// Whether a test function falls nearly to zero over the step to the trial. Two zeros just before its end
+    /// show in no parabola through values before them.
+    fn nearly_vanishes(&self, index: usize) -> bool {
+        let (before, after) = (self.state.tests[index], self.trial.tests[index]);
+        after.value.abs() < NEARLY * before.value.abs() && before.value.is_finite()
     }
 
     /// A test function at the point before the last one, and how far that lies behind it, which is negative;

@@ -5,16 +5,16 @@
 //! are collected ([`Problem`]), and what was never asked for is unknown by definition.
 
 mod problem;
-pub(crate) mod quantity;
+pub mod quantity;
 mod reading;
 mod suggest;
 mod table;
-pub(crate) mod unit;
+pub mod unit;
 mod value;
 
 pub use problem::{Problem, Report};
-pub(crate) use quantity::Quantity;
-pub(crate) use reading::{Reading, place};
-pub(crate) use suggest::closest;
-pub(crate) use table::Table;
-pub(crate) use value::Value;
+pub use quantity::Quantity;
+pub use reading::{Reading, place};
+pub use suggest::closest;
+pub use table::Table;
+pub use value::Value;

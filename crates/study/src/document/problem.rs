@@ -31,13 +31,14 @@ pub struct Report {
 }
 
 impl Report {
-    pub(crate) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
+    /// The faults in a text, in its order.
+    pub fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| problem.span.as_ref().map_or(usize::MAX, |span| span.start));
         Self { name: name.to_owned(), text: text.to_owned(), problems, left_out: 0 }
     }
 
     /// The same with further faults that are only counted.
-    pub(crate) fn and(self, left_out: usize) -> Self {
+    pub fn and(self, left_out: usize) -> Self {
         Self { left_out, ..self }
     }
 

@@ -1,11 +1,11 @@
 //! What numbers may be: unit and plausible range of every quantity in a study.
 //!
 //! The limits are wide: they are there to catch a wrong unit (a Young's modulus of 210, a length in
-//! millimetres) and a wrong sign, not to judge designs. They are listed in `docs/study-file.md`.
+//! millimetres) and a wrong sign, not to judge designs. They are listed in `docs/reference/study-file.md`.
 
 /// An end of a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Bound {
+pub enum Bound {
     /// No limit.
     Open,
     /// The limit itself is allowed.
@@ -16,7 +16,7 @@ pub(crate) enum Bound {
 
 /// Unit and range of a quantity, with hints for numbers outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Quantity {
+pub struct Quantity {
     unit: &'static str,
     from: Bound,
     to: Bound,
@@ -38,13 +38,13 @@ impl Quantity {
     }
 
     /// The number with its unit.
-    pub(crate) fn with_unit(&self, number: f64) -> String {
+    pub fn with_unit(&self, number: f64) -> String {
         let number = plain(number);
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 
     /// What is allowed instead, if the number is not.
-    pub(crate) fn fault(&self, number: f64) -> Option<Vec<String>> {
+    pub fn fault(&self, number: f64) -> Option<Vec<String>> {
         let hint = if !number.is_finite() {
             "numbers must be finite"
         } else if !above(self.from, number) {
@@ -62,7 +62,7 @@ impl Quantity {
     }
 
     /// The range in words.
-    pub(crate) fn allowed(&self) -> String {
+    pub fn allowed(&self) -> String {
         let words = match (self.from, self.to) {
             (Open, Open) => "any finite number".to_owned(),
             (Excluding(low), Open) => format!("more than {}", plain(low)),
@@ -107,119 +107,119 @@ fn plain(number: f64) -> String {
 }
 
 /// Length of a beam, largest extent of anything on it.
-pub(crate) const LENGTH: Quantity = Quantity::new("m", Including(1e-7), Including(100.0))
+pub const LENGTH: Quantity = Quantity::new("m", Including(1e-7), Including(100.0))
     .hints("is the unit m?", "is the unit m? it looks like millimetres");
 /// Width of a section.
-pub(crate) const WIDTH: Quantity = Quantity::new("m", Including(1e-9), Including(10.0))
+pub const WIDTH: Quantity = Quantity::new("m", Including(1e-9), Including(10.0))
     .hints("is the unit m?", "is the unit m? it looks like millimetres");
 /// Height of a section.
-pub(crate) const HEIGHT: Quantity = WIDTH;
+pub const HEIGHT: Quantity = WIDTH;
 /// Area of a section.
-pub(crate) const AREA: Quantity = Quantity::new("m^2", Including(1e-18), Including(100.0))
+pub const AREA: Quantity = Quantity::new("m^2", Including(1e-18), Including(100.0))
     .hints("is the unit m^2?", "is the unit m^2? it looks like mm^2");
 /// Second moment of area of a section.
-pub(crate) const SECOND_MOMENT: Quantity = Quantity::new("m^4", Including(1e-36), Including(1e3))
+pub const SECOND_MOMENT: Quantity = Quantity::new("m^4", Including(1e-36), Including(1e3))
     .hints("is the unit m^4?", "is the unit m^4? it looks like mm^4");
 /// Young's modulus.
-pub(crate) const MODULUS: Quantity = Quantity::new("Pa", Including(1e6), Including(2e12)).hints(
+pub const MODULUS: Quantity = Quantity::new("Pa", Including(1e6), Including(2e12)).hints(
     "is the unit Pa? such numbers look like GPa or MPa: 210 GPa is 2.1e11 Pa",
     "is the unit Pa? diamond has 1.2e12 Pa",
 );
 /// Density.
-pub(crate) const DENSITY: Quantity = Quantity::new("kg/m^3", Including(10.0), Including(25_000.0)).hints(
+pub const DENSITY: Quantity = Quantity::new("kg/m^3", Including(10.0), Including(25_000.0)).hints(
     "is the unit kg/m^3? such numbers look like g/cm^3: 7.8 g/cm^3 is 7800 kg/m^3",
     "is the unit kg/m^3? osmium has 22590 kg/m^3",
 );
 /// Poisson's ratio.
-pub(crate) const POISSON: Quantity = Quantity::new("", Excluding(-1.0), Including(0.5));
+pub const POISSON: Quantity = Quantity::new("", Excluding(-1.0), Including(0.5));
 /// Radius of a sphere in contact.
-pub(crate) const RADIUS: Quantity =
+pub const RADIUS: Quantity =
     Quantity::new("m", Including(1e-9), Including(1e4)).hints("is the unit m?", "write \"flat\" for a plane");
 /// Position along a beam; the beam's own length bounds it further.
-pub(crate) const POSITION: Quantity = Quantity::new("m", Including(0.0), Open);
+pub const POSITION: Quantity = Quantity::new("m", Including(0.0), Open);
 /// A mass that must be there.
-pub(crate) const MASS: Quantity = Quantity::new("kg", Excluding(0.0), Including(1e12));
+pub const MASS: Quantity = Quantity::new("kg", Excluding(0.0), Including(1e12));
 /// A mass added to a beam.
-pub(crate) const ADDED_MASS: Quantity = Quantity::new("kg", Including(0.0), Including(1e9));
+pub const ADDED_MASS: Quantity = Quantity::new("kg", Including(0.0), Including(1e9));
 /// Rotary inertia added to a beam.
-pub(crate) const ROTARY_INERTIA: Quantity = Quantity::new("kg m^2", Including(0.0), Including(1e9));
+pub const ROTARY_INERTIA: Quantity = Quantity::new("kg m^2", Including(0.0), Including(1e9));
 /// Stiffness of a linear spring.
-pub(crate) const STIFFNESS: Quantity = Quantity::new("N/m", Excluding(0.0), Including(1e18)).hints(
+pub const STIFFNESS: Quantity = Quantity::new("N/m", Excluding(0.0), Including(1e18)).hints(
     "a stiffness that pushes away from the middle is a [[stop]] of law \"cubic\" with a negative \
      `stiffness_n_m`",
     "",
 );
 /// Stiffness of an added spring that may be absent.
-pub(crate) const ADDED_STIFFNESS: Quantity = Quantity::new("N/m", Including(0.0), Including(1e18));
+pub const ADDED_STIFFNESS: Quantity = Quantity::new("N/m", Including(0.0), Including(1e18));
 /// Constant of a damper.
-pub(crate) const DAMPER: Quantity = Quantity::new("N s/m", Including(0.0), Including(1e15));
+pub const DAMPER: Quantity = Quantity::new("N s/m", Including(0.0), Including(1e15));
 /// Stiffness of an added rotational spring.
-pub(crate) const ROTATIONAL_STIFFNESS: Quantity = Quantity::new("N m/rad", Including(0.0), Including(1e18));
+pub const ROTATIONAL_STIFFNESS: Quantity = Quantity::new("N m/rad", Including(0.0), Including(1e18));
 /// Constant of an added rotational damper.
-pub(crate) const ROTATIONAL_DAMPER: Quantity = Quantity::new("N m s/rad", Including(0.0), Including(1e15));
+pub const ROTATIONAL_DAMPER: Quantity = Quantity::new("N m s/rad", Including(0.0), Including(1e15));
 /// Constant of a Hertz contact.
-pub(crate) const HERTZ_STIFFNESS: Quantity = Quantity::new("N/m^1.5", Excluding(0.0), Including(1e24));
+pub const HERTZ_STIFFNESS: Quantity = Quantity::new("N/m^1.5", Excluding(0.0), Including(1e24));
 /// Loss of a contact after Hunt and Crossley.
-pub(crate) const LOSS: Quantity = Quantity::new("s/m", Including(0.0), Including(1e6));
+pub const LOSS: Quantity = Quantity::new("s/m", Including(0.0), Including(1e6));
 /// Coefficient of restitution.
-pub(crate) const RESTITUTION: Quantity = Quantity::new("", Excluding(0.0), Including(1.0));
+pub const RESTITUTION: Quantity = Quantity::new("", Excluding(0.0), Including(1.0));
 /// Coefficient of restitution of a rigid stop.
-pub(crate) const RIGID_RESTITUTION: Quantity = Quantity::new("", Including(0.0), Including(1.0));
+pub const RIGID_RESTITUTION: Quantity = Quantity::new("", Including(0.0), Including(1.0));
 /// Stiffness of the linear term of a spring that may push away from the middle.
-pub(crate) const SIGNED_STIFFNESS: Quantity = Quantity::new("N/m", Including(-1e18), Including(1e18));
+pub const SIGNED_STIFFNESS: Quantity = Quantity::new("N/m", Including(-1e18), Including(1e18));
 /// Constant of a quadratic spring, either sign.
-pub(crate) const QUADRATIC_STIFFNESS: Quantity = Quantity::new("N/m^2", Including(-1e24), Including(1e24));
+pub const QUADRATIC_STIFFNESS: Quantity = Quantity::new("N/m^2", Including(-1e24), Including(1e24));
 /// Constant of a cubic spring, either sign.
-pub(crate) const CUBIC_STIFFNESS: Quantity = Quantity::new("N/m^3", Including(-1e30), Including(1e30));
+pub const CUBIC_STIFFNESS: Quantity = Quantity::new("N/m^3", Including(-1e30), Including(1e30));
 /// Rest distance of a stop.
-pub(crate) const GAP: Quantity = Quantity::new("m", Including(0.0), Including(1e6))
+pub const GAP: Quantity = Quantity::new("m", Including(0.0), Including(1e6))
     .hints("a stop that presses on the structure at rest has a `preload_n` instead of a gap", "");
 /// Force with which a stop presses at rest.
-pub(crate) const PRELOAD: Quantity = Quantity::new("N", Including(0.0), Including(1e15));
+pub const PRELOAD: Quantity = Quantity::new("N", Including(0.0), Including(1e15));
 /// Damping ratio of a mode.
-pub(crate) const DAMPING_RATIO: Quantity = Quantity::new("", Including(0.0), Including(1.0))
+pub const DAMPING_RATIO: Quantity = Quantity::new("", Including(0.0), Including(1.0))
     .hints("", "a ratio to critical damping, not a per cent: 1.5 % is 0.015");
 /// Mass-proportional damping.
-pub(crate) const RAYLEIGH_MASS: Quantity = Quantity::new("1/s", Including(0.0), Including(1e12));
+pub const RAYLEIGH_MASS: Quantity = Quantity::new("1/s", Including(0.0), Including(1e12));
 /// Stiffness-proportional damping.
-pub(crate) const RAYLEIGH_STIFFNESS: Quantity = Quantity::new("s", Including(0.0), Including(1e6));
+pub const RAYLEIGH_STIFFNESS: Quantity = Quantity::new("s", Including(0.0), Including(1e6));
 /// Amplitude of a prescribed displacement.
-pub(crate) const AMPLITUDE: Quantity = Quantity::new("m", Excluding(0.0), Including(1e6))
+pub const AMPLITUDE: Quantity = Quantity::new("m", Excluding(0.0), Including(1e6))
     .hints("a motion turned round is one with `phase_rad = 3.141592653589793`", "");
 /// Amplitude of a force.
-pub(crate) const FORCE: Quantity = Quantity::new("N", Excluding(0.0), Including(1e15))
+pub const FORCE: Quantity = Quantity::new("N", Excluding(0.0), Including(1e15))
     .hints("a force turned round is one with `phase_rad = 3.141592653589793`", "");
 /// Displacement or force of a load, either sign, since it may be constant.
-pub(crate) const LOAD_DISPLACEMENT: Quantity = Quantity::new("m", Including(-1e6), Including(1e6));
+pub const LOAD_DISPLACEMENT: Quantity = Quantity::new("m", Including(-1e6), Including(1e6));
 /// Force of a load, either sign, since it may be constant.
-pub(crate) const LOAD_FORCE: Quantity = Quantity::new("N", Including(-1e15), Including(1e15));
+pub const LOAD_FORCE: Quantity = Quantity::new("N", Including(-1e15), Including(1e15));
 /// Acceleration of gravity, either sign.
-pub(crate) const GRAVITY: Quantity = Quantity::new("m/s^2", Including(-1e6), Including(1e6));
+pub const GRAVITY: Quantity = Quantity::new("m/s^2", Including(-1e6), Including(1e6));
 /// Phase of a harmonic.
-pub(crate) const PHASE: Quantity = Quantity::new("rad", Including(-100.0), Including(100.0))
+pub const PHASE: Quantity = Quantity::new("rad", Including(-100.0), Including(100.0))
     .hints("is the unit rad?", "is the unit rad? it looks like degrees");
 /// Excitation frequency: its period and what follows from that are plain numbers.
-pub(crate) const EXCITATION_FREQUENCY: Quantity = Quantity::new("Hz", Including(1e-10), Including(1e10));
+pub const EXCITATION_FREQUENCY: Quantity = Quantity::new("Hz", Including(1e-10), Including(1e10));
 /// Cut-off frequency, and whatever else has hertz.
-pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
+pub const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Step along a branch.
-pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
+pub const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Time that a run may take.
-pub(crate) const TIME: Quantity = Quantity::new("s", Excluding(0.0), Including(1e10));
+pub const TIME: Quantity = Quantity::new("s", Excluding(0.0), Including(1e10));
 /// Standard deviation of the noise of a sensor, in its unit.
-pub(crate) const NOISE: Quantity = Quantity::new("", Including(0.0), Including(1e9));
+pub const NOISE: Quantity = Quantity::new("", Including(0.0), Including(1e9));
 /// Tolerance of the solver.
-pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
+pub const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
 /// Any finite number.
-pub(crate) const ANY: Quantity = Quantity::new("", Open, Open);
+pub const ANY: Quantity = Quantity::new("", Open, Open);
 /// A standard deviation relative to its value.
-pub(crate) const RELATIVE_DEVIATION: Quantity = Quantity::new("", Excluding(0.0), Including(10.0))
+pub const RELATIVE_DEVIATION: Quantity = Quantity::new("", Excluding(0.0), Including(10.0))
     .hints("a standard deviation is more than 0", "1 % is 0.01");
 /// A measured damping ratio, or its standard deviation.
-pub(crate) const MEASURED_RATIO: Quantity = Quantity::new("", Excluding(0.0), Excluding(1.0))
+pub const MEASURED_RATIO: Quantity = Quantity::new("", Excluding(0.0), Excluding(1.0))
     .hints("a measured number is more than 0", "1 % is 0.01");
 /// A maximum of a response, or its standard deviation, in the unit of its key.
-pub(crate) const MAXIMUM: Quantity = Quantity::new("", Excluding(0.0), Open);
+pub const MAXIMUM: Quantity = Quantity::new("", Excluding(0.0), Open);
 
 #[cfg(test)]
 mod tests {

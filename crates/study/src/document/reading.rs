@@ -14,7 +14,7 @@ const MOST_PROBLEMS: usize = 100;
 
 /// Collects faults and the places of keys while a document is read.
 #[derive(Debug, Default)]
-pub(crate) struct Reading {
+pub struct Reading {
     problems: RefCell<Vec<Problem>>,
     places: RefCell<BTreeMap<String, Range<usize>>>,
     count: Cell<usize>,
@@ -22,7 +22,7 @@ pub(crate) struct Reading {
 
 impl Reading {
     /// Notes a fault at a place.
-    pub(crate) fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
+    pub fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
         self.count.set(self.count.get() + 1);
         if self.count.get() <= MOST_PROBLEMS {
             self.problems.borrow_mut().push(Problem { key: key.to_owned(), span, message, help });
@@ -30,24 +30,24 @@ impl Reading {
     }
 
     /// Notes where a key stands.
-    pub(crate) fn note_place(&self, key: &str, span: Range<usize>) {
+    pub fn note_place(&self, key: &str, span: Range<usize>) {
         self.places.borrow_mut().insert(key.to_owned(), span);
     }
 
     /// Number of faults so far.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.count.get()
     }
 
     /// The faults, the number of further ones that are left out, and the places of the keys.
-    pub(crate) fn into_parts(self) -> (Vec<Problem>, usize, BTreeMap<String, Range<usize>>) {
+    pub fn into_parts(self) -> (Vec<Problem>, usize, BTreeMap<String, Range<usize>>) {
         let left_out = self.count.get().saturating_sub(MOST_PROBLEMS);
         (self.problems.into_inner(), left_out, self.places.into_inner())
     }
 }
 
 /// The place of a key, or of the closest table around it.
-pub(crate) fn place(places: &BTreeMap<String, Range<usize>>, key: &str) -> Option<Range<usize>> {
+pub fn place(places: &BTreeMap<String, Range<usize>>, key: &str) -> Option<Range<usize>> {
     let mut key = key;
     loop {
         if let Some(span) = places.get(key) {

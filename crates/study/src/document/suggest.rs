@@ -26,7 +26,7 @@ const SYNONYMS: [(&str, &str); 17] = [
 /// In this order: the one that differs by few edits, ours for a word that others use, and a key that has the
 /// word for its stem (`density` or `density_g_cm3` for `density_kg_m3`) or its end (`ratio` for
 /// `modal_ratio`).
-pub(crate) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.into_iter().collect();
     by_edits(word, &candidates)
         .or_else(|| by_meaning(word, &candidates))

@@ -13,7 +13,7 @@ use super::{
 const MOST_NAMES: usize = 100;
 
 /// A table of the document; what is never asked for is an unknown key.
-pub(crate) struct Table<'a> {
+pub struct Table<'a> {
     reading: &'a Reading,
     path: String,
     span: Range<usize>,
@@ -24,23 +24,19 @@ pub(crate) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub(crate) fn new(
-        reading: &'a Reading,
-        path: String,
-        span: Range<usize>,
-        entries: &'a DeTable<'a>,
-    ) -> Self {
+    /// The table at a key path.
+    pub fn new(reading: &'a Reading, path: String, span: Range<usize>, entries: &'a DeTable<'a>) -> Self {
         Self { reading, path, span, entries, asked: RefCell::default(), refused: RefCell::default() }
     }
 
     /// Path of a key of this table.
-    pub(crate) fn path_of(&self, key: &str) -> String {
+    pub fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
     /// The value of a key, if it is there: under its name, or without the unit at the end of its name and
     /// with a unit.
-    pub(crate) fn optional(&self, key: &'static str) -> Option<Value<'a>> {
+    pub fn optional(&self, key: &'static str) -> Option<Value<'a>> {
         self.asked.borrow_mut().push(key);
         let (value, stem) = match (self.entries.get(key), self.with_unit(key)) {
             (value, None) => (value?, None),
@@ -72,12 +68,12 @@ impl<'a> Table<'a> {
     }
 
     /// The value of a key that has to be there.
-    pub(crate) fn required(&self, key: &'static str) -> Option<Value<'a>> {
+    pub fn required(&self, key: &'static str) -> Option<Value<'a>> {
         self.required_with_help(key, Vec::new())
     }
 
     /// The same; `help` says what is allowed where it is missing.
-    pub(crate) fn required_with_help(&self, key: &'static str, help: Vec<String>) -> Option<Value<'a>> {
+    pub fn required_with_help(&self, key: &'static str, help: Vec<String>) -> Option<Value<'a>> {
         let value = self.optional(key);
         // What is given, but wrongly, is told as that and not as missing.
         if value.is_none() && !self.entries.contains_key(key) && !self.refuse_without_quantity(key) {
@@ -101,12 +97,12 @@ impl<'a> Table<'a> {
     }
 
     /// Whether the key is there.
-    pub(crate) fn has(&self, key: &'static str) -> bool {
+    pub fn has(&self, key: &'static str) -> bool {
         self.entries.contains_key(key) || self.with_unit(key).is_some()
     }
 
     /// The elements of an array of tables such as `[[stop]]`; none if the key is not there.
-    pub(crate) fn tables(&self, key: &'static str) -> Vec<Table<'a>> {
+    pub fn tables(&self, key: &'static str) -> Vec<Table<'a>> {
         let Some(value) = self.optional(key) else { return Vec::new() };
         let elements = value.tables(&format!("tables, written [[{}]]", self.path_of(key)));
         elements.unwrap_or_default().iter().filter_map(Value::table).collect()
@@ -114,7 +110,7 @@ impl<'a> Table<'a> {
 
     /// All entries of a table whose keys are names that the file chooses, as numbers; `None` where one is
     /// none.
-    pub(crate) fn named_numbers(&self, quantity: &Quantity) -> Option<Vec<(String, f64)>> {
+    pub fn named_numbers(&self, quantity: &Quantity) -> Option<Vec<(String, f64)>> {
         if self.entries.len() > MOST_NAMES {
             let message = format!("there are {} entries{}", self.entries.len(), self.place_name());
             let help = vec![format!("allowed: at most {MOST_NAMES} names")];
@@ -134,7 +130,7 @@ impl<'a> Table<'a> {
     }
 
     /// Notes a fault of a key of this table.
-    pub(crate) fn problem(&self, key: &str, message: String, help: Vec<String>) {
+    pub fn problem(&self, key: &str, message: String, help: Vec<String>) {
         let path = self.path_of(key);
         let entry = self.entries.get(key).or_else(|| self.entries.get(without_unit(key)?.0));
         let span = entry.map_or_else(|| self.span.clone(), toml::Spanned::span);
@@ -142,13 +138,13 @@ impl<'a> Table<'a> {
     }
 
     /// Notes the fault of a key that this table does not take.
-    pub(crate) fn refuse(&self, key: &'static str, message: String, help: Vec<String>) {
+    pub fn refuse(&self, key: &'static str, message: String, help: Vec<String>) {
         self.refused.borrow_mut().push(key);
         self.problem(key, message, help);
     }
 
     /// Notes every key that was never asked for.
-    pub(crate) fn finish(self) {
+    pub fn finish(self) {
         let (asked, refused) = (self.asked.borrow(), self.refused.borrow());
         let told = |key: &str| asked.contains(&key) || refused.contains(&key);
         for key in self.entries.keys().filter(|key| !told(key.get_ref().as_ref())) {

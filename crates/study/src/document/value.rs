@@ -19,7 +19,7 @@ const LONGEST_LIST: usize = 10_000;
 const LONGEST_TEXT: usize = 1000;
 
 /// A value with its key path and its place; the readers give `None` after noting what is wrong.
-pub(crate) struct Value<'a> {
+pub struct Value<'a> {
     reading: &'a Reading,
     path: String,
     span: Range<usize>,
@@ -29,17 +29,13 @@ pub(crate) struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    pub(crate) fn new(
-        reading: &'a Reading,
-        path: String,
-        span: Range<usize>,
-        value: &'a DeValue<'a>,
-    ) -> Self {
+    /// The value at a key path.
+    pub fn new(reading: &'a Reading, path: String, span: Range<usize>, value: &'a DeValue<'a>) -> Self {
         Self { reading, path, span, value, has_unit: false }
     }
 
     /// The same, whose numbers are texts with a unit.
-    pub(crate) fn with_unit(self) -> Self {
+    pub fn with_unit(self) -> Self {
         Self { has_unit: true, ..self }
     }
 
@@ -49,7 +45,7 @@ impl<'a> Value<'a> {
     }
 
     /// Notes a fault of this value.
-    pub(crate) fn problem(&self, message: String, help: Vec<String>) {
+    pub fn problem(&self, message: String, help: Vec<String>) {
         self.reading.problem(&self.path, Some(self.span.clone()), message, help);
     }
 
@@ -76,7 +72,7 @@ impl<'a> Value<'a> {
     }
 
     /// A finite number within the range of the quantity.
-    pub(crate) fn number(&self, quantity: &Quantity) -> Option<f64> {
+    pub fn number(&self, quantity: &Quantity) -> Option<f64> {
         let number = match self.value {
             DeValue::Integer(number) => integer(number).map_or(f64::INFINITY, |number| number as f64),
             DeValue::Float(number) => float(number),
@@ -106,7 +102,7 @@ impl<'a> Value<'a> {
     }
 
     /// A whole number from `low` to `high`.
-    pub(crate) fn whole(&self, low: u32, high: u32) -> Option<u32> {
+    pub fn whole(&self, low: u32, high: u32) -> Option<u32> {
         let DeValue::Integer(number) = self.value else { return self.wrong_type("a whole number") };
         match integer(number).and_then(|number| u32::try_from(number).ok()) {
             Some(number) if (low..=high).contains(&number) => Some(number),
@@ -119,7 +115,7 @@ impl<'a> Value<'a> {
     }
 
     /// True or false.
-    pub(crate) fn boolean(&self) -> Option<bool> {
+    pub fn boolean(&self) -> Option<bool> {
         match self.value {
             DeValue::Boolean(value) => Some(*value),
             _ => self.wrong_type("true or false"),
@@ -127,7 +123,7 @@ impl<'a> Value<'a> {
     }
 
     /// A string.
-    pub(crate) fn text(&self) -> Option<&'a str> {
+    pub fn text(&self) -> Option<&'a str> {
         match self.value {
             DeValue::String(text) => self.visible(text.as_ref()),
             _ => self.wrong_type("a string"),
@@ -149,22 +145,22 @@ impl<'a> Value<'a> {
     }
 
     /// Whether the value is a string.
-    pub(crate) fn is_text(&self) -> bool {
+    pub fn is_text(&self) -> bool {
         matches!(self.value, DeValue::String(_))
     }
 
     /// Whether the value is a list.
-    pub(crate) fn is_list(&self) -> bool {
+    pub fn is_list(&self) -> bool {
         matches!(self.value, DeValue::Array(_))
     }
 
     /// Whether the value is a list with nothing in it.
-    pub(crate) fn is_empty_list(&self) -> bool {
+    pub fn is_empty_list(&self) -> bool {
         matches!(self.value, DeValue::Array(entries) if entries.is_empty())
     }
 
     /// One of a few words, each with its meaning.
-    pub(crate) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
         let text = self.text()?;
         let meaning = choices.iter().find(|(name, _)| *name == text).map(|(_, meaning)| *meaning);
         if meaning.is_none() {
@@ -175,7 +171,7 @@ impl<'a> Value<'a> {
     }
 
     /// Notes that a word is not one of those known.
-    pub(crate) fn unknown_word(&self, word: &str, what: &str, known: &[&str]) {
+    pub fn unknown_word(&self, word: &str, what: &str, known: &[&str]) {
         let mut help = vec![format!("allowed: {}", known.join(", "))];
         if let Some(close) = closest(word, known.iter().copied()) {
             help.insert(0, format!("did you mean \"{close}\"?"));
@@ -184,12 +180,12 @@ impl<'a> Value<'a> {
     }
 
     /// A table.
-    pub(crate) fn table(&self) -> Option<Table<'a>> {
+    pub fn table(&self) -> Option<Table<'a>> {
         self.table_with_help(Vec::new())
     }
 
     /// The same; `help` says what is allowed where it is something else.
-    pub(crate) fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
+    pub fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
                 Some(Table::new(self.reading, self.path.clone(), self.span.clone(), entries))
@@ -199,12 +195,12 @@ impl<'a> Value<'a> {
     }
 
     /// A list; `what` says of what, for the message.
-    pub(crate) fn array_of(&self, what: &str) -> Option<Vec<Value<'a>>> {
+    pub fn array_of(&self, what: &str) -> Option<Vec<Value<'a>>> {
         self.at_most(LONGEST_LIST, "entries", what)
     }
 
     /// The elements of an array of tables.
-    pub(crate) fn tables(&self, what: &str) -> Option<Vec<Value<'a>>> {
+    pub fn tables(&self, what: &str) -> Option<Vec<Value<'a>>> {
         self.at_most(MOST_TABLES, "tables", what)
     }
 
@@ -227,12 +223,12 @@ impl<'a> Value<'a> {
     }
 
     /// A list of exactly `N` numbers.
-    pub(crate) fn numbers<const N: usize>(&self, quantity: &Quantity) -> Option<[f64; N]> {
+    pub fn numbers<const N: usize>(&self, quantity: &Quantity) -> Option<[f64; N]> {
         self.exactly(&format!("{N} numbers"), |element| element.number(quantity))
     }
 
     /// A list of exactly `N` values.
-    pub(crate) fn exactly<const N: usize, T>(
+    pub fn exactly<const N: usize, T>(
         &self,
         what: &str,
         read: impl Fn(&Value<'a>) -> Option<T>,

@@ -94,7 +94,7 @@ impl Beam {
     ///
     /// # Errors
     /// [`StructureError`]: a section without area or stiffness.
-    pub(crate) fn descriptor(&self) -> Result<linear::Beam, StructureError> {
+    pub fn descriptor(&self) -> Result<linear::Beam, StructureError> {
         let points = self.points.iter().map(|point| linear::BeamPoint {
             name: point.name.clone(),
             at: point.at_m,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_study::comparison::{Comparison, Estimate, Origin, PointOutcome, Residual};
+use hammerbeam_jobs::comparison::{Comparison, Estimate, Origin, PointOutcome, Residual};
 use serde_json::{Value, json};
 
 use super::{Compared, measured::Measured};

@@ -5,11 +5,9 @@ use hammerbeam_figure::{
     MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity as Drawing,
     ResponseSettings,
 };
+use hammerbeam_jobs::comparison::{BranchCurve, PointOutcome};
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
-use hammerbeam_study::{
-    StudyFile,
-    comparison::{BranchCurve, PointOutcome},
-};
+use hammerbeam_study::StudyFile;
 
 use super::Compared;
 use crate::figures::{Album, Drawn};
@@ -39,7 +37,7 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
 }
 
 fn curve(branch: &BranchCurve, quantity: MeasuredQuantity) -> ResponseCurve {
-    let point = |point: &hammerbeam_study::comparison::CurvePoint| ResponsePoint {
+    let point = |point: &hammerbeam_jobs::comparison::CurvePoint| ResponsePoint {
         frequency_hz: point.frequency_hz,
         displacement_m: if quantity == MeasuredQuantity::Displacement { point.value } else { f64::NAN },
         acceleration_m_s2: if quantity == MeasuredQuantity::Acceleration { point.value } else { f64::NAN },

@@ -9,12 +9,13 @@ mod text;
 
 use std::path::PathBuf;
 
-use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
-use hammerbeam_study::{
-    Model, Store, StoredBranches, StudyFile,
+use hammerbeam_jobs::{
+    StoredBranches,
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
-    whole_file::subfolder,
 };
+use hammerbeam_results::{Store, whole_file::subfolder};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
+use hammerbeam_study::{Model, StudyFile};
 
 pub use document::comparison_document;
 pub use figure::draw;

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
-use hammerbeam_study::{
-    comparison::{Comparison, PointOutcome},
+use hammerbeam_jobs::comparison::{Comparison, PointOutcome};
+use hammerbeam_results::{
     export::{Table, header, number, word},
     whole_file::replace,
 };
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 
 use crate::failure::Failure;
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use hammerbeam_jobs::comparison::{Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 use hammerbeam_signal::MeasuredQuantity;
-use hammerbeam_study::comparison::{Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
 use crate::compare_args::CompareOptions;

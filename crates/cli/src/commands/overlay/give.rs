@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_figure::plain_number;
-use hammerbeam_study::export::{Table, header, number};
+use hammerbeam_results::export::{Table, header, number};
 use serde_json::{Value, json};
 
 use super::{

@@ -5,15 +5,17 @@ mod notes;
 
 use std::path::Path;
 
+use hammerbeam_jobs::{
+    StoredBranches,
+    comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
+};
+use hammerbeam_results::Store;
 use hammerbeam_signal::{
     MeasuredQuantity,
     classify::{Classification, ClassifySettings, MotionClass, classify, excitation_frequency},
     waveform::{Shifts, Waveform, folded},
 };
-use hammerbeam_study::{
-    Store, StoredBranches, StudyFile,
-    comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
-};
+use hammerbeam_study::StudyFile;
 
 pub use notes::{Laying, nothing_alike};
 

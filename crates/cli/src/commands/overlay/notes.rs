@@ -1,10 +1,10 @@
 //! What has to be known of a waveform that is laid over an orbit.
 
+use hammerbeam_jobs::comparison::Overlay;
 use hammerbeam_signal::{
     classify::{Classification, MotionClass},
     waveform::Waveform,
 };
-use hammerbeam_study::comparison::Overlay;
 
 /// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of
 /// the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed

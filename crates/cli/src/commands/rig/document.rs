@@ -1,6 +1,6 @@
 //! A rig as a document.
 
-use hammerbeam_study::rig::{FilteredBranch, FilteredRatio, RigMode};
+use hammerbeam_jobs::rig::{FilteredBranch, FilteredRatio, RigMode};
 use serde_json::{Value, json};
 
 use super::{Found, signals, tables};
@@ -67,7 +67,7 @@ fn mode(mode: &RigMode) -> Value {
 }
 
 fn filters(found: &Found) -> Vec<Value> {
-    let one = |(index, filter): (usize, &hammerbeam_study::comparison::Filter)| {
+    let one = |(index, filter): (usize, &hammerbeam_jobs::comparison::Filter)| {
         let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
         let branch = |branch: &&FilteredBranch| {
             json!({

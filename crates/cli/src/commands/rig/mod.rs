@@ -6,17 +6,18 @@ mod report;
 mod signals;
 mod tables;
 
-use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
-use hammerbeam_study::{
-    Model, OrbitSolver, Store, StoredBranches, StudyFile,
+use hammerbeam_jobs::{
+    OrbitSolver, StoredBranches,
     comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
-    file::Rig,
     rig::{
         Filtered, RigError, RigMode, RigPoint, SignalPair, acceleration_curves, changed_study,
         compare_signal, filtered_branches, rig_modes, sweep,
     },
     run::{Plan, RunOutcome},
 };
+use hammerbeam_results::Store;
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
+use hammerbeam_study::{Model, StudyFile, file::Rig};
 
 use super::{
     compare::{Compared, draw},
@@ -125,10 +126,11 @@ fn branches(
     let solver = OrbitSolver::new(model, &file.study);
     let mut terminal = Terminal::new(interrupt.clone(), 0);
     let plan = Plan::of(&file.study);
-    let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    let outcome = hammerbeam_jobs::run::run(&mut store, &solver, &plan, threads, &mut terminal);
     terminal.clear();
     let outcome = outcome?;
-    let solutions = hammerbeam_study::summary::summarise(&store)?.iter().map(|branch| branch.solutions).sum();
+    let solutions =
+        hammerbeam_results::summary::summarise(&store)?.iter().map(|branch| branch.solutions).sum();
     store.finish()?;
     match outcome {
         RunOutcome::Interrupted => {

@@ -2,11 +2,11 @@
 
 use std::{fmt::Write, path::Path};
 
-use hammerbeam_study::{
+use hammerbeam_jobs::{
     comparison::{Filter, PointOutcome},
     rig::{Filtered, FilteredBranch, FilteredRatio},
-    whole_file::replace,
 };
+use hammerbeam_results::whole_file::replace;
 use serde_json::Value;
 
 use super::{Found, signals, tables};

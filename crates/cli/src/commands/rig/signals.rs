@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use hammerbeam_jobs::{comparison::Overlay, rig::SignalPair};
 use hammerbeam_signal::classify::{Classification, MotionClass};
-use hammerbeam_study::{comparison::Overlay, rig::SignalPair};
 use serde_json::{Value, json};
 
 use super::tables;

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
+use hammerbeam_jobs::rig::{FilteredBranch, SignalPair};
+use hammerbeam_results::export::{Table, header, number};
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
-use hammerbeam_study::{
-    export::{Table, header, number},
-    file::HarmonicExcitation,
-    rig::{FilteredBranch, SignalPair},
-};
+use hammerbeam_study::file::HarmonicExcitation;
 
 use super::{Found, signals::laid};
 use crate::{commands::compare::write_points, failure::Failure};

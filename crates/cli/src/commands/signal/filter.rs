@@ -1,12 +1,12 @@
 //! `hammerbeam signal filter`: channels filtered and resampled.
 
 use hammerbeam_figure::plain_number;
+use hammerbeam_results::export::{Table, number};
 use hammerbeam_signal::{
     Channel, Record,
     filter::DigitalFilter,
     resample::{Ratio, resample},
 };
-use hammerbeam_study::export::{Table, number};
 use serde_json::json;
 
 use super::input::{self, Input, largest, named, title};

@@ -1,13 +1,13 @@
 //! The record that a command works on, and what is said about it.
 
 use hammerbeam_figure::plain_number;
+use hammerbeam_results::export::word;
 use hammerbeam_signal::{
     Channel, MeasuredQuantity, Record, RecordError, RecordFinding, RecordFormat, RecordOptions, Repairs,
     SignalError,
     filter::{Band, DigitalFilter, butterworth},
     read::read_raw,
 };
-use hammerbeam_study::export::word;
 use serde_json::{Value, json};
 
 use crate::{

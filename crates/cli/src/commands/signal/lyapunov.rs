@@ -1,5 +1,6 @@
 //! `hammerbeam signal lyapunov`: the largest exponent of a series.
 
+use hammerbeam_results::export::{Table, header, number};
 use hammerbeam_signal::{
     SignalError,
     exponent::{
@@ -7,7 +8,6 @@ use hammerbeam_signal::{
         WolfSettings, embedding, kantz, rosenstein, wolf,
     },
 };
-use hammerbeam_study::export::{Table, header, number};
 use serde_json::{Value, json};
 
 use super::input::{self, Input, named};

@@ -1,12 +1,12 @@
 //! `hammerbeam signal spectrum`: amplitudes, power or density over frequency, and lines.
 
+use hammerbeam_results::export::{Table, header, number};
 use hammerbeam_signal::{
     Channel, Record,
     spectrum::{
         Detrend, FrequencySpectrum, Scaling, SpectralLine, WelchSettings, Window, amplitude_spectrum, welch,
     },
 };
-use hammerbeam_study::export::{Table, header, number};
 use serde_json::json;
 
 use super::input::{self, Input, named, unit};

@@ -4,10 +4,8 @@ use std::time::{Duration, Instant};
 
 use hammerbeam_attractor::{AttractorError, ContactRecord, Sample, Simulation};
 use hammerbeam_motion::PointMotion;
-use hammerbeam_study::{
-    Model,
-    store::{SimulatedChunk, SimulatedContact, SimulatedTouch, SimulationLayout},
-};
+use hammerbeam_results::store::{SimulatedChunk, SimulatedContact, SimulatedTouch, SimulationLayout};
+use hammerbeam_study::Model;
 
 /// A chunk goes into the store after this time, which is what a kill loses at most, besides the period under
 /// way,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_study::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
+use hammerbeam_results::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
 use serde_json::{Value, json};
 
 use super::{folder, time::Pieces, told::Told};

@@ -9,7 +9,8 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_study::{Model, StudyFile, store::SimulationLayout};
+use hammerbeam_results::store::SimulationLayout;
+use hammerbeam_study::{Model, StudyFile};
 
 use crate::{failure::Failure, motion_args::SimulateOptions};
 

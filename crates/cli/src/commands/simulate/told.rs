@@ -1,7 +1,7 @@
 //! How far a motion has come, in words.
 
 use hammerbeam_attractor::AttractorError;
-use hammerbeam_study::store::SimulationLayout;
+use hammerbeam_results::store::SimulationLayout;
 
 use super::time::Pieces;
 use crate::{

@@ -76,7 +76,7 @@ impl Wanted {
 #[cfg(test)]
 mod tests {
     use hammerbeam_orbit::{Events, OrbitMaxima, Side, Stability};
-    use hammerbeam_study::store::Row;
+    use hammerbeam_results::store::Row;
 
     use super::*;
 

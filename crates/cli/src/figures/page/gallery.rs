@@ -1,7 +1,8 @@
 //! Printed figures for the page: of all results that it does not draw itself.
 
 use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, PageFigure, PageFigures};
-use hammerbeam_study::{Model, Store, StudyFile};
+use hammerbeam_results::Store;
+use hammerbeam_study::{Model, StudyFile};
 
 use super::super::{Album, Drawn, draw_curves, draw_linear, motions, unless_damaged, varied};
 use crate::{args::FigureScale, failure::Failure, interrupt::Interrupt};

@@ -2,7 +2,7 @@
 
 use hammerbeam_attractor::Class;
 use hammerbeam_figure::{MotionKind, PageMotion, PageSection, SectionPlane};
-use hammerbeam_study::{
+use hammerbeam_results::{
     Store, StoreError,
     store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
 };

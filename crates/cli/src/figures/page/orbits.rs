@@ -12,7 +12,8 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
 use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_study::{Model, Store, StoreError, store::BranchRecord};
+use hammerbeam_results::{Store, StoreError, store::BranchRecord};
+use hammerbeam_study::Model;
 
 use samples::{Course, Impulse, Instant};
 use spectrum::spectrum;

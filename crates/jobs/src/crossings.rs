@@ -1,0 +1,260 @@
+//! Where the stored branches cross a frequency, and which of them holds a given periodic motion.
+
+mod images;
+
+pub use images::MirrorImage;
+
+use std::path::Path;
+
+use hammerbeam_attractor::{distance, state_scales};
+use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
+use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, states_at_phase};
+use hammerbeam_results::{
+    Store, StoreError,
+    store::{BranchRecord, Row},
+};
+use hammerbeam_study::{Model, StudyFile, identity::differences};
+
+/// Distance of a motion from an orbit of a branch, relative to it, up to which they are the same.
+const SAME: f64 = 1e-4;
+
+/// The stored branches of a study.
+#[derive(Debug)]
+pub struct StoredBranches {
+    store: Store,
+    branches: Vec<StoredBranch>,
+}
+
+/// A branch with its rows end to end.
+#[derive(Debug)]
+pub struct StoredBranch {
+    /// As it is stored.
+    pub record: BranchRecord,
+    /// Its rows.
+    pub rows: Vec<PlacedRow>,
+}
+
+/// A row with its place in the store.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedRow {
+    /// Its side,
+    pub side: Side,
+    /// and its number there.
+    pub number: u32,
+    /// What its tables show.
+    pub row: Row,
+}
+
+impl StoredBranches {
+    /// Reads the branches of a results folder.
+    ///
+    /// # Errors
+    /// [`StoreError`]: there are no results, or they are those of another study.
+    pub fn open(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
+        let store = Store::open(folder)?;
+        if store.about("identity")? != file.study.identity() {
+            let differences = differences(&store.about("canonical")?, &file.study.canonical(), 12);
+            return Err(StoreError::OtherStudy { folder: folder.to_owned(), differences });
+        }
+        let branches = store.branches()?.into_iter().map(|record| {
+            let rows = rows_of(&store, &record)?;
+            Ok(StoredBranch { record, rows })
+        });
+        let branches = branches.collect::<Result<_, StoreError>>()?;
+        Ok(Self { store, branches })
+    }
+
+    /// All branches, in their order.
+    #[must_use]
+    pub fn branches(&self) -> &[StoredBranch] {
+        &self.branches
+    }
+
+    /// The range of the frequency [Hz] of each branch that is wanted, of those that have a solution.
+    pub fn ranges(&self, wanted: impl Fn(&BranchRecord) -> bool) -> Vec<(f64, f64)> {
+        let range = |branch: &StoredBranch| {
+            let frequencies = branch.rows.iter().map(|placed| placed.row.frequency_hz);
+            let (low, high) =
+                (frequencies.clone().fold(f64::INFINITY, f64::min), frequencies.fold(0.0, f64::max));
+            (low <= high).then_some((low, high))
+        };
+        self.branches.iter().filter(|branch| wanted(&branch.record)).filter_map(range).collect()
+    }
+
+    /// The stored solution of a row.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn solution(
+        &self,
+        branch: &StoredBranch,
+        placed: &PlacedRow,
+    ) -> Result<PeriodicSolution, StoreError> {
+        self.store.solution(branch.record.start, placed.side, placed.number)
+    }
+
+    /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the
+    /// state is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
+    /// an orbit is one, too, and counts to its branch unless a branch holds it.
+    ///
+    /// * `model`: that of the study.
+    /// * `wanted`: of a branch's record, whether it is looked at.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn crossings(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        wanted: impl Fn(&BranchRecord) -> bool,
+    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
+        let mut orbits = self.stored_crossings(model, frequency_hz, wanted)?;
+        if model.system.is_symmetric() {
+            images::add_to(&mut orbits, model);
+        }
+        Ok(orbits)
+    }
+
+    /// Those of them that branches hold.
+    fn stored_crossings(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        wanted: impl Fn(&BranchRecord) -> bool,
+    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
+        self.crossings_that(model, frequency_hz, wanted, |_, _| true)
+    }
+
+    /// The same, without orbits between two rows that are not wanted.
+    fn crossings_that(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        wanted: impl Fn(&BranchRecord) -> bool,
+        fits: impl Fn(&[PlacedRow], &PeriodicSolution) -> bool,
+    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
+        let mut orbits = Vec::new();
+        for StoredBranch { record, rows } in self.branches.iter().filter(|branch| wanted(&branch.record)) {
+            for pair in rows.windows(2) {
+                let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
+                if (a < frequency_hz) != (b < frequency_hz) {
+                    let share = (frequency_hz - a) / (b - a);
+                    let guess = self.between(record, pair, share, frequency_hz)?;
+                    let orbit = corrected(model, guess).filter(|orbit| fits(pair, orbit));
+                    orbits.extend(orbit.map(|orbit| (record.id, orbit)));
+                }
+            }
+            // Between rows the higher end counts; a branch that ends at the frequency and lies above it has
+            // no such pair there.
+            for (end, beside) in [(rows.first(), rows.get(1)), (rows.last(), rows.iter().rev().nth(1))] {
+                let Some((end, beside)) = end.zip(beside) else { continue };
+                if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
+                    let guess = self.store.solution(record.start, end.side, end.number)?;
+                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                }
+            }
+        }
+        Ok(orbits)
+    }
+
+    /// The branch that a periodic motion lies on.
+    ///
+    /// * `states`: at phase 0 of each of its excitation periods, or of some of them over and over: of an
+    ///   orbit that is in contact at phase 0 with a law that remembers its impact, not all may be known. One
+    ///   in common with an orbit of as many periods is enough.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn branch_of(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        states: &[Vec<f64>],
+    ) -> Result<Option<u32>, StoreError> {
+        let scales = state_scales(&model.system, frequency_hz);
+        let orbits =
+            self.crossings(model, frequency_hz, |record| record.period_multiple as usize == states.len())?;
+        let motion = ExactIntegrator::new(model.system.clone(), ExactSettings::default());
+        let Ok(mut integrator) = motion else { return Ok(None) };
+        let mut same = |orbit: &PeriodicSolution| {
+            let there = states_at_phase(&mut integrator, orbit, 0.0).unwrap_or_default();
+            there.iter().any(|there| states.iter().any(|state| distance(&scales, state, there) < SAME))
+        };
+        Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
+    }
+
+    /// Pairs of branches that hold the same orbit at a frequency, as it is or begun some excitation periods
+    /// later: there should be none.
+    ///
+    /// * `model`: that of the study.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn held_twice(&self, model: &Model, frequency_hz: f64) -> Result<Vec<[u32; 2]>, StoreError> {
+        let scales = state_scales(&model.system, frequency_hz);
+        let motion = ExactIntegrator::new(model.system.clone(), ExactSettings::default());
+        let Ok(mut integrator) = motion else { return Ok(Vec::new()) };
+        let orbits: Vec<(u32, Vec<Vec<f64>>)> = self
+            .crossings_that(model, frequency_hz, |_| true, has_contacts_of)?
+            .into_iter()
+            .filter_map(|(branch, orbit)| Some((branch, states_at_phase(&mut integrator, &orbit, 0.0).ok()?)))
+            .collect();
+        let mut twice = Vec::new();
+        for (place, (first, states)) in orbits.iter().enumerate() {
+            for (second, others) in orbits[place + 1..].iter().filter(|(second, _)| second != first) {
+                let same = |state: &Vec<f64>| distance(&scales, &states[0], state) < SAME;
+                if states.len() == others.len() && others.iter().any(same) {
+                    twice.push([*first, *second]);
+                }
+            }
+        }
+        Ok(twice)
+    }
+
+    /// The state between two rows, as a guess at a frequency.
+    fn between(
+        &self,
+        record: &BranchRecord,
+        pair: &[PlacedRow],
+        share: f64,
+        frequency_hz: f64,
+    ) -> Result<PeriodicSolution, StoreError> {
+        let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
+        let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
+        if first.phase != second.phase {
+            // The orbits were cut anew between the rows: the nearer one is the guess.
+            let nearer = if share < 0.5 { first } else { second };
+            return Ok(PeriodicSolution { frequency_hz, ..nearer });
+        }
+        let states = first.nodes[0].iter().zip(&second.nodes[0]);
+        let state = states.map(|(a, b)| a + share * (b - a)).collect();
+        Ok(PeriodicSolution { frequency_hz, nodes: vec![state], ..first })
+    }
+}
+
+/// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's
+/// method may go from between two rows of one to another.
+fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
+    pair.iter().any(|placed| placed.row.maxima.contacts == orbit.maxima.contacts)
+}
+
+/// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.
+#[must_use]
+pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolution> {
+    let range_hz = (0.5 * guess.frequency_hz, 2.0 * guess.frequency_hz);
+    let (system, response) = (&model.system, &model.response);
+    let settings = OrbitSettings::default();
+    let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
+    Some(walk.ok()?.start_row().ok()?.solution)
+}
+
+fn rows_of(store: &Store, record: &BranchRecord) -> Result<Vec<PlacedRow>, StoreError> {
+    let of = |side: Side| -> Result<Vec<PlacedRow>, StoreError> {
+        let rows = store.walked(record.start, side)?.into_iter().enumerate();
+        Ok(rows.map(|(number, row)| PlacedRow { side, number: number as u32, row }).collect())
+    };
+    let mut rows = of(Side::Down)?;
+    rows.reverse();
+    rows.extend(of(Side::Up)?);
+    Ok(rows)
+}

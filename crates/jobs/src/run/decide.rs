@@ -1,0 +1,177 @@
+//! Decisions, in the order of the agenda and as far as the work for them is done.
+
+use hammerbeam_orbit::Side;
+use hammerbeam_results::store::{Store, StoreError, StoredReason};
+
+use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
+
+/// What the decisions are taken on.
+pub(super) struct Decisions<'a> {
+    pub store: &'a mut Store,
+    pub solver: &'a dyn Solver,
+    pub plan: &'a Plan,
+    pub observer: &'a mut dyn Observer,
+}
+
+/// Whether a job is finished.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Finished,
+    /// Work is missing.
+    Waits,
+}
+
+/// What is known of a start.
+enum Finding {
+    New,
+    OnBranch(u32),
+}
+
+impl Decisions<'_> {
+    /// Takes all decisions that can be taken now.
+    pub fn take(&mut self, agenda: &mut Agenda) -> Result<(), StoreError> {
+        let mut index = 0;
+        while index < agenda.jobs.len() || self.looks_again(agenda)? {
+            let job = &agenda.jobs[index];
+            if job.record.outcome.is_some() {
+                index += 1;
+                continue;
+            }
+            match self.job(agenda, index)? {
+                Verdict::Finished => index += 1,
+                Verdict::Waits => return Ok(()),
+            }
+        }
+        Ok(())
+    }
+
+    /// Once all jobs are done, adds those at frequencies without a known stable solution; whether there are
+    /// any.
+    fn looks_again(&mut self, agenda: &mut Agenda) -> Result<bool, StoreError> {
+        let jobs = none_stable::jobs(agenda, self.plan);
+        self.store.add_jobs(&jobs)?;
+        agenda.add_new_jobs(self.store)?;
+        Ok(!jobs.is_empty())
+    }
+
+    fn job(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {
+        let record = agenda.jobs[index].record.clone();
+        let begun = agenda.jobs[index].starts.iter().any(|start| start.branch.is_some());
+        if Plan::only_if_not_covered(&record) && !begun && agenda.is_covered(record.frequency_hz) {
+            while let Some(start) = agenda.jobs[index].starts.first() {
+                let key = start.key;
+                self.drop_start(agenda, index, key)?;
+            }
+            return self.finish(agenda, index, "a harmonic branch passes there");
+        }
+        if !record.evaluated {
+            return Ok(Verdict::Waits);
+        }
+        let mut place = 0;
+        while let Some(start) = agenda.jobs[index].starts.get(place) {
+            if start.branch.is_none() {
+                let key = start.key;
+                match self.find(agenda, key)? {
+                    Finding::New => self.accept(agenda, key)?,
+                    Finding::OnBranch(branch) => {
+                        self.drop_start(agenda, index, key)?;
+                        let outcome = format!("on branch {branch}");
+                        agenda.jobs[index].record.message = Some(outcome);
+                        continue;
+                    }
+                }
+            }
+            if !self.follow(agenda, index, place)? {
+                return Ok(Verdict::Waits);
+            }
+            place += 1;
+        }
+        self.conclude(agenda, index)
+    }
+
+    /// Whether a start lies on a branch that was decided on.
+    fn find(&self, agenda: &Agenda, key: u32) -> Result<Finding, StoreError> {
+        let solution = self.store.solution(key, Side::Up, 0)?;
+        let start = agenda.starts().find(|start| start.key == key);
+        let root = start.is_some_and(|start| start.up.rows.first().is_some_and(|row| row.branch_point));
+        for other in agenda.accepted() {
+            let known = if root {
+                known::has_branch_point(self.store, self.solver, other, &solution)?
+            } else {
+                known::lies_on(self.store, self.solver, other, &solution)?
+            };
+            if let (true, Some(branch)) = (known, other.branch) {
+                return Ok(Finding::OnBranch(branch));
+            }
+        }
+        Ok(Finding::New)
+    }
+
+    fn accept(&mut self, agenda: &mut Agenda, key: u32) -> Result<(), StoreError> {
+        let branch = self.store.accept_start(key)?;
+        if let Some(start) = agenda.start_mut(key) {
+            start.branch = Some(branch);
+            self.observer.branch_begun(branch, start.period_multiple);
+        }
+        Ok(())
+    }
+
+    fn drop_start(&mut self, agenda: &mut Agenda, index: usize, key: u32) -> Result<(), StoreError> {
+        if let Some(start) = agenda.start_mut(key) {
+            start.up.cancel();
+            start.down.cancel();
+        }
+        agenda.jobs[index].starts.retain(|start| start.key != key);
+        self.store.drop_start(key)
+    }
+
+    /// Whether both sides of a new branch are followed; a closed one has but one side.
+    fn follow(&mut self, agenda: &mut Agenda, index: usize, place: usize) -> Result<bool, StoreError> {
+        for side in [Side::Up, Side::Down] {
+            let end = joins::cut(self.store, self.solver, agenda, (index, place, side))?;
+            let branch = agenda.jobs[index].starts[place].branch;
+            if let (Some(branch), Some(reason)) = (branch, end) {
+                self.observer.walk_ended(branch, side, &reason);
+            }
+        }
+        let start = &mut agenda.jobs[index].starts[place];
+        if let Some(reason) = start.up.reason.clone().filter(StoredReason::is_closed)
+            && !(start.down.is_closed() && start.down.rows.is_empty())
+        {
+            start.down.cancel();
+            start.down.rows.clear();
+            start.down.reason = Some(reason.clone());
+            self.store.cut_walk(start.key, Side::Down, 0, &reason)?;
+        }
+        Ok(start.is_finished(self.plan))
+    }
+
+    /// The events of the new branches become jobs.
+    fn conclude(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {
+        let job = &agenda.jobs[index];
+        let mut outcome: Vec<String> = job
+            .starts
+            .iter()
+            .filter_map(|start| start.branch)
+            .map(|branch| format!("branch {branch}"))
+            .collect();
+        outcome.extend(job.record.message.clone());
+        if outcome.is_empty() {
+            outcome.push("nothing".to_owned());
+        }
+        for start in &agenda.jobs[index].starts {
+            let jobs = follow_ups::of_branch(start, agenda.jobs[index].record.depth, self.plan);
+            self.store.add_jobs(&jobs)?;
+        }
+        agenda.add_new_jobs(self.store)?;
+        self.finish(agenda, index, &outcome.join(", "))
+    }
+
+    fn finish(&mut self, agenda: &mut Agenda, index: usize, outcome: &str) -> Result<Verdict, StoreError> {
+        let record = &mut agenda.jobs[index].record;
+        self.store.finish_job(record.id, outcome)?;
+        record.outcome = Some(outcome.to_owned());
+        self.observer.job_ended(record, outcome);
+        Ok(Verdict::Finished)
+    }
+}

@@ -1,0 +1,92 @@
+//! The jobs that a branch gives: where a flip or a branch point lets another branch leave, and beyond a
+//! frequency at which it goes to infinity.
+
+use hammerbeam_orbit::Side;
+use hammerbeam_results::store::{JobKind, solution_key};
+
+use super::{Plan, agenda::Start};
+
+/// Jobs at the flips and branch points of a branch, end to end along it.
+pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+    let down = (0..start.down.rows.len()).rev().map(|number| (Side::Down, number));
+    let up = (0..start.up.rows.len()).map(|number| (Side::Up, number));
+    let events = down.chain(up).filter_map(|(side, number)| at_row(start, (side, number), depth, plan));
+    let beyond = [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_infinity(start, side, plan));
+    events.chain(beyond.filter(|_| start.period_multiple == 1)).collect()
+}
+
+/// Distance from a frequency at which a branch goes to infinity to where the next harmonic one is looked for,
+/// in parts of the range.
+const BEYOND: f64 = 1e-3;
+
+/// A search for the harmonic branch on the other side of a frequency at which a side goes to infinity.
+fn beyond_infinity(start: &Start, side: Side, plan: &Plan) -> Option<(JobKind, f64, Option<i64>, u32)> {
+    let walk = start.walk(side);
+    let ends = walk.reason.as_ref().is_some_and(|reason| reason.is_unbounded());
+    let last = walk.rows.last().filter(|_| ends && plan.multiples.contains(&1))?.frequency_hz;
+    let [low, high] = plan.range_hz;
+    let step = BEYOND * (high - low);
+    let before = walk.rows.iter().rev().find(|row| (row.frequency_hz - last).abs() > step)?.frequency_hz;
+    let at_hz = last + step.copysign(last - before);
+    let key = solution_key(start.key, side, walk.rows.len() as u32 - 1);
+    (low..=high).contains(&at_hz).then_some((JobKind::Harmonic, at_hz, Some(key), 0))
+}
+
+fn at_row(
+    start: &Start,
+    (side, number): (Side, usize),
+    depth: u32,
+    plan: &Plan,
+) -> Option<(JobKind, f64, Option<i64>, u32)> {
+    let walk = start.walk(side);
+    let row = walk.rows.get(number)?;
+    let key = solution_key(start.key, side, number as u32);
+    let at_flip = row.flip && (plan.unstable || row.else_stable);
+    if at_flip && plan.wants_doubling(start.period_multiple, depth) {
+        return Some((JobKind::Doubling, row.frequency_hz, Some(key), depth + 1));
+    }
+    // The first row of a branch that leaves another one is where it does so; the last one where it comes to
+    // one of shorter period is there, too.
+    let is_root = side == Side::Up && number == 0;
+    let meets_shorter = number + 1 == walk.rows.len()
+        && walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
+    let crosses = row.branch_point && !is_root && !meets_shorter;
+    crosses.then_some((JobKind::Crossing, row.frequency_hz, Some(key), depth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::agenda::{Sketch, WalkState};
+
+    fn jobs(unstable: bool) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+        let text = include_str!("../../../../studies/duffing.toml");
+        let study = hammerbeam_study::StudyFile::parse("study.toml", text.to_owned()).expect("a study").study;
+        let plan = Plan { unstable, multiples: vec![1, 2], ..Plan::of(&study) };
+        let row = |frequency_hz, flip, else_stable| Sketch {
+            frequency_hz,
+            displacement: 1.0,
+            acceleration: 1.0,
+            flip,
+            else_stable,
+            branch_point: false,
+        };
+        let rows = vec![row(1.0, false, true), row(2.0, true, true), row(3.0, true, false)];
+        let start = Start {
+            key: 0,
+            period_multiple: 1,
+            branch: Some(1),
+            doubtful: false,
+            up: WalkState { rows, ..WalkState::default() },
+            down: WalkState::default(),
+        };
+        of_branch(&start, 0, &plan)
+    }
+
+    #[test]
+    fn without_unstable_starts_only_flips_of_stable_solutions_are_left() {
+        let places = |unstable| jobs(unstable).iter().map(|job| job.1).collect::<Vec<_>>();
+        assert_eq!(places(true), [2.0, 3.0]);
+        assert_eq!(places(false), [2.0]);
+    }
+}

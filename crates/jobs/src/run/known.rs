@@ -1,0 +1,179 @@
+//! Whether a solution lies on a branch that is already there.
+//!
+//! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the
+//! solution lie, within a margin, are candidates. Then the states decide: the state between the rows,
+//! interpolated to the frequency of the solution, is compared with the states of the solution at the
+//! beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the
+//! solution itself.
+//!
+//! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point
+//! there: the same frequency and the same state. A point that was bracketed and not located is taken to lie
+//! within [`DOUBTS`] times its uncertainty.
+
+use hammerbeam_orbit::{PeriodicSolution, Side};
+use hammerbeam_results::store::{Store, StoreError, solution_key};
+
+use super::{
+    Match, Solver,
+    agenda::{Sketch, Start},
+};
+
+/// Relative margin of the maxima of candidates.
+const MARGIN: f64 = 0.02;
+/// Relative difference of frequencies up to which two branch points can be the same, besides what their place
+/// is uncertain by.
+const SAME_FREQUENCY: f64 = 1e-7;
+/// Uncertainties within which a bracketed point lies: they are what the last steps of its search moved it by,
+/// and have been seen to be a third of its error.
+const DOUBTS: f64 = 10.0;
+/// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the
+/// same.
+const SAME_STATE: f64 = 5e-3;
+/// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
+const OVERHANG: f64 = 1e-3;
+
+/// A row of a branch: where it is stored, and its sketch.
+pub(super) type Placed<'a> = (i64, &'a Sketch);
+
+/// Whether the solution lies on the branch of a start, as far as that has been walked.
+pub(super) fn lies_on(
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+    solution: &PeriodicSolution,
+) -> Result<bool, StoreError> {
+    if start.period_multiple != solution.period_multiple {
+        return Ok(false);
+    }
+    let rows: Vec<Placed<'_>> = rows_of(start).collect();
+    let at = (solution.frequency_hz, [solution.maxima.displacement, solution.maxima.acceleration]);
+    Ok(first_before(store, solver, &rows, (at, || Ok(solution.clone())))?.is_some())
+}
+
+/// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them.
+pub(super) fn passes(
+    store: &Store,
+    solver: &dyn Solver,
+    rows: &[Placed<'_>],
+    (key, sketch): Placed<'_>,
+) -> Result<Option<usize>, StoreError> {
+    let at = (sketch.frequency_hz, [sketch.displacement, sketch.acceleration]);
+    first_before(store, solver, rows, (at, || store.solution_of_key(key)))
+}
+
+/// The same for a solution of which frequency and maxima are known, and which is fetched where they allow that
+/// it lies there.
+fn first_before(
+    store: &Store,
+    solver: &dyn Solver,
+    rows: &[Placed<'_>],
+    (at, solution): ((f64, [f64; 2]), impl FnOnce() -> Result<PeriodicSolution, StoreError>),
+) -> Result<Option<usize>, StoreError> {
+    let pairs = rows.windows(2).enumerate();
+    let mut near =
+        pairs.filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?))).peekable();
+    if near.peek().is_none() {
+        return Ok(None);
+    }
+    let solution = solution()?;
+    // A solution that cannot be compared is taken for a new one, and its walk will say why.
+    let Ok(matcher) = solver.matcher(&solution) else { return Ok(None) };
+    for (index, share) in near {
+        if is_between(store, matcher.as_ref(), (rows[index].0, rows[index + 1].0), share)? {
+            return Ok(Some(index));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether the branch of a start begins, ends or is crossed at this branch point.
+pub(super) fn has_branch_point(
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+    root: &PeriodicSolution,
+) -> Result<bool, StoreError> {
+    if start.period_multiple != root.period_multiple {
+        return Ok(false);
+    }
+    let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
+    let mut near = Vec::new();
+    for (key, row) in places {
+        let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty);
+        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + uncertain_hz;
+        if (row.frequency_hz - root.frequency_hz).abs() <= allowed_hz {
+            near.push(key);
+        }
+    }
+    if near.is_empty() {
+        return Ok(false);
+    }
+    let Ok(matcher) = solver.matcher(root) else { return Ok(false) };
+    for key in near {
+        let stored = store.solution_of_key(key)?;
+        if matcher.distance((stored.phase, &stored.nodes[0])) < SAME_STATE {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The last rows of the sides that end at a flip of shorter period, whether it could be located or not.
+fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
+    let of_side = |side| {
+        let walk = start.walk(side);
+        let ends = walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
+        let last = walk.rows.last().filter(|_| ends)?;
+        Some((solution_key(start.key, side, walk.rows.len() as u32 - 1), last))
+    };
+    [Side::Up, Side::Down].into_iter().filter_map(of_side)
+}
+
+/// Rows end to end along the branch.
+fn rows_of(start: &Start) -> impl Iterator<Item = Placed<'_>> {
+    let down: Vec<Placed<'_>> = rows_of_side(start, Side::Down).collect();
+    down.into_iter().rev().chain(rows_of_side(start, Side::Up))
+}
+
+/// Rows of a side, from the start on.
+pub(super) fn rows_of_side(start: &Start, side: Side) -> impl Iterator<Item = Placed<'_>> {
+    let key = solution_key(start.key, side, 0);
+    start.walk(side).rows.iter().enumerate().map(move |(number, row)| (key + number as i64, row))
+}
+
+/// Where between two rows a solution lies by its frequency, if its maxima of displacement and acceleration
+/// allow that.
+fn share(first: &Sketch, second: &Sketch, (frequency_hz, maxima): (f64, [f64; 2])) -> Option<f64> {
+    let width = second.frequency_hz - first.frequency_hz;
+    let share = if width == 0.0 { 0.5 } else { (frequency_hz - first.frequency_hz) / width };
+    let reached = width != 0.0 || frequency_hz == first.frequency_hz;
+    if !reached || !(-OVERHANG..=1.0 + OVERHANG).contains(&share) {
+        return None;
+    }
+    let within = |a: f64, b: f64, value: f64| {
+        let margin = MARGIN * a.abs().max(b.abs()) + (a - b).abs();
+        (a.min(b) - margin..=a.max(b) + margin).contains(&value)
+    };
+    let agrees = within(first.displacement, second.displacement, maxima[0])
+        && within(first.acceleration, second.acceleration, maxima[1]);
+    agrees.then_some(share)
+}
+
+/// Whether the solution is the one between two stored ones.
+fn is_between(
+    store: &Store,
+    matcher: &dyn Match,
+    (first, second): (i64, i64),
+    share: f64,
+) -> Result<bool, StoreError> {
+    let (first, second) = (store.solution_of_key(first)?, store.solution_of_key(second)?);
+    if first.phase != second.phase {
+        // The orbits were cut anew between them: their nodes are no neighbours, but each is near the
+        // solution.
+        let near = |stored: PeriodicSolution| matcher.is_near((stored.phase, &stored.nodes[0]));
+        return Ok(near(first) || near(second));
+    }
+    let pairs = first.nodes[0].iter().zip(&second.nodes[0]);
+    let guess: Vec<f64> = pairs.map(|(a, b)| a + share * (b - a)).collect();
+    Ok(matcher.is_near((first.phase, &guess)))
+}

@@ -1,0 +1,160 @@
+//! Where to look again: frequencies at which no stable solution is known.
+//!
+//! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic,
+//! quasi-periodic, of a period that is not looked for, or on a branch that is missed. Between two successive
+//! stable rows a stable solution is taken to be known; what that leaves of the range are *intervals*. Each of
+//! them is looked at in its middle, however narrow, the widest first; then the widest part between two
+//! frequencies that were looked at is halved. Where nothing new is found motion is chaotic as a rule, so that
+//! only each branch that is begun gives leave to halve further. That is done in rounds, since a branch that a
+//! round finds may cover much of what is left.
+
+use hammerbeam_orbit::Side;
+use hammerbeam_results::store::JobKind;
+
+use super::{Plan, agenda::Agenda};
+
+/// Most frequencies that are looked at so, in all rounds, and no more than the survey has.
+const MOST: usize = 48;
+/// Frequencies of a first round, and for each branch that was begun at one of them.
+const ROUND: usize = 6;
+/// Intervals narrower than this part of the distance of the frequencies of the survey are left out.
+const NARROWEST: f64 = 1e-4;
+
+/// The jobs of the next round; none when enough was looked at, or nothing is left to look at.
+pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+    let searches = agenda.jobs.iter().filter(|job| job.record.source.is_none());
+    let looked_at: Vec<f64> = searches.map(|job| job.record.frequency_hz).collect();
+    let done: Vec<_> = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::NoneStable).collect();
+    let found = done.iter().filter(|job| !job.starts.is_empty()).count();
+    let effort = Effort {
+        most: plan.survey_hz.len().min(MOST).saturating_sub(done.len()),
+        halvings: (ROUND * (1 + found)).saturating_sub(done.len()),
+    };
+    let narrowest = NARROWEST * plan.survey_width_hz();
+    let intervals = uncovered(&stable_stretches(agenda), plan.range_hz);
+    let frequencies = places(&intervals, looked_at, narrowest, effort);
+    frequencies.into_iter().map(|at| (JobKind::NoneStable, at, None, 0)).collect()
+}
+
+/// How much a round may look at.
+#[derive(Debug, Clone, Copy)]
+struct Effort {
+    most: usize,
+    /// Frequencies after which only intervals are looked at that never were.
+    halvings: usize,
+}
+
+/// Stretches of the frequency from one stable row of a branch to the next one.
+fn stable_stretches(agenda: &Agenda) -> Vec<[f64; 2]> {
+    let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
+    let pairs =
+        sides.flat_map(|walk| walk.rows.windows(2)).filter(|pair| pair[0].else_stable && pair[1].else_stable);
+    pairs.map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect()
+}
+
+/// What stretches leave of a range, ascending.
+fn uncovered(stretches: &[[f64; 2]], [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut ascending: Vec<[f64; 2]> = stretches.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
+    ascending.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut left = Vec::new();
+    let mut covered_to = low;
+    for [from, to] in ascending {
+        if from > covered_to {
+            left.push([covered_to, from]);
+        }
+        covered_to = covered_to.max(to);
+    }
+    if covered_to < high {
+        left.push([covered_to, high]);
+    }
+    left
+}
+
+/// Frequencies to look at: each interval once, then the middles of the widest parts.
+fn places(
+    intervals: &[[f64; 2]],
+    mut looked_at: Vec<f64>,
+    narrowest: f64,
+    Effort { most, halvings }: Effort,
+) -> Vec<f64> {
+    let intervals: Vec<[f64; 2]> = intervals.iter().filter(|[a, b]| b - a > narrowest).copied().collect();
+    let mut found = Vec::new();
+    while found.len() < most {
+        let widest =
+            intervals.iter().flat_map(|interval| parts(*interval, &looked_at)).reduce(|best, part| {
+                let order = (part.is_whole, part.width()).partial_cmp(&(best.is_whole, best.width()));
+                if order == Some(std::cmp::Ordering::Greater) { part } else { best }
+            });
+        let wanted = |part: &Part| part.width() > narrowest && (part.is_whole || found.len() < halvings);
+        let Some(part) = widest.filter(wanted) else { break };
+        found.push(part.middle());
+        looked_at.push(part.middle());
+    }
+    found
+}
+
+/// A part of an interval between two frequencies that were looked at, or its ends.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    ends: [f64; 2],
+    /// Whether nothing was looked at within the interval.
+    is_whole: bool,
+}
+
+impl Part {
+    fn width(&self) -> f64 {
+        self.ends[1] - self.ends[0]
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * (self.ends[0] + self.ends[1])
+    }
+}
+
+fn parts([low, high]: [f64; 2], looked_at: &[f64]) -> Vec<Part> {
+    let mut within: Vec<f64> = looked_at.iter().filter(|at| (low..=high).contains(*at)).copied().collect();
+    let is_whole = within.is_empty();
+    within.extend([low, high]);
+    within.sort_by(f64::total_cmp);
+    within.windows(2).map(|pair| Part { ends: [pair[0], pair[1]], is_whole }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_stretch_covers_is_left() {
+        let left = uncovered(&[[3.0, 2.0], [1.0, 2.5], [6.0, 8.0]], [0.0, 10.0]);
+        assert_eq!(left, [[0.0, 1.0], [3.0, 6.0], [8.0, 10.0]]);
+        assert!(uncovered(&[[-1.0, 5.0], [5.0, 11.0]], [0.0, 10.0]).is_empty());
+    }
+
+    #[test]
+    fn every_interval_is_looked_at_before_the_widest_is_halved_again() {
+        let intervals = [[0.0, 8.0], [9.0, 9.0625], [10.0, 11.0]];
+        let effort = Effort { most: 5, halvings: 9 };
+        assert_eq!(places(&intervals, vec![], 1e-6, effort), [4.0, 10.5, 9.03125, 2.0, 6.0]);
+        let effort = Effort { most: 2, halvings: 9 };
+        assert_eq!(
+            places(&intervals, vec![4.0], 1e-6, effort),
+            [10.5, 9.03125],
+            "the first one was looked at"
+        );
+    }
+
+    #[test]
+    fn what_was_looked_at_without_success_is_not_halved_for_ever() {
+        let intervals = [[0.0, 8.0], [9.0, 9.0625], [10.0, 11.0]];
+        assert_eq!(places(&intervals, vec![], 1e-6, Effort { most: 9, halvings: 1 }), [4.0, 10.5, 9.03125]);
+        assert!(
+            places(&intervals, vec![4.0, 10.5, 9.03125], 1e-6, Effort { most: 9, halvings: 0 }).is_empty()
+        );
+    }
+
+    #[test]
+    fn intervals_within_rounding_are_left_out() {
+        let effort = Effort { most: 5, halvings: 5 };
+        assert!(places(&[[1.0, 1.0 + 1e-9]], vec![], 1e-6, effort).is_empty());
+    }
+}

@@ -1,0 +1,261 @@
+//! The whole run: threads that compute, and the loop that decides, writes and hands out work.
+
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{self, Receiver, RecvTimeoutError, Sender},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use hammerbeam_results::store::{Continuation, MOST_STARTS, Memory, Store, StoreError};
+
+use super::{
+    Observer, Plan, Progress, Solver, Surveyed,
+    agenda::Agenda,
+    decide::Decisions,
+    schedule::next_task,
+    worker::{self, Report, Stretch, Task},
+};
+
+/// How a run came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RunOutcome {
+    /// Everything the study asks for was looked for; what stopped early is told by its reason.
+    Done,
+    /// The time budget is used up; the same run goes on when it is started again.
+    OutOfTime {
+        /// Jobs that are not finished.
+        jobs_left: usize,
+    },
+    /// The observer said stop; the same run goes on when it is started again.
+    Interrupted,
+}
+
+/// Why a run cannot go on.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum RunError {
+    /// The store refuses.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// A stored start or checkpoint is of no use.
+    #[error("the walk from start {start} cannot be followed: {message}")]
+    Walk { start: u32, message: String },
+    /// A thread ended that should not have.
+    #[error("a thread of the run ended unexpectedly")]
+    Thread,
+}
+
+/// Time between two looks at the observer.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Runs what is left of a plan on so many threads.
+///
+/// # Errors
+/// [`RunError`]; what was stored before stays.
+pub fn run(
+    store: &mut Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+    threads: usize,
+    observer: &mut dyn Observer,
+) -> Result<RunOutcome, RunError> {
+    let agenda = Agenda::load(store, solver, plan)?;
+    let threads = threads.max(1);
+    let stop = AtomicBool::new(false);
+    let (tasks, of_threads) = mpsc::channel();
+    let of_threads = Mutex::new(of_threads);
+    let (sender, reports) = mpsc::sync_channel(4 * threads);
+    thread::scope(|scope| {
+        let begin = |_| {
+            let sender = sender.clone();
+            let (of_threads, stop) = (&of_threads, &stop);
+            scope.spawn(move || worker::work(solver, of_threads, &sender, stop))
+        };
+        let begun: Vec<_> = (0..threads).map(begin).collect();
+        drop(sender);
+        let mut run = Run {
+            store,
+            solver,
+            plan,
+            agenda,
+            observer,
+            threads,
+            busy: 0,
+            new_solutions: 0,
+            fraction: 0.0,
+            begun: Instant::now(),
+        };
+        let outcome = run.work(&tasks, &reports, &stop);
+        // Threads that still walk, for nothing any more, hear that nobody listens.
+        stop.store(true, Ordering::Relaxed);
+        drop((tasks, reports));
+        // A panic has been told on standard error; here it is one error among others.
+        let ended = begun.into_iter().map(thread::ScopedJoinHandle::join).fold(Ok(()), Result::and);
+        ended.map_err(|_| RunError::Thread).and(outcome)
+    })
+}
+
+struct Run<'a> {
+    store: &'a mut Store,
+    solver: &'a dyn Solver,
+    plan: &'a Plan,
+    agenda: Agenda,
+    observer: &'a mut dyn Observer,
+    threads: usize,
+    /// Threads that have a task.
+    busy: usize,
+    new_solutions: u64,
+    fraction: f64,
+    begun: Instant,
+}
+
+impl Run<'_> {
+    fn work(
+        &mut self,
+        tasks: &Sender<Task>,
+        reports: &Receiver<Report>,
+        stop: &AtomicBool,
+    ) -> Result<RunOutcome, RunError> {
+        let mut interrupted = false;
+        loop {
+            self.decide()?;
+            let left = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_none()).count();
+            if left == 0 {
+                return Ok(RunOutcome::Done);
+            }
+            if !interrupted && self.observer.interrupted() {
+                interrupted = true;
+                stop.store(true, Ordering::Relaxed);
+            }
+            let out_of_time = self.plan.time.is_some_and(|time| self.begun.elapsed() >= time);
+            if !interrupted && !out_of_time {
+                self.hand_out(tasks)?;
+            }
+            if self.busy == 0 {
+                return match (interrupted, out_of_time) {
+                    (true, _) => Ok(RunOutcome::Interrupted),
+                    (false, true) => Ok(RunOutcome::OutOfTime { jobs_left: left }),
+                    (false, false) => Err(RunError::Thread),
+                };
+            }
+            match reports.recv_timeout(PATIENCE) {
+                Ok(report) => self.hear(report)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Err(RunError::Thread),
+            }
+        }
+    }
+
+    fn decide(&mut self) -> Result<(), RunError> {
+        let mut decisions =
+            Decisions { store: self.store, solver: self.solver, plan: self.plan, observer: self.observer };
+        Ok(decisions.take(&mut self.agenda)?)
+    }
+
+    fn hand_out(&mut self, tasks: &Sender<Task>) -> Result<(), RunError> {
+        while self.busy < self.threads {
+            let Some(task) = next_task(&mut self.agenda, self.store, self.solver, self.plan)? else { break };
+            if let Task::Evaluate(evaluation) = &task {
+                self.observer.working(&self.agenda.jobs[evaluation.job as usize].record);
+            }
+            tasks.send(task).map_err(|_| RunError::Thread)?;
+            self.busy += 1;
+        }
+        Ok(())
+    }
+
+    fn hear(&mut self, report: Report) -> Result<(), RunError> {
+        match report {
+            Report::Evaluated { job, starts } => {
+                self.busy -= 1;
+                let record = self.agenda.jobs[job as usize].record.clone();
+                let (starts, message) = match starts {
+                    Ok(Surveyed { solutions, incomplete }) => {
+                        let message = too_many(solutions.len()).or(incomplete);
+                        (solutions, message)
+                    }
+                    Err(message) => (Vec::new(), Some(message)),
+                };
+                self.store.note_starts(&record, &starts, message.as_deref())?;
+                self.agenda.jobs[job as usize].record.message = message;
+                self.agenda.add_starts(job, self.store)?;
+            }
+            Report::Walked(stretch) => self.keep(&stretch)?,
+            Report::Left => self.busy -= 1,
+            Report::Lost => return Err(RunError::Thread),
+            Report::Failed { key, message } => return Err(RunError::Walk { start: key, message }),
+        }
+        Ok(())
+    }
+
+    /// Commits a stretch of a walk, unless the walk is not wanted any more.
+    fn keep(&mut self, stretch: &Stretch) -> Result<(), RunError> {
+        self.busy -= usize::from(stretch.last);
+        let Some(start) = self.agenda.start_mut(stretch.key) else { return Ok(()) };
+        let running = &start.walk(stretch.side).running;
+        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, &stretch.cancelled)) {
+            return Ok(());
+        }
+        let (branch, period_multiple) = (start.branch, start.period_multiple);
+        let memory = Memory { checkpoint: &stretch.checkpoint, journal: &stretch.journal };
+        let continuation = match &stretch.reason {
+            None => Continuation::GoesOn(memory),
+            Some(reason) if reason.is_budget() => Continuation::Paused(reason, memory),
+            Some(reason) => Continuation::Ended(reason),
+        };
+        self.store.append(stretch.key, stretch.side, &stretch.rows, continuation)?;
+        self.agenda.add_rows(stretch.key, stretch.side, &stretch.rows, stretch.reason.as_ref());
+        if stretch.last {
+            self.agenda.rest(stretch.key, stretch.side);
+        }
+        self.new_solutions += stretch.rows.len() as u64;
+        if let (Some(branch), Some(reason)) = (branch, &stretch.reason) {
+            self.observer.walk_ended(branch, stretch.side, reason);
+        }
+        if let Some(newest) = stretch.rows.last() {
+            self.tell(newest.solution.frequency_hz, period_multiple);
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, frequency_hz: f64, period_multiple: u32) {
+        self.fraction = self.fraction.max(self.estimate());
+        let open = |start: &super::agenda::Start| {
+            usize::from(start.up.running.is_some()) + usize::from(start.down.running.is_some())
+        };
+        self.observer.progress(&Progress {
+            frequency_hz,
+            period_multiple,
+            branches_done: self.agenda.accepted().filter(|start| start.is_finished(self.plan)).count(),
+            walks_open: self.agenda.starts().map(open).sum(),
+            new_solutions: self.new_solutions,
+            solutions: self.agenda.solutions(),
+            fraction: self.fraction,
+        });
+    }
+
+    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range
+    /// the branches reach that are walked.
+    fn estimate(&self) -> f64 {
+        let jobs = self.agenda.jobs.len().max(1) as f64;
+        let finished = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_some()).count() as f64;
+        let [low, high] = self.plan.range_hz;
+        let reach = |start: &super::agenda::Start| {
+            let rows = || start.up.rows.iter().chain(&start.down.rows).map(|row| row.frequency_hz);
+            (rows().fold(low, f64::max) - rows().fold(high, f64::min)) / (high - low)
+        };
+        let unfinished = self.agenda.starts().filter(|start| !start.is_finished(self.plan));
+        let walked: f64 = unfinished.map(|start| reach(start).clamp(0.0, 1.0)).sum();
+        ((finished + walked) / (jobs + 1.0)).clamp(0.0, 1.0)
+    }
+}
+
+/// What is to be said when a job has more starts than can be taken.
+pub(super) fn too_many(starts: usize) -> Option<String> {
+    (starts > MOST_STARTS as usize).then(|| format!("{starts} starts, of which {MOST_STARTS} are followed"))
+}

@@ -1,0 +1,247 @@
+//! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts
+//! that are likely to be new.
+//!
+//! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was
+//! walked so far, and first for period multiples that nobody is walking, then far from the starts of the
+//! walks under way: the other end of a branch is often near. The second side of a branch waits for the first
+//! one, which may close the branch, as long as there is anything else to do.
+//!
+//! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So
+//! walks of branches that leave another one, awaited or not, go on in turns: always the one that has the
+//! fewest turns behind it. Walks from searches take no turns: many searches find the same branch, and the
+//! first walk of it, once at its end, spares the others.
+
+use std::sync::{Arc, atomic::AtomicBool};
+
+use hammerbeam_orbit::{Crossing, Side};
+use hammerbeam_results::store::{JobKind, JobRecord, Store, StoreError};
+
+use super::{
+    Origin, Plan, Solver,
+    agenda::{Agenda, Job, Start},
+    known,
+    worker::{Evaluation, From, Question, Task, WalkTask},
+};
+
+/// The next task, if there is one; it is noted as running.
+pub(super) fn next_task(
+    agenda: &mut Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+) -> Result<Option<Task>, StoreError> {
+    let Some(first) = agenda.jobs.iter().position(is_open) else { return Ok(None) };
+    if let Some(walk) = awaited_walk(&agenda.jobs[first], plan) {
+        return Ok(Some(begin_walk(agenda, store, plan, walk, None)?));
+    }
+    if let Some(job) = job_to_evaluate(agenda, first) {
+        return Ok(Some(begin_evaluation(agenda, store, plan, job)?));
+    }
+    for kind in [Ahead::NewMultiple, Ahead::Leaving, Ahead::Search] {
+        if let Some(walk) = walk_ahead(agenda, store, solver, plan, kind)? {
+            let share = (kind == Ahead::Leaving).then_some(plan.turn);
+            return Ok(Some(begin_walk(agenda, store, plan, walk, share)?));
+        }
+    }
+    let Some((walk, share)) = second_side(agenda, plan) else { return Ok(None) };
+    begin_walk(agenda, store, plan, walk, share).map(Some)
+}
+
+fn is_open(job: &Job) -> bool {
+    job.record.outcome.is_none()
+}
+
+/// A walk of a new branch for which the next decision waits, and which takes no turns.
+fn awaited_walk(job: &Job, plan: &Plan) -> Option<(u32, Side)> {
+    if takes_turns(job) {
+        return None;
+    }
+    job.starts.iter().filter(|start| start.branch.is_some()).find_map(|start| open_side(start, plan))
+}
+
+/// Whether a job's branch leaves another one.
+fn takes_turns(job: &Job) -> bool {
+    job.record.kind.leaves_source()
+}
+
+/// A side of a start that nobody walks and that need not wait for the other one.
+fn open_side(start: &Start, plan: &Plan) -> Option<(u32, Side)> {
+    let open = |side: Side| {
+        let walk = start.walk(side);
+        !walk.is_finished(plan) && walk.running.is_none()
+    };
+    if open(Side::Up) {
+        return Some((start.key, Side::Up));
+    }
+    let up_is_done = start.up.running.is_none() && !start.up.is_closed();
+    (up_is_done && open(Side::Down)).then_some((start.key, Side::Down))
+}
+
+/// The second side of a start whose first one is under way, and its share if it takes turns.
+fn second_side(agenda: &Agenda, plan: &Plan) -> Option<((u32, Side), Option<u64>)> {
+    let waits = |start: &&Start| {
+        start.up.running.is_some() && start.down.running.is_none() && !start.down.is_finished(plan)
+    };
+    agenda.jobs.iter().filter(|job| is_open(job)).find_map(|job| {
+        let start = job.starts.iter().filter(|start| !start.doubtful).find(waits)?;
+        Some(((start.key, Side::Down), takes_turns(job).then_some(plan.turn)))
+    })
+}
+
+/// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its
+/// turn comes.
+fn job_to_evaluate(agenda: &Agenda, first: usize) -> Option<usize> {
+    (first..agenda.jobs.len()).find(|&index| {
+        let job = &agenda.jobs[index];
+        let ready = is_open(job) && !job.record.evaluated && !job.running;
+        ready && (index == first || !Plan::only_if_not_covered(&job.record))
+    })
+}
+
+/// What is walked before it is known to be wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ahead {
+    /// From a search, where nobody walks a branch of that period multiple.
+    NewMultiple,
+    /// A branch that leaves another one, in turns; the one that the next decision waits for, too.
+    Leaving,
+    /// From a search.
+    Search,
+}
+
+/// A walk from a start that lies on nothing that was walked so far.
+fn walk_ahead(
+    agenda: &mut Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+    kind: Ahead,
+) -> Result<Option<(u32, Side)>, StoreError> {
+    while let Some((start, walk)) = candidate(agenda, plan, kind) {
+        if start.branch.is_some() || !seems_known(agenda, store, solver, start)? {
+            return Ok(Some(walk));
+        }
+        let key = walk.0;
+        if let Some(start) = agenda.start_mut(key) {
+            start.doubtful = true;
+        }
+    }
+    Ok(None)
+}
+
+/// The start to go on from next, and on which side.
+fn candidate<'a>(agenda: &'a Agenda, plan: &Plan, kind: Ahead) -> Option<(&'a Start, (u32, Side))> {
+    let walked: Vec<(u32, f64)> = agenda
+        .starts()
+        .filter(|start| start.up.running.is_some() || start.down.running.is_some())
+        .map(|start| (start.period_multiple, begins_at(start)))
+        .collect();
+    let leaving = kind == Ahead::Leaving;
+    let jobs = agenda.jobs.iter().filter(|job| is_open(job) && takes_turns(job) == leaving);
+    let mut open = jobs
+        .flat_map(|job| &job.starts)
+        .filter(|start| if start.branch.is_some() { leaving } else { !start.doubtful })
+        .filter_map(|start| Some((start, open_side(start, plan)?)));
+    let apart = |start: &Start| {
+        walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
+    };
+    let farther = |a: &Start, b: &Start| apart(a).total_cmp(&apart(b));
+    let turns = |start: &Start| (start.up.rows.len() + start.down.rows.len()) as u64 / plan.turn.max(1);
+    match kind {
+        Ahead::NewMultiple => {
+            let is_new = |start: &Start| walked.iter().all(|(n, _)| *n != start.period_multiple);
+            open.find(|(start, _)| is_new(start))
+        }
+        Ahead::Leaving => open.min_by(|(a, _), (b, _)| turns(a).cmp(&turns(b)).then(farther(b, a))),
+        Ahead::Search => open.max_by(|(a, _), (b, _)| farther(a, b)),
+    }
+}
+
+/// Frequency of a start [Hz].
+fn begins_at(start: &Start) -> f64 {
+    start.up.rows.first().map_or(0.0, |row| row.frequency_hz)
+}
+
+/// Whether a start lies on anything that was walked so far.
+fn seems_known(
+    agenda: &Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+) -> Result<bool, StoreError> {
+    let solution = store.solution(start.key, Side::Up, 0)?;
+    let root = start.up.rows.first().is_some_and(|row| row.branch_point);
+    for other in agenda.starts().filter(|other| other.key != start.key) {
+        let known = if root {
+            known::has_branch_point(store, solver, other, &solution)?
+        } else {
+            known::lies_on(store, solver, other, &solution)?
+        };
+        if known {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn begin_evaluation(
+    agenda: &mut Agenda,
+    store: &Store,
+    plan: &Plan,
+    index: usize,
+) -> Result<Task, StoreError> {
+    let job = &mut agenda.jobs[index];
+    job.running = true;
+    let record = &job.record;
+    let what = match record.kind {
+        JobKind::Harmonic => Question::Harmonic(record.frequency_hz),
+        JobKind::Survey => Question::Survey {
+            frequency_hz: record.frequency_hz,
+            width_hz: plan.survey_width_hz(),
+            multiples: plan.multiples.clone(),
+        },
+        // What was met is known; a run that ended before it was noted looks there.
+        JobKind::Resonance | JobKind::NoneStable | JobKind::Met => {
+            Question::Probe { frequency_hz: record.frequency_hz, multiples: plan.multiples.clone() }
+        }
+        JobKind::Doubling | JobKind::Crossing => Question::Leave(crossing(store, record)?),
+    };
+    Ok(Task::Evaluate(Evaluation { job: record.id, what }))
+}
+
+/// The crossing at which a job's branch leaves another one.
+fn crossing(store: &Store, job: &JobRecord) -> Result<Crossing, StoreError> {
+    let source = job.source.unwrap_or_default();
+    let direction = store.event(source)?.map(|event| event.direction).unwrap_or_default();
+    let factor = if job.kind == JobKind::Doubling { 2 } else { 1 };
+    Ok(Crossing { orbit: store.solution_of_key(source)?, direction, factor })
+}
+
+fn begin_walk(
+    agenda: &mut Agenda,
+    store: &Store,
+    plan: &Plan,
+    (key, side): (u32, Side),
+    share: Option<u64>,
+) -> Result<Task, StoreError> {
+    let from = match store.checkpoint(key, side)? {
+        Some(memory) => From::Memory(memory),
+        None => From::Origin(origin(agenda, store, key)?),
+    };
+    let cancelled = Arc::new(AtomicBool::new(false));
+    let mut stored = 0;
+    if let Some(start) = agenda.start_mut(key) {
+        let walk = start.walk_mut(side);
+        walk.running = Some(Arc::clone(&cancelled));
+        stored = walk.rows.len() as u64;
+    }
+    Ok(Task::Walk(WalkTask { key, side, from, stored, budget: plan.budget, share, cancelled }))
+}
+
+fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<Origin, StoreError> {
+    let job = agenda.jobs.iter().find(|job| job.starts.iter().any(|start| start.key == key));
+    match job {
+        Some(job) if job.record.kind.leaves_source() => Ok(Origin::Crossing(crossing(store, &job.record)?)),
+        _ => Ok(Origin::Found(store.solution(key, Side::Up, 0)?)),
+    }
+}
