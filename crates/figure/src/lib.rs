@@ -5,7 +5,7 @@
 //! on the results store nor on solvers.
 //!
 //! ```
-//! use hammerbeam_figure::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint};
+//! use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity};
 //!
 //! let points = (20..110).map(f64::from).map(|frequency_hz| ResponsePoint {
 //!     frequency_hz,
@@ -16,7 +16,7 @@
 //! });
 //! let curve = ResponseCurve { period_multiple: 1, points: points.collect() };
 //! let diagram = ResponseDiagram { curves: vec![curve], ..ResponseDiagram::default() };
-//! let figure = diagram.draw(Quantity::Displacement)?;
+//! let figure = diagram.draw(ResponseQuantity::Displacement)?;
 //! assert!(figure.svg().starts_with("<svg"));
 //! assert!(figure.png(300.0)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), hammerbeam_figure::FigureError>(())

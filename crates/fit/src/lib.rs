@@ -46,7 +46,7 @@
 //! ```
 //! use std::convert::Infallible;
 //! use faer::Mat;
-//! use hammerbeam_fit::{Bounds, Deviations, FitProblem, LeastSquaresSettings, Inference, fit};
+//! use hammerbeam_fit::{Bounds, Deviations, FitProblem, Inference, LeastSquaresSettings, fit};
 //!
 //! struct Line;
 //! impl FitProblem for Line {
