@@ -1,6 +1,9 @@
 """How Sphinx makes the book from the pages in this folder; docs/build.sh runs it."""
 
+import logging as std_logging
 import re
+import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 from docutils.nodes import SkipNode
@@ -15,14 +18,18 @@ copyright = "the Hammerbeam authors"
 html_title = "Hammerbeam"
 
 extensions = ["myst_parser"]
+# Equations have their labels for numbers, so that code can cite them.
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+if find_spec("equation_labels"):
+    extensions.append("equation_labels")
 myst_enable_extensions = ["dollarmath", "deflist", "attrs_block"]
 myst_dmath_double_inline = True
 # Headings down to this level can be linked to, as page.md#heading; a link to a missing one is an error.
 myst_heading_anchors = 4
 
 source_suffix = {".md": "markdown"}
-# The places of pages that other chapters bring are reserved by patterns; one without pages is no fault.
-suppress_warnings = ["toc.empty_glob"]
+# A part of the book may still be without pages.
+std_logging.getLogger("sphinx").addFilter(lambda record: "toctree glob pattern" not in str(record.msg))
 
 # Nothing is fetched from a network, neither while building nor while reading.
 html_theme = "furo"
@@ -32,9 +39,25 @@ html_show_sphinx = False
 html_math_renderer = "mathml"
 
 
+# What the converter to MathML has under another name.
+SAME_ENVIRONMENTS = {
+    r"\begin{aligned}": r"\begin{split}",
+    r"\end{aligned}": r"\end{split}",
+    r"\begin{bmatrix}": r"\left[\begin{matrix}",
+    r"\end{bmatrix}": r"\end{matrix}\right]",
+}
+
+
+def mathml(formula, display):
+    """A formula as MathML, which the reader's browser draws without a script."""
+    for theirs, ours in SAME_ENVIRONMENTS.items():
+        formula = formula.replace(theirs, ours)
+    return convert(formula, display=display)
+
+
 def inline_formula(writer, node):
-    """A formula within a line, as MathML: the reader's browser draws it without a script."""
-    writer.body.append(convert(node.astext()))
+    """A formula within a line."""
+    writer.body.append(mathml(node.astext(), "inline"))
     raise SkipNode
 
 
@@ -42,7 +65,7 @@ def displayed_formula(writer, node):
     """A formula on a line of its own, with its number on the right."""
     number = f"({get_node_equation_number(writer, node)})" if node["number"] else ""
     writer.body.append(f'<div class="math" id="{node["ids"][0] if node["ids"] else ""}">')
-    writer.body.append(f'<span class="eqno">{number}</span>{convert(node.astext(), display="block")}</div>')
+    writer.body.append(f'<span class="eqno">{number}</span>{mathml(node.astext(), "block")}</div>')
     raise SkipNode
 
 
