@@ -11,7 +11,10 @@ from pathlib import Path
 
 DOCS = Path(__file__).resolve().parents[1]
 ROOT = DOCS.parent
-PAGES = ["validation.md", "conclusions.md", "performance.md", "completeness.md", "impact-oscillator.md", "reference/contact-laws.md"]
+PAGES = [
+    "validation.md", "performance.md", "reference/contact-laws.md", "validation/completeness.md", "validation/conclusions.md",
+    "validation/impact-oscillator.md",
+]
 
 
 def main(pages):

@@ -3,7 +3,7 @@
 //!
 //! What simulation makes of the beam there, against shooting, which knows nothing of it: chaos where no orbit
 //! is stable, quasi-periodic motion beyond the Neimark-Sacker points of the branches, and the periodic
-//! windows in between. docs/attractors.md has the table.
+//! windows in between. docs/validation/chaos.md has the table.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use crate::common::{Rig, extensive, paper_beam, walk};

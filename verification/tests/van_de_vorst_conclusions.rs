@@ -1,4 +1,4 @@
-//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers. docs/conclusions.md has the
+//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers. docs/validation/conclusions.md has the
 //! tables.
 //!
 //! The peaks are those of an independent adaptive Runge-Kutta integration of the full equations, read off to

@@ -152,7 +152,7 @@ pub struct UpdateOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Data file: the parameters to fit, and what was measured; docs/updating.md has its keys
+    /// Data file: the parameters to fit, and what was measured; docs/how-to/fit-to-measurements.md has its keys
     pub data: PathBuf,
 
     /// Folder, made if it is not there, for the updated study (updated.toml) and the result (update.json)
@@ -327,7 +327,7 @@ pub struct VerifyOptions {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
 
-    /// Largest relative difference; docs/verify.md has the formulae
+    /// Largest relative difference; docs/reference/verify.md has the formulae
     #[arg(long, value_name = "T", default_value_t = TOLERANCE, value_parser = tolerance)]
     pub tolerance: f64,
 

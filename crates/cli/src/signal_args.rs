@@ -182,7 +182,7 @@ pub struct ClassifyOptions {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub multiples: u32,
 
-    /// Deviation up to which a motion is periodic; docs/signals.md has the formula
+    /// Deviation up to which a motion is periodic; docs/how-to/process-signals.md has the formula
     #[arg(long, value_name = "D", default_value_t = 0.05, value_parser = part, allow_negative_numbers = true)]
     pub periodic_below: f64,
 

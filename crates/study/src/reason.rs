@@ -2,7 +2,7 @@
 //! can be done where the branch ends early.
 //!
 //! The words for programs (`range-end`, `crawls`) are those of [`StoredReason`](crate::store::StoredReason);
-//! `docs/ends.md` has both beside each other.
+//! `docs/reference/ends.md` has both beside each other.
 
 use hammerbeam_orbit::{ResonantMode, StopReason};
 

@@ -68,7 +68,7 @@ fn everything_that_the_file_says_is_understood() {
     assert_eq!((force.of, data.data[4].deviation), (Maximum::ContactForce, 10.0));
 }
 
-const PAGE: &str = include_str!("../../../docs/updating.md");
+const PAGE: &str = include_str!("../../../docs/how-to/fit-to-measurements.md");
 
 #[test]
 fn every_key_is_documented_and_the_example_is_understood() {

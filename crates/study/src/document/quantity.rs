@@ -1,7 +1,7 @@
 //! What numbers may be: unit and plausible range of every quantity in a study.
 //!
 //! The limits are wide: they are there to catch a wrong unit (a Young's modulus of 210, a length in
-//! millimetres) and a wrong sign, not to judge designs. They are listed in `docs/study-file.md`.
+//! millimetres) and a wrong sign, not to judge designs. They are listed in `docs/reference/study-file.md`.
 
 /// An end of a range.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 use super::{StudyError, StudyFile};
 use crate::Model;
 
-const PAGE: &str = include_str!("../../../../docs/study-file.md");
+const PAGE: &str = include_str!("../../../../docs/reference/study-file.md");
 const BEAM: &str = include_str!("../../../../studies/beam-between-stops.toml");
 const LUMPED: &str = include_str!("../../../../studies/two-masses.toml");
 

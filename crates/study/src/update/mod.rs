@@ -4,7 +4,7 @@
 //! standard deviation. The parameters are numbers of the study file, named by their key paths. [`UpdateData`]
 //! is read from a file of its own, [`UpdateProblem`] evaluates the model, `hammerbeam-fit` fits it, and
 //! [`Update`] is what comes out: values, intervals, and what the data leave open ([`Finding`]).
-//! `docs/updating.md` has the whole of it.
+//! `docs/how-to/fit-to-measurements.md` has the whole of it.
 //!
 //! **A candidate is a study.** A number is replaced in the text of the study file, and the text is read and
 //! built like any other: whatever the file may say can be fitted, every range is kept, and the updated study
