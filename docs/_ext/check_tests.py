@@ -1,4 +1,5 @@
-"""Checks that every test, test file and source file that the pages of the book name in backticks exists.
+"""Checks that every test, test file and source file that the pages of the book name in backticks exists, and every equation that
+a comment in the code cites.
 
     python docs/_ext/check_tests.py [PAGE ...]
 
@@ -38,6 +39,10 @@ def main(pages):
                     faults.append(f"{page.name}: no file {name}")
             if re.fullmatch(r"(?:studies|verification)/[\w./-]+\.toml", name) and not (ROOT / name).exists():
                 faults.append(f"{page.name}: no study {name}")
+    labels = {label for page in DOCS.rglob("*.md") for label in re.findall(r"^:label: (\w+)$", page.read_text(encoding="utf-8"), re.MULTILINE)}
+    for path in sources:
+        for cited in re.findall(r"Equations? (.*?) of the book", path.read_text(encoding="utf-8")):
+            faults += [f"{path}: no equation ({label})" for label in re.findall(r"\(([A-Z]\d+)\)", cited) if label not in labels]
     print("\n".join(faults) or f"{len(pages)} pages name what exists")
     return 1 if faults else 0
 
