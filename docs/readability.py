@@ -14,15 +14,20 @@ HERE = Path(__file__).parent
 LONG = 30
 
 
-def prose(text):
-    """The paragraphs of a page without code, tables, headings and markup."""
+def plain(text):
+    """A page without code, formulas, pictures, links and markup."""
     text = re.sub(r"^(`{3,}|:{3,}).*?^\1\s*$", "", text, flags=re.M | re.S)
     text = re.sub(r"^\$\$.*?\$\$.*?$", "", text, flags=re.M | re.S)
     text = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
     text = re.sub(r"`[^`]*`", "x", text)
     text = re.sub(r"\$[^$]*\$", "x", text)
-    text = re.sub(r"<[^>]*>", "", text)
+    return re.sub(r"<[^>]*>", "", text)
+
+
+def prose(text):
+    """The paragraphs of a page, without headings and tables."""
+    text = plain(text)
     lines = [line for line in text.splitlines() if not re.match(r"\s*(\||#|\([\w-]+\)=)", line)]
     paragraphs, current = [], []
     for line in [*lines, ""]:
@@ -43,15 +48,20 @@ def words(sentence):
     return [word for word in sentence.split() if re.search(r"\w", word)]
 
 
+# Names of libraries, written by a test.
+GENERATED = {"third-party.md"}
+
+
 def pages(arguments):
     for argument in map(Path, arguments):
-        yield from sorted(argument.rglob("*.md")) if argument.is_dir() else [argument]
+        found = sorted(argument.rglob("*.md")) if argument.is_dir() else [argument]
+        yield from (page for page in found if page.name not in GENERATED)
 
 
 def misspelt(text, dictionary, own):
     """Words that nobody knows; names (upper case), numbers and anything in code are not looked at."""
-    plain = " ".join(prose(text)).replace("-", " ").replace("'s", "").replace("’s", "")
-    candidates = {word for word in re.findall(r"(?<![\w.\\])[a-z]{3,}(?![\w])", plain)}
+    text = plain(text).replace("-", " ").replace("'s", "")
+    candidates = set(re.findall(r"(?<![\w./\\])[a-z]{3,}(?![\w/])", text))
     return sorted(dictionary.unknown(candidates - own))
 
 
