@@ -1,8 +1,8 @@
-"""Formulas without a network: MathJax draws them in the reader's browser, from one file that lies beside the pages.
+"""Formulas without a network: MathJax draws them in the reader's browser, from one file beside the pages.
 
-The file comes with the package `sphinx-mathjax-offline`. It draws outlines, so it needs no fonts, and pages opened from a folder
-show formulas in every browser. (MathML was tried: without a mathematical font browsers drop the dots of time derivatives and do not
-stretch brackets.)
+The file comes with the package `sphinx-mathjax-offline`. It draws outlines, so it needs no fonts, and pages
+opened from a folder show formulas in every browser. (MathML was tried: without a mathematical font browsers
+drop the dots of time derivatives and do not stretch brackets.)
 """
 
 import shutil

@@ -14,13 +14,34 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-BLUE, RED, GREEN, GREY, BROWN, PURPLE, BLACK = "#0b5394", "#c0392b", "#2e7d32", "#777777", "#8a5a00", "#6a3d9a", "#222222"
+BLUE, RED, GREEN, GREY, BROWN, PURPLE, BLACK = (
+    "#0b5394",
+    "#c0392b",
+    "#2e7d32",
+    "#777777",
+    "#8a5a00",
+    "#6a3d9a",
+    "#222222",
+)
 
-plt.rcParams.update({
-    "font.family": "sans-serif", "font.size": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "legend.frameon": False,
-    "legend.fontsize": 7, "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.direction": "in", "ytick.direction": "in",
-    "svg.hashsalt": "hammerbeam", "figure.facecolor": "white", "savefig.facecolor": "white", "svg.fonttype": "path",
-})
+plt.rcParams.update(
+    {
+        "font.family": "sans-serif",
+        "font.size": 8,
+        "axes.linewidth": 0.6,
+        "lines.linewidth": 1.2,
+        "legend.frameon": False,
+        "legend.fontsize": 7,
+        "xtick.major.width": 0.6,
+        "ytick.major.width": 0.6,
+        "xtick.direction": "in",
+        "ytick.direction": "in",
+        "svg.hashsalt": "hammerbeam",
+        "figure.facecolor": "white",
+        "savefig.facecolor": "white",
+        "svg.fonttype": "path",
+    }
+)
 
 # (L9) of the page.
 FACTORS = {
@@ -38,7 +59,9 @@ STYLES = dict(zip(FACTORS, ("-", "--", "-.", "-", "--", "-.", ":")))
 
 def save(figure, name):
     figure.tight_layout()
-    figure.savefig(HERE / f"{name}.svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight", pad_inches=0.04)
+    figure.savefig(
+        HERE / f"{name}.svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight", pad_inches=0.04
+    )
     plt.close(figure)
 
 
@@ -55,9 +78,9 @@ def ratio_of_speeds(y):
 
 
 def loop(y):
-    """Penetration and force of a bounce on a Hertz contact with the loss y, in units of the bounce without loss.
+    """Penetration and force of a bounce on a Hertz contact with the loss y; units: the bounce without loss.
 
-    With u = p'/v: `p^2.5 = F(1) - F(u)`, `F(u) = 2 (u/y - ln(1 + y u)/y^2)`, so that y = 0 has its largest p at one.
+    With u = p'/v: `p^2.5 = F(1) - F(u)`, `F(u) = 2 (u/y - ln(1 + y u)/y^2)`, so y = 0 has its largest p at 1.
     """
     u = np.linspace(1, -ratio_of_speeds(y), 600)
     integral = (lambda u: 2 * (u / y - np.log1p(y * u) / y**2)) if y > 1e-6 else (lambda u: u * u)
@@ -66,7 +89,7 @@ def loop(y):
 
 
 def damped_loop(ratio):
-    """Penetration and force of a bounce on a spring with a damper, in units of the bounce without damper, (L3)."""
+    """Penetration and force of a bounce on a spring with a damper, (L3); units: without the damper."""
     slowed = np.sqrt(1 - ratio**2)
     t = np.linspace(0, (np.pi - 2 * np.arcsin(ratio)) / slowed, 600)
     p = np.exp(-ratio * t) * np.sin(slowed * t) / slowed
@@ -100,10 +123,20 @@ def draw_elastic():
     beyond = np.maximum(r - gap, 0)
     left.plot(r, beyond, color=BLUE, label="linear (L2)")
     left.plot(r, beyond**1.5, color=RED, ls="--", label="Hertz (L5)")
-    left.plot(r, np.where(r > gap, r - gap, np.where(r < -0.9, r + 0.9, 0)), color=GREEN, ls="-.", lw=1.8, alpha=0.7, label="two-sided (L11)")
+    left.plot(
+        r,
+        np.where(r > gap, r - gap, np.where(r < -0.9, r + 0.9, 0)),
+        color=GREEN,
+        ls="-.",
+        lw=1.8,
+        alpha=0.7,
+        label="two-sided (L11)",
+    )
     left.axvline(gap, color=GREY, lw=0.5, ls=":")
     left.text(gap + 0.04, -1.05, "gap", color=GREY, fontsize=7)
-    left.set(xlabel="Relative displacement r", ylabel="Force on the stop, −f", xlim=(-2, 2.2), ylim=(-1.2, 2.3))
+    left.set(
+        xlabel="Relative displacement r", ylabel="Force on the stop, −f", xlim=(-2, 2.2), ylim=(-1.2, 2.3)
+    )
     left.legend(loc="upper left")
     right.plot(r, r, color=BLUE, label="power, n = 1")
     right.plot(r, r**2, color=RED, ls="--", label="n = 2")
@@ -129,7 +162,13 @@ def draw_loops():
     for axis in axes:
         axis.set(xlabel="Penetration", xlim=(0, 1.08), ylim=(0, None))
         axis.set_ylim(0, axis.get_ylim()[1] * 1.28)
-        axis.legend(loc="upper left", ncols=1 if axis is axes[2] else 2, fontsize=6.2, handlelength=1.4, columnspacing=0.8)
+        axis.legend(
+            loc="upper left",
+            ncols=1 if axis is axes[2] else 2,
+            fontsize=6.2,
+            handlelength=1.4,
+            columnspacing=0.8,
+        )
     axes[0].set(ylabel="Force")
     save(figure, "contact-laws-loops")
 
@@ -139,8 +178,15 @@ def draw_restitution():
     e = np.linspace(0.005, 1, 200)
     axis.plot(e, e, color=GREY, lw=0.6)
     for name, factor in FACTORS.items():
-        axis.plot(e, [ratio_of_speeds(factor(x)) for x in e], color=COLOURS[name], ls=STYLES[name], label=name)
-    axis.set(xlabel="Coefficient of restitution e that goes in", ylabel="Ratio of speeds that comes out", xlim=(0, 1), ylim=(0, 1))
+        axis.plot(
+            e, [ratio_of_speeds(factor(x)) for x in e], color=COLOURS[name], ls=STYLES[name], label=name
+        )
+    axis.set(
+        xlabel="Coefficient of restitution e that goes in",
+        ylabel="Ratio of speeds that comes out",
+        xlim=(0, 1),
+        ylim=(0, 1),
+    )
     axis.legend(loc="lower right", fontsize=6.5)
     save(figure, "contact-laws-restitution")
 

@@ -1,9 +1,9 @@
-"""Draws the figures of docs/theory from what Hammerbeam exports, and checks the formulas of the pages on the way.
+"""Draws the figures of docs/theory from what Hammerbeam exports, and checks the formulas on the way.
 
     HAMMERBEAM=hammerbeam python docs/theory/images/draw.py
 
-Needs Python 3.10, NumPy and Matplotlib. The studies are those of the folder `studies`; results go to a temporary folder. About a minute
-on one core.
+Needs Python 3.10, NumPy and Matplotlib. The studies are those of the folder `studies`; results go to a
+temporary folder. About a minute on one core.
 """
 
 import csv
@@ -25,11 +25,23 @@ STUDIES = HERE.parents[2] / "studies"
 HAMMERBEAM = os.environ.get("HAMMERBEAM", "hammerbeam")
 BLUE, RED, GREEN, GREY = "#0b5394", "#c0392b", "#2e7d32", "#777777"
 
-plt.rcParams.update({
-    "font.family": "sans-serif", "font.size": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "legend.frameon": False,
-    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.direction": "in", "ytick.direction": "in", "svg.hashsalt": "hammerbeam",
-    "figure.facecolor": "white", "savefig.facecolor": "white", "svg.fonttype": "path",
-})
+plt.rcParams.update(
+    {
+        "font.family": "sans-serif",
+        "font.size": 8,
+        "axes.linewidth": 0.6,
+        "lines.linewidth": 1.2,
+        "legend.frameon": False,
+        "xtick.major.width": 0.6,
+        "ytick.major.width": 0.6,
+        "xtick.direction": "in",
+        "ytick.direction": "in",
+        "svg.hashsalt": "hammerbeam",
+        "figure.facecolor": "white",
+        "savefig.facecolor": "white",
+        "svg.fonttype": "path",
+    }
+)
 
 
 def hammerbeam(*arguments):
@@ -47,7 +59,9 @@ def column(rows, name):
 
 
 def save(figure, name):
-    figure.savefig(HERE / f"{name}.svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight", pad_inches=0.04)
+    figure.savefig(
+        HERE / f"{name}.svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight", pad_inches=0.04
+    )
     plt.close(figure)
 
 
@@ -67,7 +81,12 @@ class Beam:
         self.k, self.c = self.rate**2, 2 * self.DAMPING_RATIO * self.rate
         self.circular = 2 * np.pi * frequency_hz
         # (F4): b_i = gamma_i W^2 U, since q'' + ... = -gamma u''.
-        self.steady = self.PARTICIPATION * self.circular**2 * self.AMPLITUDE / (self.k - self.circular**2 + 1j * self.circular * self.c)
+        self.steady = (
+            self.PARTICIPATION
+            * self.circular**2
+            * self.AMPLITUDE
+            / (self.k - self.circular**2 + 1j * self.circular * self.c)
+        )
 
     def particular(self, time):
         """Displacements and velocities of the modes, (F4)."""
@@ -84,7 +103,7 @@ class Beam:
         return (cosine + half * sine) * p + sine * s, -self.k * sine * p + (cosine - half * sine) * s
 
     def jet(self, state, time):
-        """r, r', r'', r''' of the contact against the table, positive upwards, at `time` from phase 0, in flight, (F5)."""
+        """r, r', r'', r''' of the contact against the table, upwards, at `time` in flight, (F5)."""
         p, s = self.free(state, time)
         rows = [self.shape * p, self.shape * s, self.shape * (-self.k * p - self.c * s)]
         rows.append(self.shape * (self.c * self.k * p + (self.c**2 - self.k) * s))
@@ -103,8 +122,20 @@ class Beam:
 
 def settled(folder, frequency_hz, samples):
     """Samples, contacts and the state at phase 0 of the motion that settles at a frequency."""
-    hammerbeam("simulate", STUDIES / "beam-with-stop.toml", "--frequency", frequency_hz, "--periods", 1, "--transient-periods", 300,
-               "--samples-per-period", samples, "--out", folder)
+    hammerbeam(
+        "simulate",
+        STUDIES / "beam-with-stop.toml",
+        "--frequency",
+        frequency_hz,
+        "--periods",
+        1,
+        "--transient-periods",
+        300,
+        "--samples-per-period",
+        samples,
+        "--out",
+        folder,
+    )
     first = table(folder / "stroboscopic.csv")[0]
     state = np.array([[float(first[f"{part}{i}"]) for i in range(1, 7)] for part in "qv"])
     return table(folder / "samples.csv"), table(folder / "contacts.csv"), state
@@ -126,16 +157,32 @@ def draw_flight(folder):
     figure, (left, right) = plt.subplots(1, 2, figsize=(6.6, 2.5), width_ratios=[2.2, 1])
     left.axhspan(-0.6, 0, color="#eeeeee", lw=0)
     left.plot(time * 1e3, relative * 1e3, color=BLUE, label="Hammerbeam")
-    left.plot(time[in_flight][::60] * 1e3, exact[::60] * 1e3, "o", ms=3.5, mfc="none", color=RED, mew=0.8, label="(F2) to (F5)")
+    left.plot(
+        time[in_flight][::60] * 1e3,
+        exact[::60] * 1e3,
+        "o",
+        ms=3.5,
+        mfc="none",
+        color=RED,
+        mew=0.8,
+        label="(F2) to (F5)",
+    )
     left.axvline(start * 1e3, color=GREY, lw=0.6, ls=":")
     left.text(start * 1e3 + 0.4, 4.2, "contact,\n0.14 ms", ha="left", va="center", color=GREY)
     left.text(0.5, -0.3, "stop", color=GREY, va="center")
-    left.set(xlabel="Time (ms)", ylabel="Relative displacement (mm)", xlim=(0, time[-1] * 1e3), ylim=(-0.6, 7.6))
+    left.set(
+        xlabel="Time (ms)", ylabel="Relative displacement (mm)", xlim=(0, time[-1] * 1e3), ylim=(-0.6, 7.6)
+    )
     left.legend(loc="upper right")
     fine, _, _ = settled(folder / "fine", frequency, 60000)
     within = [row for row in fine if start - 2e-5 < float(row["time_s"]) < end + 2e-5]
     right.plot((column(within, "time_s") - start) * 1e6, -column(within, "stop_1_force_n"), color=BLUE)
-    right.set(xlabel="Time from the touch (µs)", ylabel="Contact force (N)", ylim=(0, None), xlim=(-20, (end - start) * 1e6 + 20))
+    right.set(
+        xlabel="Time from the touch (µs)",
+        ylabel="Contact force (N)",
+        ylim=(0, None),
+        xlim=(-20, (end - start) * 1e6 + 20),
+    )
     figure.tight_layout()
     save(figure, "flight")
     draw_clearance(beam, state, start)
@@ -172,13 +219,32 @@ def draw_clearance(beam, state, start):
     left.plot(times * 1e3, clearance * 1e3, color=BLUE, label="clearance d")
     for i, (t, value, slope, curvature, third, step) in enumerate(looks):
         s = np.linspace(0, step, 60)
-        left.plot((t + s) * 1e3, (value + slope * s + curvature * s**2 / 2 - third * s**3 / 6) * 1e3, color=RED, lw=0.8,
-                  label="lower bound (C3)" if i == 0 else None)
-    left.plot([look[0] * 1e3 for look in looks], [look[1] * 1e3 for look in looks], "o", ms=2.5, color=RED, label="look")
+        left.plot(
+            (t + s) * 1e3,
+            (value + slope * s + curvature * s**2 / 2 - third * s**3 / 6) * 1e3,
+            color=RED,
+            lw=0.8,
+            label="lower bound (C3)" if i == 0 else None,
+        )
+    left.plot(
+        [look[0] * 1e3 for look in looks],
+        [look[1] * 1e3 for look in looks],
+        "o",
+        ms=2.5,
+        color=RED,
+        label="look",
+    )
     left.set(xlabel="Time (ms)", ylabel="Clearance (mm)", xlim=(0, start * 1e3 * 1.02), ylim=(0, 7.2))
     left.legend(loc="upper right", ncols=3, columnspacing=0.8, handlelength=1.2)
     remaining = np.array([start - look[0] for look in looks])
-    right.semilogy(np.arange(1, len(looks) + 1), np.maximum(np.abs(remaining), 1e-12) * 1e3, "o-", ms=2.5, lw=0.8, color=RED)
+    right.semilogy(
+        np.arange(1, len(looks) + 1),
+        np.maximum(np.abs(remaining), 1e-12) * 1e3,
+        "o-",
+        ms=2.5,
+        lw=0.8,
+        color=RED,
+    )
     right.set(xlabel="Look", ylabel="Time left to the contact (ms)")
     figure.tight_layout()
     save(figure, "clearance")
@@ -208,7 +274,7 @@ def lagrange(nodes, s):
 
 
 def collocated(count, graded, length):
-    """A unit mass with unit speed enters a Hertz contact p'' = -p^1.5; its state after `length`, by (S2) and (S3)."""
+    """Unit mass and speed enter a Hertz contact p'' = -p^1.5; the state after `length`, (S2), (S3)."""
     nodes = gauss(count, graded)
     points, weights = np.polynomial.legendre.leggauss(60)
     points, weights = (points + 1) / 2, weights / 2
@@ -240,7 +306,10 @@ def draw_nodes(within, start, end):
     length = 1.5  # about half of this contact, which lasts 3.2
     exact = collocated(26, True, length)
     counts = np.arange(3, 15)
-    error = {graded: [np.hypot(*(np.array(collocated(n, graded, length)) - exact)) for n in counts] for graded in (True, False)}
+    error = {
+        graded: [np.hypot(*(np.array(collocated(n, graded, length)) - exact)) for n in counts]
+        for graded in (True, False)
+    }
     print(f"collocation: twelve nodes {error[True][9]:.1e} graded, {error[False][9]:.1e} not")
     # First integral: v^2/2 + (2/5) p^2.5 = 1/2.
     assert abs(exact[1] ** 2 / 2 + 0.4 * exact[0] ** 2.5 - 0.5) < 1e-14
@@ -254,10 +323,17 @@ def draw_nodes(within, start, end):
         left.plot(nodes, np.interp(nodes, time, force), "o", ms=3, color=colour)
     left.plot([], [], "o", ms=3, color=RED, label="step graded at the touch")
     left.plot([], [], "o", ms=3, color=GREEN, label="graded at the release")
-    left.set(xlabel="Time from the touch (µs)", ylabel="Contact force (N)", ylim=(0, 1600), xlim=(-5, duration + 5))
+    left.set(
+        xlabel="Time from the touch (µs)",
+        ylabel="Contact force (N)",
+        ylim=(0, 1600),
+        xlim=(-5, duration + 5),
+    )
     left.legend(loc="upper center", ncols=1)
     right.semilogy(counts, error[False], "s-", ms=3, lw=0.8, color=GREY, label="time as it is, $t = hs$")
-    right.semilogy(counts, np.maximum(error[True], 1e-16), "o-", ms=3, lw=0.8, color=RED, label="graded, $t = hs^2$")
+    right.semilogy(
+        counts, np.maximum(error[True], 1e-16), "o-", ms=3, lw=0.8, color=RED, label="graded, $t = hs^2$"
+    )
     right.axvline(12, color=GREY, lw=0.6, ls=":")
     right.set(xlabel="Nodes in the step", ylabel="Error at the end of the step")
     right.legend(loc="upper right")
@@ -284,7 +360,9 @@ def duffing_flow(z, phases, frequency):
 def draw_shooting(folder):
     hammerbeam("run", STUDIES / "duffing.toml", "--out", folder / "duffing", "--jobs", 1)
     hammerbeam("export", folder / "duffing", "--format", "csv", "--states")
-    rows, branch = table(folder / "duffing/export/states.csv"), table(folder / "duffing/export/branches.csv")
+    rows, branch = table(folder / "duffing/export/states.csv"), table(
+        folder / "duffing/export/branches.csv"
+    )
     frequency = 0.25
     # The orbit of largest amplitude at this frequency.
     near = [i for i, row in enumerate(rows) if abs(float(row["frequency_hz"]) - frequency) < 4e-4]
@@ -302,18 +380,36 @@ def draw_shooting(folder):
         left.plot(arc[:, 0], arc[:, 1], color=BLUE, label="segment" if k == 0 else None)
         left.plot(*node, "o", ms=4, color=BLUE, label="node $z_k$" if k == 0 else None)
         target = orbit[100 * ((k + 1) % 4)] * np.array([1.13, 0.92]) + np.array([0.05, -0.05])
-        left.plot(*zip(arc[-1], target), color=RED, lw=1.2, ls="-", label="residual $R_k$" if k == 0 else None)
+        left.plot(
+            *zip(arc[-1], target), color=RED, lw=1.2, ls="-", label="residual $R_k$" if k == 0 else None
+        )
     left.set(xlabel="Displacement (m)", ylabel="Velocity (m/s)")
-    left.legend(loc="upper center", ncols=4, fontsize=7, columnspacing=0.7, handlelength=1.2, bbox_to_anchor=(0.5, 1.17))
+    left.legend(
+        loc="upper center",
+        ncols=4,
+        fontsize=7,
+        columnspacing=0.7,
+        handlelength=1.2,
+        bbox_to_anchor=(0.5, 1.17),
+    )
     multipliers = [[complex(m.replace("i", "j")) for m in row["multipliers"].split()] for row in rows]
     real = np.array([[m.real for m in pair] for pair in multipliers])
     imaginary = np.array([[m.imag for m in pair] for pair in multipliers])
     turn = np.linspace(0, 2 * np.pi, 200)
     right.plot(np.cos(turn), np.sin(turn), color=GREY, lw=0.8)
     right.plot(real[::15].ravel(), imaginary[::15].ravel(), ".", ms=1.5, color=BLUE)
-    right.annotate("folds: multiplier +1", (1, 0), (0.45, 1.28), arrowprops={"arrowstyle": "-", "lw": 0.6, "color": RED}, color=RED, fontsize=7)
+    right.annotate(
+        "folds: multiplier +1",
+        (1, 0),
+        (0.45, 1.28),
+        arrowprops={"arrowstyle": "-", "lw": 0.6, "color": RED},
+        color=RED,
+        fontsize=7,
+    )
     right.plot(1, 0, "o", ms=4, mfc="none", color=RED)
-    right.set(xlabel="Real part", ylabel="Imaginary part", xlim=(-1.4, 2.2), ylim=(-1.5, 1.5), aspect="equal")
+    right.set(
+        xlabel="Real part", ylabel="Imaginary part", xlim=(-1.4, 2.2), ylim=(-1.5, 1.5), aspect="equal"
+    )
     # Liouville (P6): the product of the multipliers is exp(-c T).
     product = np.array([(pair[0] * pair[1]).real for pair in multipliers])
     expected = np.exp(-0.1 / np.array([float(row["frequency_hz"]) for row in rows]))
@@ -328,7 +424,9 @@ def draw_orientation():
     tip, width, bend = 0.02, 0.035, 0.5
     height = lambda z: z[1] + bend * z[0] ** 2
     residual = lambda z: z[0] ** 2 - (height(z) / width) ** 2 - tip**2
-    gradient = lambda z: np.array([2 * z[0] - 4 * bend * z[0] * height(z) / width**2, -2 * height(z) / width**2])
+    gradient = lambda z: np.array(
+        [2 * z[0] - 4 * bend * z[0] * height(z) / width**2, -2 * height(z) / width**2]
+    )
     along = lambda z: np.array([gradient(z)[1], -gradient(z)[0]]) / np.linalg.norm(gradient(z))
 
     def path(a):
@@ -377,7 +475,14 @@ def draw_orientation():
             if i and np.linalg.norm(points[i] - points[i - 1]) < 0.03:
                 continue
             up = on_upper[i]
-            axis.annotate(str(i + 1), (x, y), (-4 if up else 4, 5 if up else -10), textcoords="offset points", ha="center", fontsize=6.5)
+            axis.annotate(
+                str(i + 1),
+                (x, y),
+                (-4 if up else 4, 5 if up else -10),
+                textcoords="offset points",
+                ha="center",
+                fontsize=6.5,
+            )
         axis.set(xlabel="Parameter", xlim=(-0.98, 0.06))
         axis.set_title("angle rule (O5)" if by_angle else "determinant rule (O4)", fontsize=8)
     axes[0].set(ylabel="Solution")
@@ -414,18 +519,36 @@ def draw_grazing(folder):
     expected = np.array([largest(f, v) for f, v in zip(frequency[one], speed[one])])
     away = speed[one] > 1e-2
     off = np.abs(modulus[one] / expected - 1)[away]
-    print(f"grazing: {one.sum()} orbits, largest multiplier off by {np.median(off):.1e} (median), {off.max():.1e} at most")
+    print(
+        f"grazing: {one.sum()} orbits, multiplier off by {np.median(off):.1e} (median), {off.max():.1e} at most"
+    )
     assert np.median(off) < 1e-8 and off.max() < 1e-3
     figure, (left, right) = plt.subplots(1, 2, figsize=(6.6, 2.6))
     starts = np.flatnonzero(np.diff(stable.astype(int))) + 1
     for part in np.split(np.arange(len(rows)), starts):
         part = np.append(part, part[-1] + 1) if part[-1] + 1 < len(rows) else part
-        left.plot(frequency[part], speed[part], color=BLUE if stable[part[0]] else RED,
-                  ls="-" if stable[part[0]] else "--")
-    for f, name, offset in ((0.12340454, "grazing", (-1, 7)), (0.18812598, "grazing", (14, 6)), (0.15754761, "flip", (-8, 6)), (0.25672674, "fold", (5, -3))):
+        left.plot(
+            frequency[part],
+            speed[part],
+            color=BLUE if stable[part[0]] else RED,
+            ls="-" if stable[part[0]] else "--",
+        )
+    for f, name, offset in (
+        (0.12340454, "grazing", (-1, 7)),
+        (0.18812598, "grazing", (14, 6)),
+        (0.15754761, "flip", (-8, 6)),
+        (0.25672674, "fold", (5, -3)),
+    ):
         i = np.argmin(np.abs(frequency - f))
         left.plot(frequency[i], speed[i], "o", ms=3.5, mfc="white", color="black", mew=0.8)
-        left.annotate(name, (frequency[i], speed[i]), offset, textcoords="offset points", fontsize=7, ha="right" if offset[0] < 0 else "left")
+        left.annotate(
+            name,
+            (frequency[i], speed[i]),
+            offset,
+            textcoords="offset points",
+            fontsize=7,
+            ha="right" if offset[0] < 0 else "left",
+        )
     left.plot([], [], color=BLUE, label="stable")
     left.plot([], [], color=RED, ls="--", label="unstable")
     left.set(xlabel="Excitation frequency (Hz)", ylabel="Impact speed (m/s)", xlim=(0.1, 0.28))
@@ -433,12 +556,18 @@ def draw_grazing(folder):
     first = one & (frequency < 0.17) & (np.arange(len(rows)) < 1500)
     second = one & (frequency < 0.2) & ~first & ~stable
     order = np.argsort(speed[first])
-    right.loglog(speed[first][order], modulus[first][order], ".", ms=2.5, color=BLUE, label="rows, lower grazing")
+    right.loglog(
+        speed[first][order], modulus[first][order], ".", ms=2.5, color=BLUE, label="rows, lower grazing"
+    )
     order = np.argsort(speed[second])
-    right.loglog(speed[second][order], modulus[second][order], ".", ms=2.5, color=GREEN, label="rows, upper grazing")
+    right.loglog(
+        speed[second][order], modulus[second][order], ".", ms=2.5, color=GREEN, label="rows, upper grazing"
+    )
     speeds = np.array([1e-4, 1e-2])
     at = np.argmin(speed[first])
-    right.loglog(speeds, modulus[first][at] * speed[first][at] / speeds, color=GREY, lw=0.8, label="slope −1")
+    right.loglog(
+        speeds, modulus[first][at] * speed[first][at] / speeds, color=GREY, lw=0.8, label="slope −1"
+    )
     right.axhline(1, color="black", lw=0.5)
     right.set(xlabel="Impact speed (m/s)", ylabel="Largest multiplier, modulus")
     right.legend(loc="upper right")
@@ -447,8 +576,18 @@ def draw_grazing(folder):
 
 
 def draw_exponents(folder):
-    hammerbeam("lyapunov", STUDIES / "ueda.toml", "--frequency", 1 / (2 * np.pi), "--periods", 20000, "--transient-periods", 200,
-               "--out", folder / "ueda")
+    hammerbeam(
+        "lyapunov",
+        STUDIES / "ueda.toml",
+        "--frequency",
+        1 / (2 * np.pi),
+        "--periods",
+        20000,
+        "--transient-periods",
+        200,
+        "--out",
+        folder / "ueda",
+    )
     hammerbeam("figure", folder / "ueda", "--kind", "exponents", "--jobs", 1, "--format", "svg")
     for kind in ("convergence", "section"):
         shutil.copy(folder / f"ueda/{kind}-1.svg", HERE / f"exponents-{kind}.svg")
