@@ -3,25 +3,19 @@
 import logging as std_logging
 import re
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
-from docutils.nodes import SkipNode
-from latex2mathml.converter import convert
 from pygments.lexers.special import TextLexer
 from sphinx.util import logging
-from sphinx.util.math import get_node_equation_number
 
 project = "Hammerbeam"
 author = "the Hammerbeam authors"
 copyright = "the Hammerbeam authors"
 html_title = "Hammerbeam"
 
-extensions = ["myst_parser"]
-# Equations have their labels for numbers, so that code can cite them.
+# Equations are numbered by their labels, as (F3), which comments in the code cite.
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
-if find_spec("equation_labels"):
-    extensions.append("equation_labels")
+extensions = ["myst_parser", "equation_labels", "offline_formulas"]
 myst_enable_extensions = ["dollarmath", "deflist", "attrs_block"]
 myst_dmath_double_inline = True
 # Headings down to this level can be linked to, as page.md#heading; a link to a missing one is an error.
@@ -36,37 +30,6 @@ html_theme = "furo"
 html_theme_options = {"top_of_page_buttons": []}
 html_copy_source = False
 html_show_sphinx = False
-html_math_renderer = "mathml"
-
-
-# What the converter to MathML has under another name.
-SAME_ENVIRONMENTS = {
-    r"\begin{aligned}": r"\begin{split}",
-    r"\end{aligned}": r"\end{split}",
-    r"\begin{bmatrix}": r"\left[\begin{matrix}",
-    r"\end{bmatrix}": r"\end{matrix}\right]",
-}
-
-
-def mathml(formula, display):
-    """A formula as MathML, which the reader's browser draws without a script."""
-    for theirs, ours in SAME_ENVIRONMENTS.items():
-        formula = formula.replace(theirs, ours)
-    return convert(formula, display=display)
-
-
-def inline_formula(writer, node):
-    """A formula within a line."""
-    writer.body.append(mathml(node.astext(), "inline"))
-    raise SkipNode
-
-
-def displayed_formula(writer, node):
-    """A formula on a line of its own, with its number on the right."""
-    number = f"({get_node_equation_number(writer, node)})" if node["number"] else ""
-    writer.body.append(f'<div class="math" id="{node["ids"][0] if node["ids"] else ""}">')
-    writer.body.append(f'<span class="eqno">{number}</span>{mathml(node.astext(), "block")}</div>')
-    raise SkipNode
 
 
 def links_out_of_the_book(app, page, source):
@@ -87,7 +50,6 @@ def links_out_of_the_book(app, page, source):
 
 
 def setup(app):
-    """Names the renderer of formulas and the check of links."""
+    """Names the check of links."""
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", links_out_of_the_book)
-    app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))

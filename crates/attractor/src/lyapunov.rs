@@ -1,4 +1,4 @@
-//! The whole spectrum of Lyapunov exponents of a motion.
+//! The whole spectrum of Lyapunov exponents of a motion. Equations (E3) to (E6) of the book, `docs/theory`.
 //!
 //! With the growth `g_i(k)` of the tangent directions over the sections `k` of duration `h` (`tangents.rs`)
 //! the exponents are the means

@@ -1,4 +1,4 @@
-//! Orthonormal tangent vectors that are carried along a motion.
+//! Orthonormal tangent vectors that are carried along a motion. Equation (E2) of the book, `docs/theory`.
 //!
 //! Over a section with the fundamental matrix `P` the frame `Q` becomes `P Q = Q' R` with an orthonormal `Q'`
 //! and an upper triangular `R` of positive diagonal. The diagonal holds the growth of the volumes of order

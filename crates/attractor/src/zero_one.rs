@@ -1,4 +1,5 @@
 //! The 0-1 test for chaos: a second opinion beside the exponents, from one observable alone.
+//! Equations (E7) and (E8) of the book, `docs/theory`.
 //!
 //! A series `x_1 .. x_N` drives a point in the plane, `p(n) = sum_(j<=n) x_j cos(j c)`, `q(n) = sum_(j<=n)
 //! x_j sin(j c)`. Regular motion leaves the point bounded for almost every `c`, chaotic motion lets it

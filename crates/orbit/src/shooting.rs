@@ -1,4 +1,5 @@
 //! Multiple shooting: the periodic orbit as a problem for the path crate.
+//! Equations (P1) to (P6) of the book, `docs/theory`.
 //!
 //! An orbit of N excitation periods is cut at m equal phases, the first of them the phase at which it begins
 //! (0 unless a law needs another one). The unknowns are the states `z_k` there, scaled: displacements with

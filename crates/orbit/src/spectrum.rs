@@ -1,4 +1,5 @@
 //! Floquet multipliers, and which of them lie on the unit circle as well as they are known.
+//! Equation (P8) of the book, `docs/theory`.
 //!
 //! The computed monodromy matrix `A` is that of the orbit up to an error `E`, `|E| <= e`. A number z is an
 //! eigenvalue of one of the matrices `A + E` if and only if

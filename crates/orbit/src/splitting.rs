@@ -1,4 +1,5 @@
 //! Contacts that are about to open and to be pressed on again at once.
+//! Equation (G12) of the book, `docs/theory`.
 //!
 //! A law that remembers how a contact began loses `C r'/v` of its force, with the speed v of that impact.
 //! Where the penetration of a contact has a minimum of zero, the orbits on one side keep the old v; on the

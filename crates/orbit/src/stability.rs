@@ -1,4 +1,5 @@
 //! Test functions of the stability of an orbit, from its Floquet multipliers `mu_i`.
+//! Equation (P7) of the book, `docs/theory`.
 //!
 //! Along a smooth arc the multipliers are continuous, and they leave the unit circle in three ways: at +1 (a
 //! fold or branch point, which the path itself tells), at -1 (*flip*), and as a complex pair

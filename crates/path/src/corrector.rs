@@ -1,4 +1,4 @@
-//! The corrector: Newton's method on the bordered system.
+//! The corrector: Newton's method on the bordered system. Equations (O2) to (O6) of the book, `docs/theory`.
 //!
 //! `[R_x R_λ; r] d = −[R; 0]` keeps the point in the plane `r · z = const` through the prediction. The same
 //! factorisation gives `w` with `[R_x R_λ; r] w = e_last`, the direction of the path, and the determinant.

@@ -1,4 +1,4 @@
-//! Predictors: where the path goes on.
+//! Predictors: where the path goes on. Equation (O9) of the book, `docs/theory`.
 //!
 //! Near `z₀` the path is a graph over its tangent: `z(σ)` with `⟨t₀, z(σ) − z₀⟩ = σ`. A point `z_k` with
 //! tangent `t_k` is the node `σ_k = ⟨t₀, z_k − z₀⟩` with slope `m_k = t_k / ⟨t₀, t_k⟩`; no arc length has to

@@ -1,4 +1,5 @@
 //! The linear structure as independent second-order blocks, exact in time.
+//! Equation (F2) of the book, `docs/theory`.
 //!
 //! With modal damping each mode is a block of its own. Dampers that couple modes are taken out by the
 //! eigenvectors of the coupled first-order system, so that in every case the state `x = S^-1 z` of `z = [q;

@@ -1,4 +1,4 @@
-//! Certified search for the first contact.
+//! Certified search for the first contact. Equations (C1) to (C5) of the book, `docs/theory`.
 //!
 //! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and
 //! `|d'''| <= B_3` that hold for the time ahead, two steps provably cannot jump over a zero of `d`:

@@ -1,4 +1,5 @@
 //! The part of the motion that the load drives: the particular solution at one excitation frequency.
+//! Equation (F4) of the book, `docs/theory`.
 //!
 //! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has
 //! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the

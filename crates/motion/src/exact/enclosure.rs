@@ -1,4 +1,5 @@
 //! Bounds from below, with proof, on what keeps a closed contact closed all through a step with forces.
+//! Equations (C8) and (C9) of the book, `docs/theory`.
 //!
 //! A closed contact ends where its guard `g = alpha p + beta p'` falls to zero: the penetration p (`alpha =
 //! 1`, `beta = 0`), or the pressure of a contact with a damper. At the nodes g is known, and at both ends of

@@ -1,4 +1,4 @@
-//! Steps that end exactly where a contact opens or closes.
+//! Steps that end exactly where a contact opens or closes. Equation (S8) of the book, `docs/theory`.
 //!
 //! The length of the step is found by Newton's method on the distance that falls to zero at its end: the
 //! penetration of the contact that opens, the pressure of one that parts, the clearance of one that closes. A

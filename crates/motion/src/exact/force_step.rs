@@ -1,4 +1,5 @@
 //! One step while forces act: solves `F_k = f(r_k)` at the nodes and maps the state.
+//! Equations (S3) and (S7) of the book, `docs/theory`.
 //!
 //! `r = r_free + W f(r)` is solved by Newton's method with the small matrix `I - W f'`; the state then goes
 //! over the step by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d

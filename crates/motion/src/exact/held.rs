@@ -1,4 +1,5 @@
 //! A structure that is held on rigid stops: the linear structure that is left while contacts stick.
+//! Equation (F9) of the book, `docs/theory`.
 //!
 //! While the elements of a set S are held on their stops, `r_j = phi_j . q + s_j . u = level_j`, with the
 //! displacements u of the supports, the structure obeys

@@ -1,4 +1,5 @@
 //! Impacts on rigid stops, and what comes of chatter.
+//! Equations (G3), (G4) and (G10) of the book, `docs/theory`.
 //!
 //! **One impact.** At a touch with `r' = v > 0` the modal velocities jump by `phi P`, and so, with `phi^T
 //! phi = C A B = D`,

@@ -1,4 +1,5 @@
 //! Newton's method for the forces of a step: `r = r_free + W f(r)` with the small matrix `I - W f'`.
+//! Equation (S6) of the book, `docs/theory`.
 
 use super::{
     collocation::{NODES, NodeMatrix},

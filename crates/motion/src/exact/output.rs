@@ -1,4 +1,5 @@
 //! What is read off the motion: relative displacements of elements, displacement of a point.
+//! Equations (F5) and (F6) of the book, `docs/theory`.
 
 use super::block::Blocks;
 

@@ -1,4 +1,5 @@
 //! The exponential of one second-order block in closed form, and those of four at once.
+//! Equation (F3) of the book, `docs/theory`.
 
 use super::{
     elementary::{DECAY, TURNING, cosines_and_sines, exponential, exponentials, sine_and_cosine},

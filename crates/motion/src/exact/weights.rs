@@ -1,4 +1,5 @@
 //! Matrices of one force step of length h, for the active elements.
+//! Equations (S2) to (S4) of the book, `docs/theory`.
 //!
 //! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate
 //! docs). For short steps all of them come from power series in h (`collocation.rs`, `series.rs`): the sums

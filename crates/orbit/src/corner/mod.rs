@@ -1,4 +1,5 @@
 //! Grazing of a rigid stop as a corner of the path: where it is, and points behind it.
+//! Equations (G8) and (G9) of the book, `docs/theory`.
 //!
 //! An impact of the speed `v` depends on the state like the root of the depth to which the motion would have
 //! gone, so near `v = 0` a point that is good to `e` tells its impact to
