@@ -16,7 +16,7 @@
 //! 1. **The law**, one file beside this one. It has the struct with its constants, which checks them. It
 //!    implements `ForceLaw` (`force_law.rs`): force, contacts, derivatives, the constants that can vary and
 //!    the derivatives by them. And it has `DESCRIPTION`, a [`LawDescription`]: keys in the study file with
-//!    units and ranges, formula, symbol, and how a stop is built from what was read. `linear.rs` is a
+//!    units and ranges, formula, symbol, and how a stop is built from what was read. `two_slopes.rs` is a
 //!    short one to start from.
 //! 2. **The list**, in this file: its module, the struct among the laws of the kernel, the description among
 //!    those of the study file. A law that is made of others has a description only.
@@ -46,6 +46,7 @@ mod power;
 mod restitution;
 mod rigid;
 mod two_sided;
+mod two_slopes;
 
 pub(crate) use constant::ForcePoint;
 pub use constant::LawConstant;
@@ -68,6 +69,7 @@ pub use power::{Degree, PowerSpring};
 pub use restitution::{RestitutionModel, RestitutionStop};
 pub use rigid::RigidStop;
 pub use two_sided::TwoSidedStop;
+pub use two_slopes::TwoSlopeStop;
 
 laws! { $
     /// Sphere on sphere, after Hertz.
@@ -78,6 +80,8 @@ laws! { $
     Restitution(RestitutionStop),
     /// One-sided linear spring.
     Linear(LinearStop),
+    /// One-sided linear spring whose stiffness changes at a second gap.
+    TwoSlopes(TwoSlopeStop),
     /// Linear springs on both sides of a clearance.
     TwoSided(TwoSidedStop),
     /// A power of the displacement, always active.
@@ -89,7 +93,7 @@ laws! { $
 }
 
 /// The laws of the study file, in the order in which messages name them.
-pub static DESCRIPTIONS: [&LawDescription; 14] = [
+pub static DESCRIPTIONS: [&LawDescription; 15] = [
     &hertz::DESCRIPTION,
     &linear::DESCRIPTION,
     &two_sided::DESCRIPTION,
@@ -104,6 +108,7 @@ pub static DESCRIPTIONS: [&LawDescription; 14] = [
     &restitution::DESCRIPTIONS[4],
     &restitution::DESCRIPTIONS[5],
     &restitution::DESCRIPTIONS[6],
+    &two_slopes::DESCRIPTION,
 ];
 
 mod dispatch;

@@ -128,6 +128,34 @@ fn a_rigid_stop_is_read_and_refuses_what_it_cannot_be() {
     );
 }
 
+#[test]
+fn a_stop_of_two_slopes_is_read_and_refuses_what_it_cannot_be() {
+    let two_slopes = |keys: &str| {
+        let keys = format!("law = \"two-slopes\"\nstiffness_n_m = 1e5\n{keys}");
+        parse(&PAPER.replace("law = \"hertz\"\n", "").replace("stiffness_n_m15 = 4.5e9", &keys))
+    };
+    let study = two_slopes("second_gap_m = 1e-4\nsecond_stiffness_n_m = 4e5").unwrap();
+    let law = &study.stops[0].law;
+    let numbers = ["stiffness_n_m", "second_gap_m", "second_stiffness_n_m"].map(|key| law.number(key));
+    assert_eq!(numbers, [Some(1e5), Some(1e-4), Some(4e5)]);
+    assert_eq!(law.gap_m(), Some(0.0));
+    let canonical = study.canonical();
+    for line in ["second_gap_m = 0.0001", "second_stiffness_n_m = 400000.0", "stiffness_n_m = 100000.0"] {
+        assert!(canonical.contains(&format!("stops[0].law.two-slopes.{line}")), "{canonical}");
+    }
+    let refused = |keys: &str, words: &[&str]| assert_refused(two_slopes(keys), words);
+    refused("second_stiffness_n_m = 4e5", &["`second_gap_m` is missing"]);
+    refused("second_gap_m = 1e-4", &["`second_stiffness_n_m` is missing"]);
+    refused(
+        "second_gap_m = 0.0\nsecond_stiffness_n_m = 1.0",
+        &["`second_gap_m` is 0 m", "more than 0 to 1e6 m"],
+    );
+    refused(
+        "second_gap_m = 1.0\nsecond_stiffness_n_m = -1.0",
+        &["`second_stiffness_n_m`", "-1", "more than 0"],
+    );
+}
+
 /// What the identity of a study had of each law before they were described in one place, written down from
 /// the fields of that time: folders of results go on.
 #[test]
