@@ -22,6 +22,7 @@ mod relations;
 mod shaw_holmes_1983;
 mod surveys;
 mod two_masses;
+mod two_slopes;
 mod two_wells;
 mod van_de_vorst_conclusions;
 mod van_de_vorst_eigenfrequencies;

@@ -3,10 +3,7 @@
 //! | parameter | value | what it changes |
 //! |---|---|---|
 //! | excitation scale `a` | 1 as built | all harmonics of order 1 and above: `b_m = a b_m(1)`, `U_m = a U_m(1)` |
-//! | gap `g` | [m] | the levels of the contacts of one element; of a two-sided stop both, which must be equal |
-//! | stiffness `k` | as the law has it | the force of one element, `f = k f(1)`, at the levels that its contacts have |
-//! | restitution `e` | [-] | the impacts of one rigid stop, or the loss of a contact that remembers its impacts |
-//! | contact damping `c` | as the law has it | the loss of one element whose force depends on the velocity |
+//! | constant of a law | as the law has it | one element: its gap shifts the levels of its contacts, of a two-sided stop both, which must be equal; the restitution of a rigid stop its impacts; any other its force at the levels that its contacts have ([`LawConstant`]) |
 //! | number of a family | in its unit | the whole structure, its modes and their coordinates ([`Family`]) |
 //! | added damping `z_k` | 0 as built | the damping, `C = C(0) + sum_k z_k D_k`, `d = d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)` |
 
@@ -14,35 +11,19 @@ use std::sync::Arc;
 
 use faer::Mat;
 
-use crate::{Family, LawError, Member, System};
+use crate::{Family, LawConstant, LawError, Member, System};
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parameter {
     /// Factor of all harmonics of the load of order 1 and above [-], > 0; 1 for the load as given.
     ExcitationScale,
-    /// Gap of an element [m], >= 0.
-    Gap {
+    /// A constant of the law of an element, in the unit of the law.
+    OfLaw {
         /// Number of the element.
         element: usize,
-    },
-    /// Constant of the law of an element, in the unit of the law (N/m, N/m^1.5, N/m^3). The levels of its
-    /// contacts stay, so it is the penetration at rest of a preloaded stop that is held, not the preload.
-    Stiffness {
-        /// Number of the element.
-        element: usize,
-    },
-    /// Coefficient of restitution [-]: of a rigid stop, 0 to 1; of a contact that remembers its impacts, more
-    /// than 0.
-    Restitution {
-        /// Number of the element.
-        element: usize,
-    },
-    /// Constant of the damping of a contact whose force depends on the velocity, in the unit of its law (N
-    /// s/m, s/m), > 0.
-    ContactDamping {
-        /// Number of the element.
-        element: usize,
+        /// The constant.
+        constant: LawConstant,
     },
     /// A number that the structure depends on, in its unit.
     OfFamily {
@@ -60,6 +41,61 @@ pub enum Parameter {
 impl Parameter {
     /// Ratio to critical damping [-] that every mode has besides the damping as given.
     pub const ADDED_DAMPING_RATIO: Self = Self::AddedDamping { part: 0 };
+
+    /// The gap of an element.
+    #[must_use]
+    pub const fn gap(element: usize) -> Self {
+        Self::OfLaw { element, constant: LawConstant::Gap }
+    }
+
+    /// The stiffness of the law of an element.
+    #[must_use]
+    pub const fn stiffness(element: usize) -> Self {
+        Self::OfLaw { element, constant: LawConstant::Stiffness }
+    }
+
+    /// The coefficient of restitution of an element.
+    #[must_use]
+    pub const fn restitution(element: usize) -> Self {
+        Self::OfLaw { element, constant: LawConstant::Restitution }
+    }
+
+    /// The damping of the contact of an element.
+    #[must_use]
+    pub const fn contact_damping(element: usize) -> Self {
+        Self::OfLaw { element, constant: LawConstant::Damping }
+    }
+
+    /// The numbers that stand for it in checkpoints: what it is, and of which element, part or family. The
+    /// first is never 0.
+    #[must_use]
+    pub fn code(self) -> (u8, usize) {
+        match self {
+            Self::ExcitationScale => (1, 0),
+            Self::AddedDamping { part } => (2, part),
+            Self::OfFamily { family } => (7, family),
+            Self::OfLaw { element, constant } => (constant.code(), element),
+        }
+    }
+
+    /// The parameter with these numbers; `None` if none has them.
+    #[must_use]
+    pub fn of_code((kind, number): (u8, usize)) -> Option<Self> {
+        match kind {
+            1 => Some(Self::ExcitationScale),
+            2 => Some(Self::AddedDamping { part: number }),
+            7 => Some(Self::OfFamily { family: number }),
+            _ => Some(Self::OfLaw { element: number, constant: LawConstant::of_code(kind)? }),
+        }
+    }
+
+    /// The constant that it is of the law of an element, if it is of that element.
+    pub(crate) fn constant_of(self, of: usize) -> Option<LawConstant> {
+        match self {
+            Self::OfLaw { element, constant } if element == of => Some(constant),
+            _ => None,
+        }
+    }
 }
 
 /// A part of the damping that can be added: what a unit of it adds to the equations of motion.
@@ -95,6 +131,9 @@ pub enum ParameterError {
     /// Only forces that depend on the velocity by a constant of their own have one.
     #[error("{name} has no damping to vary")]
     NoContactDamping { name: String },
+    /// The law has no such constant.
+    #[error("{name} has no such constant to vary")]
+    NoConstant { name: String },
     /// Without damping a contact is of another kind: it ends where the penetration does.
     #[error("{name}: the damping of a contact is {found}, must be finite and more than 0 to be varied")]
     ContactDamping { name: String, found: f64 },
@@ -137,24 +176,11 @@ impl System {
                 self.added_damping().get(part).copied().ok_or(missing)
             }
             Parameter::OfFamily { family } => Ok(self.family(family)?.value),
-            Parameter::Stiffness { element } => {
+            Parameter::OfLaw { element, constant } => {
                 let element = self.element(element)?;
-                let stiffness = Some(element.law.stiffness()).filter(|stiffness| stiffness.is_finite());
-                stiffness.ok_or_else(|| ParameterError::NoStiffness { name: element.name.clone() })
-            }
-            Parameter::Restitution { element } => {
-                let element = self.element(element)?;
-                let missing = || ParameterError::NoRestitution { name: element.name.clone() };
-                element.law.restitution().ok_or_else(missing)
-            }
-            Parameter::ContactDamping { element } => {
-                let element = self.element(element)?;
-                let missing = || ParameterError::NoContactDamping { name: element.name.clone() };
-                element.law.damping().filter(|damping| *damping > 0.0).ok_or_else(missing)
-            }
-            Parameter::Gap { element } => {
-                let element = self.element(element)?;
-                element.law.gap().ok_or_else(|| ParameterError::NoGap { name: element.name.clone() })
+                let varies = |value: &f64| constant != LawConstant::Damping || *value > 0.0;
+                let value = element.law.constant(constant).filter(varies);
+                value.ok_or_else(|| missing(element.name.clone(), constant))
             }
         }
     }
@@ -183,23 +209,15 @@ impl System {
                 *self = self.member(family, value)?.system;
                 Ok(())
             }
-            Parameter::Stiffness { element }
-            | Parameter::Gap { element }
-            | Parameter::Restitution { element }
-            | Parameter::ContactDamping { element } => {
-                // Says whether there is such an element, and such a gap.
+            Parameter::OfLaw { element, constant } => {
+                // Says whether there is such an element, and such a constant.
                 self.parameter(parameter)?;
                 let element = &mut self.elements_mut()[element];
-                let (law, name) = (&element.law, element.name.clone());
-                let law = match parameter {
-                    Parameter::Gap { .. } => law.with_gap(value),
-                    Parameter::Restitution { .. } => law.with_restitution(value),
-                    Parameter::ContactDamping { .. } if !(value.is_finite() && value > 0.0) => {
-                        return Err(ParameterError::ContactDamping { name, found: value });
-                    }
-                    Parameter::ContactDamping { .. } => law.with_damping(value),
-                    _ => law.with_stiffness(value),
-                };
+                let name = element.name.clone();
+                if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {
+                    return Err(ParameterError::ContactDamping { name, found: value });
+                }
+                let law = element.law.with_constant(constant, value);
                 element.law = law.map_err(|source| ParameterError::Law { name, source })?;
                 Ok(())
             }
@@ -243,6 +261,17 @@ impl System {
     pub(crate) fn family(&self, family: usize) -> Result<&Kin, ParameterError> {
         let missing = ParameterError::NoFamily { family, count: self.families().len() };
         self.families().get(family).ok_or(missing)
+    }
+}
+
+/// What is said of an element without a constant.
+fn missing(name: String, constant: LawConstant) -> ParameterError {
+    match constant {
+        LawConstant::Gap => ParameterError::NoGap { name },
+        LawConstant::Stiffness => ParameterError::NoStiffness { name },
+        LawConstant::Restitution => ParameterError::NoRestitution { name },
+        LawConstant::Damping => ParameterError::NoContactDamping { name },
+        LawConstant::Further(_) => ParameterError::NoConstant { name },
     }
 }
 

@@ -49,7 +49,7 @@ fn grazed(integrator: &mut ExactIntegrator) -> f64 {
 fn a_contact_of_any_depth_takes_few_steps_with_derivatives_by_its_parameters() {
     let linear = || Law::Linear(LinearStop::with_gap(37.7, 1.0).unwrap());
     for law in [linear, || hertz(100.0, 1.0)] {
-        for parameter in [Parameter::Stiffness { element: 0 }, Parameter::Gap { element: 0 }] {
+        for parameter in [Parameter::stiffness(0), Parameter::gap(0)] {
             let mut integrator = beside_a_stop(law());
             integrator.differentiate_by(Some(parameter)).unwrap();
             let grazed = grazed(&mut integrator);
@@ -71,7 +71,7 @@ fn a_contact_of_any_depth_takes_few_steps_with_derivatives_by_its_parameters() {
 #[test]
 fn what_the_stiffness_of_a_shallow_contact_changes_goes_with_its_impulse() {
     let mut integrator = beside_a_stop(Law::Linear(LinearStop::with_gap(37.7, 1.0).unwrap()));
-    integrator.differentiate_by(Some(Parameter::Stiffness { element: 0 })).unwrap();
+    integrator.differentiate_by(Some(Parameter::stiffness(0))).unwrap();
     let grazed = grazed(&mut integrator);
     let mut change = |depth: f64| {
         let behind = Stretch { end: 0.6, ..PERIOD };

@@ -7,7 +7,7 @@ use crate::common::{
     hertz, hunt_crossley, integrator, model, remembering, rigid, settled,
 };
 use hammerbeam_motion::{
-    Harmonic, Law, Load, LocalElement, Parameter, Stretch, System,
+    Harmonic, Law, LawConstant, Load, LocalElement, Parameter, Stretch, System,
     exact::{ContactPiece, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe},
     law::{LinearStop, RestitutionModel, TwoSidedStop},
@@ -175,21 +175,21 @@ fn sensitivities_through_held_force_steps_are_those_of_differences() {
             let system = pressed(restitution, ratio, coupled, further(law.clone()));
             let mut parameters = vec![
                 Parameter::ExcitationScale,
-                Parameter::Gap { element: 0 },
-                Parameter::Restitution { element: 0 },
+                Parameter::gap(0),
+                Parameter::restitution(0),
                 Parameter::ADDED_DAMPING_RATIO,
             ];
-            if law.stiffness().is_finite() {
-                parameters.push(Parameter::Stiffness { element: 1 });
+            if law.constant(LawConstant::Stiffness).is_some() {
+                parameters.push(Parameter::stiffness(1));
             }
-            if law.damping().is_some_and(|damping| damping > 0.0) {
-                parameters.push(Parameter::ContactDamping { element: 1 });
+            if law.constant(LawConstant::Damping).is_some_and(|damping| damping > 0.0) {
+                parameters.push(Parameter::contact_damping(1));
             }
-            if law.restitution().is_some() {
-                parameters.push(Parameter::Restitution { element: 1 });
+            if law.constant(LawConstant::Restitution).is_some() {
+                parameters.push(Parameter::restitution(1));
             }
             if !always_acts(name) && name != "two-sided" {
-                parameters.push(Parameter::Gap { element: 1 });
+                parameters.push(Parameter::gap(1));
             }
             for end in [0.95, 1.4] {
                 let state = settled(&system, 1.7, 8, 0.4);
@@ -274,11 +274,7 @@ fn a_damper_throws_a_held_stop_off() {
             assert_agreement(&system, &stretch, &state, 1e-9, &format!("{coupling} {start}"));
             // Beside a state that is held motions have no two-sided derivative.
             if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
-                let parameters = [
-                    Parameter::ExcitationScale,
-                    Parameter::Gap { element: 0 },
-                    Parameter::Gap { element: 1 },
-                ];
+                let parameters = [Parameter::ExcitationScale, Parameter::gap(0), Parameter::gap(1)];
                 assert_sensitivities(&system, &stretch, &state, &parameters, 2e-6);
                 from_free += 1;
             }

@@ -93,9 +93,9 @@ fn error_by_differences(
 fn parameters() -> Vec<(Parameter, f64)> {
     let mut all = vec![(Parameter::ExcitationScale, 3e-4)];
     all.extend(DAMPINGS);
-    all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-7)));
+    all.extend((0..3).map(|element| (Parameter::gap(element), 2e-7)));
     let stiffnesses = [5e5, 3e4, 8e3, 1e8].into_iter().enumerate();
-    all.extend(stiffnesses.map(|(element, k)| (Parameter::Stiffness { element }, 1e-4 * k)));
+    all.extend(stiffnesses.map(|(element, k)| (Parameter::stiffness(element), 1e-4 * k)));
     all
 }
 
@@ -112,15 +112,15 @@ fn lossy_laws() -> Vec<Law> {
 fn lossy_parameters() -> Vec<(Parameter, f64)> {
     let mut all = vec![
         (Parameter::ExcitationScale, 3e-4),
-        (Parameter::ContactDamping { element: 0 }, 1e-4),
-        (Parameter::ContactDamping { element: 1 }, 1e-3),
-        (Parameter::Restitution { element: 2 }, 1e-4),
+        (Parameter::contact_damping(0), 1e-4),
+        (Parameter::contact_damping(1), 1e-3),
+        (Parameter::restitution(2), 1e-4),
     ];
     all.extend(DAMPINGS);
     // Times of contacts move with the root of the gap where they are slow: the steps are small.
-    all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-8)));
+    all.extend((0..3).map(|element| (Parameter::gap(element), 2e-8)));
     let stiffnesses = [5e5, 3e4, 5e5].into_iter().enumerate();
-    all.extend(stiffnesses.map(|(element, k)| (Parameter::Stiffness { element }, 1e-4 * k)));
+    all.extend(stiffnesses.map(|(element, k)| (Parameter::stiffness(element), 1e-4 * k)));
     all
 }
 
@@ -132,7 +132,7 @@ fn derivatives_by_the_restitution_of_every_model_are_those_of_differences() {
         for restitution in [0.35, 0.8] {
             let law = Law::Restitution(RestitutionStop::new(hertz, model, restitution).unwrap());
             let system = three_modes(&[law], false);
-            let parameter = Parameter::Restitution { element: 0 };
+            let parameter = Parameter::restitution(0);
             let motion = |system: &System| exact(system, 1e-14).advance(&STRETCH, &STATE).unwrap();
             let error = error_by_differences((&system, &STRETCH, &STATE), parameter, 1e-4, motion);
             assert!(error < 1e-7, "{model:?} {restitution}: {error:e}");
@@ -173,7 +173,7 @@ fn derivatives_of_the_beam_agree_over_several_contacts() {
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
         let parameters = [
             (Parameter::ExcitationScale, 3e-5),
-            (Parameter::Stiffness { element: 0 }, 1e-4 * 4.5e9),
+            (Parameter::stiffness(0), 1e-4 * 4.5e9),
             (Parameter::ADDED_DAMPING_RATIO, 1e-6),
         ];
         for (parameter, step) in parameters {
@@ -277,31 +277,31 @@ fn parameters_that_are_not_there_are_refused() {
     let uneven = Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap());
     let system = three_modes(&[preloaded, uneven, Law::Power(PowerSpring::cubic(1e8).unwrap())], false);
     for element in 0..3 {
-        let error = system.parameter(Parameter::Gap { element }).unwrap_err();
+        let error = system.parameter(Parameter::gap(element)).unwrap_err();
         assert!(matches!(error, ParameterError::NoGap { .. }), "{error}");
     }
-    let missing = system.parameter(Parameter::Stiffness { element: 3 }).unwrap_err();
+    let missing = system.parameter(Parameter::stiffness(3)).unwrap_err();
     assert_eq!(missing, ParameterError::NoElement { element: 3, count: 3 });
     for (parameter, value) in [
         (Parameter::ExcitationScale, 0.0),
         (Parameter::ExcitationScale, f64::NAN),
         (Parameter::ADDED_DAMPING_RATIO, -1.0),
-        (Parameter::Stiffness { element: 0 }, -1.0),
+        (Parameter::stiffness(0), -1.0),
         (Parameter::AddedDamping { part: 1 }, -1e3),
         (Parameter::AddedDamping { part: 2 }, 0.0),
-        (Parameter::ContactDamping { element: 0 }, 1.0),
-        (Parameter::Restitution { element: 0 }, 0.5),
+        (Parameter::contact_damping(0), 1.0),
+        (Parameter::restitution(0), 0.5),
     ] {
         assert!(system.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
     }
     let lossy = three_modes(&lossy_laws(), false);
     for (parameter, value) in [
-        (Parameter::ContactDamping { element: 0 }, 0.0),
-        (Parameter::ContactDamping { element: 1 }, f64::INFINITY),
-        (Parameter::ContactDamping { element: 2 }, 1.0),
-        (Parameter::Restitution { element: 1 }, 0.5),
-        (Parameter::Restitution { element: 2 }, 0.0),
-        (Parameter::Restitution { element: 2 }, 1.1),
+        (Parameter::contact_damping(0), 0.0),
+        (Parameter::contact_damping(1), f64::INFINITY),
+        (Parameter::contact_damping(2), 1.0),
+        (Parameter::restitution(1), 0.5),
+        (Parameter::restitution(2), 0.0),
+        (Parameter::restitution(2), 1.1),
     ] {
         assert!(lossy.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
     }

@@ -92,8 +92,8 @@ const PARAMETERS: [Parameter; 5] = [
     Parameter::ExcitationScale,
     Parameter::ADDED_DAMPING_RATIO,
     Parameter::AddedDamping { part: 1 },
-    Parameter::Gap { element: 0 },
-    Parameter::Restitution { element: 0 },
+    Parameter::gap(0),
+    Parameter::restitution(0),
 ];
 
 /// The system with a damper between two points as a further parameter; the support moves with one of them.
@@ -321,11 +321,11 @@ fn what_is_not_followed_is_refused() {
     assert!(matches!(RigidStop::with_gap(-0.1, 0.0), Err(LawError::RigidRestitution { .. })));
     assert!(matches!(RigidStop::with_gap(f64::NAN, 0.0), Err(LawError::RigidRestitution { .. })));
     assert!(matches!(RigidStop::with_gap(0.5, -1e-3), Err(LawError::Gap { .. })));
-    let stiffness = Parameter::Stiffness { element: 0 };
+    let stiffness = Parameter::stiffness(0);
     assert!(matches!(system.parameter(stiffness), Err(ParameterError::NoStiffness { .. })));
-    let other = falling_ball(0.5, 1.0, 1.0).with_parameter(Parameter::Restitution { element: 0 }, 2.0);
+    let other = falling_ball(0.5, 1.0, 1.0).with_parameter(Parameter::restitution(0), 2.0);
     assert!(matches!(other, Err(ParameterError::Law { .. })));
     let beam = beam_with(0.015, crate::common::hertz(1e9, 0.0));
-    let error = beam.parameter(Parameter::Restitution { element: 0 });
+    let error = beam.parameter(Parameter::restitution(0));
     assert!(matches!(error, Err(ParameterError::NoRestitution { .. })));
 }

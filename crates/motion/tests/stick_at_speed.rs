@@ -48,8 +48,7 @@ fn assert_differences(system: &System, state: &[f64], what: &str) {
     let contacts = exact.trace(&STRETCH, state, &[]).unwrap().contacts;
     let hits: Vec<_> = contacts.iter().filter(|contact| contact.element == 0).collect();
     assert!(hits.len() == 1 && hits[0].jump.is_some() && hits[0].end.is_none(), "{what}: {hits:?}");
-    let parameters =
-        [Parameter::ExcitationScale, Parameter::Gap { element: 0 }, Parameter::Stiffness { element: 1 }];
+    let parameters = [Parameter::ExcitationScale, Parameter::gap(0), Parameter::stiffness(1)];
     let count = if system.parameter(parameters[2]).is_ok() { 3 } else { 2 };
     assert_sensitivities(system, &STRETCH, state, &parameters[..count], 2e-6);
     let settings = GeneralSettings::with_tolerance(1e-12);

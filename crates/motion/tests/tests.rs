@@ -14,6 +14,7 @@ mod coupled_damping;
 mod damping_column;
 mod elements;
 mod energy_loss;
+mod every_law;
 mod fast_loads;
 mod general_common;
 mod general_contact;

@@ -249,20 +249,11 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
     })
 }
 
-/// The period and what varies: a word with the period below and the kind of parameter and the number of its
-/// element or part above, and the fixed frequency, if there is one.
+/// The period and what varies: a word with the period below and the code of the parameter above, 0 for the
+/// frequency, and the fixed frequency, if there is one.
 fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationParameter) {
-    let (kind, element) = match varied.parameter() {
-        None => (0, 0),
-        Some(Parameter::ExcitationScale) => (1, 0),
-        Some(Parameter::AddedDamping { part }) => (2, part),
-        Some(Parameter::Gap { element }) => (3, element),
-        Some(Parameter::Stiffness { element }) => (4, element),
-        Some(Parameter::Restitution { element }) => (5, element),
-        Some(Parameter::ContactDamping { element }) => (6, element),
-        Some(Parameter::OfFamily { family }) => (7, family),
-    };
-    out.word(u64::from(period_multiple) | kind << 32 | (element as u64) << 40);
+    let (kind, number) = varied.parameter().map_or((0, 0), Parameter::code);
+    out.word(u64::from(period_multiple) | u64::from(kind) << 32 | (number as u64) << 40);
     if let ContinuationParameter::Other { frequency_hz, .. } = varied {
         out.float(frequency_hz);
     }
@@ -270,18 +261,11 @@ fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationPara
 
 fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> {
     let word = reader.word()?;
-    let element = usize::try_from(word >> 40).ok()?;
-    let parameter = match word >> 32 & 0xff {
-        0 => return Some((word as u32, ContinuationParameter::Frequency)),
-        1 => Parameter::ExcitationScale,
-        2 => Parameter::AddedDamping { part: element },
-        3 => Parameter::Gap { element },
-        4 => Parameter::Stiffness { element },
-        5 => Parameter::Restitution { element },
-        6 => Parameter::ContactDamping { element },
-        7 => Parameter::OfFamily { family: element },
-        _ => return None,
-    };
+    let (kind, number) = ((word >> 32) as u8, usize::try_from(word >> 40).ok()?);
+    if kind == 0 {
+        return Some((word as u32, ContinuationParameter::Frequency));
+    }
+    let parameter = Parameter::of_code((kind, number))?;
     Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))
 }
 

@@ -163,7 +163,7 @@ fn degenerate_flips_over_the_gap_and_over_the_force_are_the_same() {
     let flips = events(&case, range_hz, |events| events.flip);
     let flip = flips.iter().find(|row| (row.solution.frequency_hz / 0.082927 - 1.0).abs() < 1e-5).unwrap();
     let [over_gap, over_force] =
-        [(Parameter::Gap { element: 0 }, (0.2, 2.0)), (FORCE, (0.5, 5.0))].map(|(parameter, range)| {
+        [(Parameter::gap(0), (0.2, 2.0)), (FORCE, (0.5, 5.0))].map(|(parameter, range)| {
             let (rows, _) = curve(&case, flip, CurveKind::Flip, (parameter, range, range_hz));
             let found = marked(&rows, "degenerate-flip");
             found.iter().map(|row| [row.parameter, row.solution.frequency_hz]).collect::<Vec<_>>()

@@ -202,8 +202,7 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         // At that of a rigid stop the multipliers jump: it counts as bracketed.
         let rows = branch_in(Segments::Fixed(4), &case, 0.06, range_hz);
         let first = rows.iter().find(|row| row.events.grazing).unwrap();
-        for (parameter, range) in
-            [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::Gap { element: 0 }, (0.5, 6.0))]
+        for (parameter, range) in [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::gap(0), (0.5, 6.0))]
         {
             for side in [Side::Up, Side::Down] {
                 let settings = settings(parameter, range, range_hz);
@@ -258,7 +257,7 @@ fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches()
     let rows = branch(&case, 0.29, range_hz);
     let grazes = |row: &&BranchRow| row.located.iter().flat_map(|l| &l.contacts).any(|c| c.contact == 1);
     let start = rows.iter().find(grazes).unwrap();
-    let gap = Parameter::Gap { element: 1 };
+    let gap = Parameter::gap(1);
     for (side, range) in [(Side::Up, (0.75, 0.82)), (Side::Down, (0.75, 0.82))] {
         let (rows, end) = curve(
             &case,
@@ -330,7 +329,7 @@ fn neimark_sacker_curves_meet_branches() {
 #[test]
 fn neimark_sacker_curves_pass_resonances() {
     let case = two_modes(1.5, 1.5);
-    let settings = settings(Parameter::Stiffness { element: 1 }, (0.05, 3.0), TWO_MODES_HZ);
+    let settings = settings(Parameter::stiffness(1), (0.05, 3.0), TWO_MODES_HZ);
     let resonances = |hz: f64, side: Side| -> Vec<(u8, f64, f64)> {
         let (rows, _) = curve(&case, &first_of(&case, hz), (CurveKind::NeimarkSacker, side), &settings);
         let marked = rows.iter().filter_map(|row| row.events.resonance.map(|order| (order, row)));

@@ -105,7 +105,7 @@ fn walk(law: Law, gap: f64) -> (Vec<CurveRow>, CurveEnd) {
         maxima: OrbitMaxima::default(),
     };
     let settings = CurveSettings {
-        parameter: Parameter::Gap { element: 0 },
+        parameter: Parameter::gap(0),
         range: (0.5 * gap, 2.0 * gap),
         range_hz: RANGE_HZ,
         max_step: 0.5,

@@ -55,7 +55,7 @@ fn a_curve_ends_where_a_contact_splits() {
         maxima: OrbitMaxima::default(),
     };
     let settings = CurveSettings {
-        parameter: Parameter::Gap { element: 0 },
+        parameter: Parameter::gap(0),
         range: (0.15, 0.6),
         range_hz: (0.06, 0.12),
         max_step: 0.5,

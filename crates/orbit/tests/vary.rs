@@ -82,8 +82,7 @@ fn a_linear_amplitude_grows_with_the_excitation_until_it_grazes() {
 fn gap_and_damping_meet_their_closed_forms() {
     let frequency_hz = 0.15;
     let reach = amplitude(frequency_hz, 0.2);
-    let found =
-        rows(&oscillator(1.5 * reach), (Parameter::Gap { element: 0 }, frequency_hz), Side::Down, (2.0, 8.0));
+    let found = rows(&oscillator(1.5 * reach), (Parameter::gap(0), frequency_hz), Side::Down, (2.0, 8.0));
     let grazing: Vec<f64> =
         found.iter().filter(|row| row.events.grazing).map(|row| row.parameter.unwrap()).collect();
     assert_eq!(grazing.len(), 1);
@@ -102,8 +101,8 @@ fn gap_and_damping_meet_their_closed_forms() {
 fn orbits_of_a_varied_branch_are_orbits_of_the_varied_system() {
     for (case, parameter, frequency_hz, range) in [
         (beam(), Parameter::ExcitationScale, 40.0, (0.5, 1.5)),
-        (beam(), Parameter::Stiffness { element: 0 }, 40.0, (3e9, 6e9)),
-        (duffing(), Parameter::Stiffness { element: 0 }, 0.1, (0.5, 1.5)),
+        (beam(), Parameter::stiffness(0), 40.0, (3e9, 6e9)),
+        (duffing(), Parameter::stiffness(0), 0.1, (0.5, 1.5)),
     ] {
         let found = rows(&case, (parameter, frequency_hz), Side::Up, range);
         let last = found.last().unwrap();

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::rig::changed_study;
+use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
         Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
-        MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
+        MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, StopRest, Structure,
     },
 };
 use serde_json::{Value, json};
@@ -302,50 +303,45 @@ fn stop_text(stop: &Stop, excitation: &Excitation) -> String {
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
-    let law = match stop.law {
-        StopLaw::Hertz { stiffness, approach, side } => {
-            format!("Hertz contact {}, {:e} N/m^1.5, {}", side_text(side), stiffness.value(), rest(approach))
+    format!("\"{}\" {place}: {}", stop.name, law_text(&stop.law))
+}
+
+/// A law by the words of its description, its values and how it rests.
+fn law_text(law: &StopLaw) -> String {
+    let (side, rest) = match law.rest() {
+        StopRest::OneSided { approach, side } => {
+            (format!(" {}", side_text(side)), format!(", {}", rest(approach)))
         }
-        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
-            let damper =
-                if damping_n_s_m > 0.0 { format!(" and {damping_n_s_m} N s/m") } else { String::new() };
-            format!("linear spring {}, {stiffness_n_m} N/m{damper}, {}", side_text(side), rest(approach))
+        StopRest::TwoSided { gap_above_m, gap_below_m, gap_measured } => {
+            let gaps = [gap_above_m, gap_below_m].map(digits);
+            let rest =
+                format!(", gaps {} m above and {} m below ({})", gaps[0], gaps[1], word(&gap_measured));
+            (" on both sides".to_owned(), rest)
         }
-        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => format!(
-            "Hertz contact after Hunt and Crossley {}, {:e} N/m^1.5, loss {loss_s_m} s/m, {}",
-            side_text(side),
-            stiffness.value(),
-            rest(approach)
-        ),
-        StopLaw::Restitution { model, stiffness, restitution, approach, side } => format!(
-            "Hertz contact ({}) {}, {:e} N/m^1.5, coefficient of restitution {restitution}, {}",
-            word(&model),
-            side_text(side),
-            stiffness.value(),
-            rest(approach)
-        ),
-        StopLaw::Rigid { restitution, approach, side } => {
-            format!("rigid {}, coefficient of restitution {restitution}, {}", side_text(side), rest(approach))
-        }
-        StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
-            "linear springs on both sides, {stiffness_n_m} N/m, gaps {} m above and {} m below ({})",
-            digits(gap_above_m),
-            digits(gap_below_m),
-            word(&gap_measured)
-        ),
-        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
-            let terms = [(stiffness_n_m3, "N/m^3"), (stiffness_n_m2, "N/m^2"), (stiffness_n_m, "N/m")];
-            let there = terms.iter().filter(|(constant, _)| *constant != 0.0);
-            let words: Vec<String> = there.map(|(constant, unit)| format!("{constant} {unit}")).collect();
-            format!("cubic spring, {}", words.join(", "))
-        }
-        StopLaw::Formula { ref formula, ref constants } => {
+        StopRest::Always => (String::new(), String::new()),
+    };
+    let values: String = law.in_words().into_iter().map(|(key, value)| value_text(key, value)).collect();
+    format!("{}{side}{values}{rest}", law.description().words.report)
+}
+
+/// The value of a key behind what stands before it.
+fn value_text(key: &LawKey, value: &LawValue) -> String {
+    let number = match value {
+        LawValue::Number(number) => number.to_string(),
+        LawValue::Hertz(stiffness) => format!("{:e}", stiffness.value()),
+        LawValue::Formula(formula, constants) => {
             let with = |(name, value): &(String, f64)| format!(", {name} = {value}");
             let constants: String = constants.iter().map(with).collect();
-            format!("force {formula} N against x, with x in m and v in m/s{constants}")
+            return format!(" {formula} N against x, with x in m and v in m/s{constants}");
         }
     };
-    format!("\"{}\" {place}: {law}", stop.name)
+    let unit = key.quantity().map_or("", |quantity| quantity.unit());
+    let number = format!("{number} {unit}");
+    match key.phrase {
+        LawPhrase::Value => format!(", {}", number.trim_end()),
+        LawPhrase::Named(noun) => format!(", {noun} {}", number.trim_end()),
+        LawPhrase::Beside => format!(" and {}", number.trim_end()),
+    }
 }
 
 fn side_text(side: Side) -> &'static str {

@@ -9,7 +9,7 @@ use hammerbeam_figure::{
 use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{
     Model, Study,
-    file::{End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, Structure},
+    file::{End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure},
 };
 
 /// Rows of the amplitude over the frequency range.
@@ -71,16 +71,12 @@ fn held(end: End) -> (bool, bool) {
 
 /// The sides on which a stop stands; a spring that always acts is none.
 fn sides(law: &StopLaw) -> &'static [bool] {
-    let side = match law {
-        StopLaw::Hertz { side, .. }
-        | StopLaw::HuntCrossley { side, .. }
-        | StopLaw::Restitution { side, .. }
-        | StopLaw::Linear { side, .. }
-        | StopLaw::Rigid { side, .. } => side,
-        StopLaw::TwoSided { .. } => return &[true, false],
-        StopLaw::Cubic { .. } | StopLaw::Formula { .. } => return &[],
-    };
-    if *side == Side::Above { &[true] } else { &[false] }
+    match law.rest() {
+        StopRest::OneSided { side: Side::Above, .. } => &[true],
+        StopRest::OneSided { side: Side::Below, .. } => &[false],
+        StopRest::TwoSided { .. } => &[true, false],
+        StopRest::Always => &[],
+    }
 }
 
 fn position(study: &Study, name: &str) -> Option<f64> {

@@ -6,9 +6,10 @@ use hammerbeam_figure::{
     Figure, FigureError, FrequencyUnit, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink,
     SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
 };
+use hammerbeam_motion::law::LawSymbol;
 use hammerbeam_study::{
     Study,
-    file::{Approach, Beam, End, FixedTo, Lumped, Place, Side, Stop, StopLaw, Structure},
+    file::{Approach, Beam, End, FixedTo, Lumped, Place, Side, Stop, StopRest, Structure},
 };
 
 /// Most masses that stand well in one column.
@@ -92,18 +93,22 @@ fn sketched_stop(stop: &Stop) -> SketchStop {
         Place::At { point, fixed_to: FixedTo::Space } => (point, SketchCarrier::Space),
         Place::Between { first, second } => (first, SketchCarrier::Point(second.clone())),
     };
-    let is_open = |approach: Approach| matches!(approach, Approach::Gap { gap_m, .. } if gap_m > 0.0);
-    let (kind, side, has_gap) = match stop.law {
-        StopLaw::Hertz { approach, side, .. } => (StopKind::Sphere { loses: false }, side, is_open(approach)),
-        StopLaw::HuntCrossley { approach, side, .. } | StopLaw::Restitution { approach, side, .. } => {
-            (StopKind::Sphere { loses: true }, side, is_open(approach))
+    let kind = match stop.law.description().symbol {
+        LawSymbol::Sphere => StopKind::Sphere { loses: false },
+        LawSymbol::LossySphere => StopKind::Sphere { loses: true },
+        LawSymbol::Spring => StopKind::Spring,
+        LawSymbol::Wall => StopKind::Rigid,
+        LawSymbol::TwoSprings => StopKind::TwoSided,
+        LawSymbol::ActiveSpring => StopKind::Always,
+    };
+    let (side, has_gap) = match stop.law.rest() {
+        StopRest::OneSided { approach, side } => {
+            (side, matches!(approach, Approach::Gap { gap_m, .. } if gap_m > 0.0))
         }
-        StopLaw::Linear { approach, side, .. } => (StopKind::Spring, side, is_open(approach)),
-        StopLaw::Rigid { approach, side, .. } => (StopKind::Rigid, side, is_open(approach)),
-        StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
-            (StopKind::TwoSided, Side::Above, gap_above_m.max(gap_below_m) > 0.0)
+        StopRest::TwoSided { gap_above_m, gap_below_m, .. } => {
+            (Side::Above, gap_above_m.max(gap_below_m) > 0.0)
         }
-        StopLaw::Cubic { .. } | StopLaw::Formula { .. } => (StopKind::Always, Side::Below, false),
+        StopRest::Always => (Side::Below, false),
     };
     SketchStop { point: point.clone(), carrier, kind, above: side == Side::Above, has_gap }
 }

@@ -7,7 +7,8 @@
 //!   `a`.
 //! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V -
 //!   level_g`. The gap of a rigid stop that holds the structure moves the particular solution (`held.rs`).
-//! - Stiffness: `f_p = F/k`. Damping and restitution of a contact: `f_p` by the law (`damped_step.rs`).
+//! - Another constant of a law: `f_p` by the law, as `F/k` for a stiffness (of forces that depend on the
+//!   velocity in `damped_step.rs`).
 //! - A number of a family: differences (`by_family.rs`).
 //! - Added damping: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
 
@@ -22,7 +23,7 @@ use super::{
     run::Run,
     sensitivity::Sensitivity,
 };
-use crate::{Law, Parameter, System};
+use crate::{Law, LawConstant, Parameter, System, law::ForcePoint};
 
 impl ForceStep {
     /// Adds what the parameter has in the equations for the displacements.
@@ -38,17 +39,20 @@ impl ForceStep {
         for (a, &e) in self.active.iter().enumerate() {
             let values: [f64; NODES] = match parameter {
                 Parameter::ExcitationScale => drive.values_by_scale(e, &outputs[e], span, c),
-                Parameter::Gap { element } if element == e => {
+                Parameter::OfLaw { element, constant: LawConstant::Gap } if element == e => {
                     std::array::from_fn(|k| -laws[e].level_by_gap(self.displacement[a * NODES + k]))
                 }
-                Parameter::Stiffness { element } => {
-                    let Some(b) = self.active.iter().position(|&other| other == element) else { return };
-                    let (w, force) = (&self.weights.convolution[a * count + b], &self.force[b * NODES..]);
-                    let stiffness = laws[element].stiffness();
-                    std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
-                }
-                Parameter::AddedDamping { .. } | Parameter::Gap { .. } if !self.driven.nodes.is_empty() => {
+                Parameter::AddedDamping { .. } | Parameter::OfLaw { constant: LawConstant::Gap, .. }
+                    if !self.driven.nodes.is_empty() =>
+                {
                     std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
+                }
+                Parameter::OfLaw { constant: LawConstant::Gap, .. } => continue,
+                Parameter::OfLaw { element, constant } => {
+                    let Some(b) = self.active.iter().position(|&other| other == element) else { return };
+                    let (w, (part, of)) =
+                        (&self.weights.convolution[a * count + b], self.direct(b, constant, laws));
+                    std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * part[j] / of).sum())
                 }
                 _ => continue,
             };
@@ -64,12 +68,27 @@ impl ForceStep {
         laws: &[Law],
         (column, columns): (usize, usize),
     ) {
-        let Parameter::Stiffness { element } = parameter else { return };
+        let Parameter::OfLaw { element, constant } = parameter else { return };
         let Some(a) = self.active.iter().position(|&e| e == element) else { return };
-        let stiffness = laws[element].stiffness();
+        if constant == LawConstant::Gap {
+            return;
+        }
+        let (part, of) = self.direct(a, constant, laws);
         let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
-        rows.zip(&self.force[a * NODES..(a + 1) * NODES])
-            .for_each(|(row, force)| row[column] += force / stiffness);
+        rows.zip(part).for_each(|(row, part)| row[column] += part / of);
+    }
+
+    /// `f_p` of the a-th active element at the nodes, times the second number.
+    fn direct(&self, a: usize, constant: LawConstant, laws: &[Law]) -> ([f64; NODES], f64) {
+        let law = &laws[self.active[a]];
+        if let Some(value) = law.proportional_to(constant) {
+            return (std::array::from_fn(|k| self.force[a * NODES + k]), value);
+        }
+        let by_constant = |k: usize| {
+            let (displacement, force) = (self.displacement[a * NODES + k], self.force[a * NODES + k]);
+            law.by_constant(constant, ForcePoint { displacement, velocity: 0.0, force })
+        };
+        (std::array::from_fn(by_constant), 1.0)
     }
 }
 
@@ -164,7 +183,8 @@ impl ExactIntegrator {
         let by_damping = self.damping_in_use().map(|by_damping| &by_damping.drive);
         match (parameter, by_damping, held.and_then(|holding| holding.by_level.as_ref())) {
             (Parameter::ExcitationScale, ..) => self.drive.add_state_by_scale(time, factor, column),
-            (Parameter::AddedDamping { .. }, Some(drive), _) | (Parameter::Gap { .. }, _, Some(drive)) => {
+            (Parameter::AddedDamping { .. }, Some(drive), _)
+            | (Parameter::OfLaw { constant: LawConstant::Gap, .. }, _, Some(drive)) => {
                 drive.add_state(time, factor, column);
             }
             _ => {}

@@ -23,7 +23,7 @@ use super::{
     output::Output,
     sensitivity::Sensitivity,
 };
-use crate::{Law, Parameter};
+use crate::{Law, LawConstant, Parameter, law::ForcePoint};
 
 impl ForceStep {
     /// Solves for displacements and velocities from the guess of them, until what is left is below
@@ -196,8 +196,8 @@ impl ForceStep {
                 }
                 if let Some((parameter, column)) = last {
                     let (r, v) = (self.displacement[i], self.velocity[i]);
-                    target[k * columns + column] +=
-                        by_parameter(parameter, e, &laws[e], (r, v), self.slope[i]);
+                    let at = ForcePoint { displacement: r, velocity: v, force: self.force[i] };
+                    target[k * columns + column] += by_parameter(parameter, e, &laws[e], at, self.slope[i]);
                     if let (Some(value), Some(rate)) = (self.driven.nodes.get(i), self.driven.rates.get(i)) {
                         target[k * columns + column] += self.slope[i] * value + self.damping[i] * rate;
                     }
@@ -214,13 +214,11 @@ impl ForceStep {
 }
 
 /// `f_p` of an element.
-fn by_parameter(parameter: Parameter, element: usize, law: &Law, (r, v): (f64, f64), slope: f64) -> f64 {
-    match parameter {
-        Parameter::Gap { element: other } if other == element => -slope * law.level_by_gap(r),
-        Parameter::Stiffness { element: other } if other == element => law.by_stiffness(r, v),
-        Parameter::ContactDamping { element: other } if other == element => law.by_damping(r, v),
-        Parameter::Restitution { element: other } if other == element => law.by_restitution(r, v),
-        _ => 0.0,
+fn by_parameter(parameter: Parameter, element: usize, law: &Law, at: ForcePoint, slope: f64) -> f64 {
+    match parameter.constant_of(element) {
+        Some(LawConstant::Gap) => -slope * law.level_by_gap(at.displacement),
+        Some(constant) => law.by_constant(constant, at),
+        None => 0.0,
     }
 }
 

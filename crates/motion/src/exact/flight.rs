@@ -6,8 +6,9 @@ use super::{
     drive::Jet,
     run::Run,
 };
+use crate::Law;
 
-/// A contact without force that crosses one of its boundaries.
+/// A contact that crosses one of its boundaries, most of them without force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Touch {
     pub element: usize,
@@ -15,7 +16,7 @@ pub(crate) struct Touch {
     pub boundary: Boundary,
 }
 
-/// Where a contact without force goes.
+/// Where such a contact goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Boundary {
     /// It was open and closes.
@@ -26,6 +27,8 @@ pub(crate) enum Boundary {
     Leaves,
     /// It was held on a rigid stop, and its pressing force ends.
     Lifts,
+    /// It is closed and comes to a kink of its force, with more penetration or with less.
+    Kink { deeper: bool },
 }
 
 /// Looks allowed in one flight; about twenty are usual.
@@ -170,6 +173,11 @@ impl ExactIntegrator {
         }
         let law = &self.laws[touch.element];
         let c = law.contacts()[touch.contact];
+        if let Boundary::Kink { deeper } = touch.boundary {
+            let towards = if deeper { c.sign } else { -c.sign };
+            let level = law.kinks()[usize::from(deeper)].unwrap_or(f64::NAN);
+            return clearance_of(displacement, level, towards);
+        }
         let clearance = clearance_of(displacement, c.level, c.sign);
         let penetration = clearance_of(clearance, 0.0, 1.0);
         match (touch.boundary, law.pressure()) {
@@ -226,8 +234,9 @@ impl ExactIntegrator {
         }
         // The pressing forces, after the elements, have no level.
         let law = self.laws.get(element);
-        let level =
-            law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level.abs()).fold(0.0, f64::max);
+        let levels = law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level);
+        let kinks = law.map_or([None; 2], Law::kinks).into_iter().flatten();
+        let level = levels.chain(kinks).map(f64::abs).fold(0.0, f64::max);
         ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
     }
 }

@@ -109,6 +109,7 @@ impl ExactIntegrator {
         if !sensitivities || self.goes_on {
             self.recall_impacts(stretch, state, run.sensitivity.as_mut());
         }
+        self.find_pieces(&run);
         run.closed.clear();
         run.parted.clear();
         for element in 0..self.laws.len() {
@@ -224,6 +225,7 @@ impl ExactIntegrator {
                 run.pressed = Some(touch.element);
             }
             Boundary::Lifts => self.lift(run, touch.element)?,
+            Boundary::Kink { deeper } => self.cross_kink(touch.element, deeper),
             Boundary::Closes if self.laws[touch.element].rigid().is_some() => {
                 self.strike_rigid(run, touch)?;
             }
@@ -243,6 +245,7 @@ impl ExactIntegrator {
         self.trace_touch(run, touch);
         self.jump_at_onset(run, touch);
         self.remember_impact(run, touch);
+        self.start_with_first_piece(touch);
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();

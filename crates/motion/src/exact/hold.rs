@@ -11,7 +11,7 @@
 use super::{
     ExactIntegrator, MotionError, by_damping::ByDamping, drive::Drive, flight::Boundary, held::Held, run::Run,
 };
-use crate::{Parameter, Stretch};
+use crate::{LawConstant, Parameter, Stretch};
 
 /// A held structure in use; its place is taken by the free one meanwhile.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl ExactIntegrator {
         };
         held.begin(&self.system, &self.stretch);
         let by_level = match self.parameter {
-            Some(Parameter::Gap { element }) => elements
+            Some(Parameter::OfLaw { element, constant: LawConstant::Gap }) => elements
                 .iter()
                 .position(|e| *e == element)
                 .map(|j| held.by_level(&self.system, &self.stretch, j)),

@@ -174,9 +174,8 @@ impl ExactIntegrator {
         let input = &self.inputs[touch.element];
         let carried = self.blocks.system_times_column(input);
         let Some(sensitivity) = &mut run.sensitivity else { return };
-        if let Some((crate::Parameter::Restitution { element }, column)) =
-            self.parameter.zip(sensitivity.parameter_column())
-            && element == touch.element
+        if let Some((parameter, column)) = self.parameter.zip(sensitivity.parameter_column())
+            && parameter == crate::Parameter::restitution(touch.element)
         {
             by_impulse[column] -= before.slope / mobility;
         }

@@ -22,6 +22,7 @@
 //! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last, and corners beyond the ends |
 //! | `brief_opening.rs` | contacts that open for an instant between two presses |
 //! | `touches.rs` | what of the touches of a stretch counts in an orbit |
+//! | `kink.rs` | kinks of the force of a closed contact |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `enclosure.rs` | proof that closed contacts stay closed all through a step |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
@@ -68,6 +69,7 @@ mod held;
 mod hidden_turn;
 mod hold;
 mod impact;
+mod kink;
 mod lanes;
 mod lu;
 mod maxima;

@@ -65,7 +65,8 @@ const WINDOWS: usize = 4;
 pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact that closes within the solved step, and when. That of `event` closes at its
+    /// The first open contact that closes within the solved step, or closed one that comes to a kink, and
+    /// when. That of `event` closes at its
     /// end, those `excused` are not looked for.
     pub(super) fn first_touch_in_step(
         &mut self,
@@ -74,17 +75,21 @@ impl ExactIntegrator {
         excused: &[Event],
     ) -> Result<Option<(Touch, f64)>, Unresolved> {
         let mut first: Option<(Touch, f64)> = None;
-        let is_open = |e: &usize| {
-            run.closed[*e].is_none() && !self.laws[*e].contacts().is_empty() && !run.stuck.contains(e)
+        let is_watched = |e: &usize| match run.closed[*e] {
+            Some(_) => self.laws[*e].has_kinks(),
+            None => !self.laws[*e].contacts().is_empty() && !run.stuck.contains(e),
         };
-        let open: Vec<usize> = (0..self.laws.len()).filter(is_open).collect();
-        if open.is_empty() {
+        let watched: Vec<usize> = (0..self.laws.len()).filter(is_watched).collect();
+        if watched.is_empty() {
             return Ok(None);
         }
         let forced = Forced::new(self);
-        for element in open {
+        for element in watched {
             let from = self.looked_past(run, element);
-            for touch in self.watched(element, run.parted[element]) {
+            let closed = run.closed[element];
+            let open = closed.is_none().then(|| self.watched(element, run.parted[element]));
+            let kinks = closed.map(|contact| self.watched_kinks(element, contact));
+            for touch in open.into_iter().flatten().chain(kinks.into_iter().flatten()) {
                 if excused.contains(&Event::Touch(touch)) {
                     continue;
                 }

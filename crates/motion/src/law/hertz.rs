@@ -1,6 +1,9 @@
 //! Hertz contact of two spheres.
 
-use super::{Contact, Force, LawError};
+use super::{
+    Contact, Force, ForceLaw, HertzStiffness, LawConstant, LawDescription, LawError, LawIdentity, LawKey,
+    LawPart, LawRest, LawSides, LawSymbol, LawWords, force_law::no_constant, one_sided,
+};
 
 /// One-sided stop after Hertz.
 ///
@@ -22,10 +25,7 @@ impl HertzStop {
     /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless finite and not negative.
     pub fn with_gap(stiffness: f64, gap: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
-        Ok(Self {
-            stiffness,
-            contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.5 }],
-        })
+        Ok(Self { stiffness, contact: one_sided(super::valid_gap(gap)?, 1.5) })
     }
 
     /// A stop that presses on the undeformed structure with `preload` [N].
@@ -36,7 +36,7 @@ impl HertzStop {
     pub fn with_preload(stiffness: f64, preload: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
         let level = -(super::valid_preload(preload)? / stiffness).powf(2.0 / 3.0);
-        Ok(Self { stiffness, contact: [Contact { level, sign: 1.0, onset_exponent: 1.5 }] })
+        Ok(Self { stiffness, contact: one_sided(level, 1.5) })
     }
 
     /// The constant `k` [N/m^1.5] of two spheres in contact.
@@ -53,16 +53,23 @@ impl HertzStop {
         4.0 / 3.0 / compliance / curvature.sqrt()
     }
 
-    pub(super) fn stiffness(&self) -> f64 {
-        self.stiffness
+    /// A stop whose force begins at the relative displacement `level` [m], or one that presses.
+    ///
+    /// # Errors
+    /// As [`HertzStop::with_gap`] and [`HertzStop::with_preload`].
+    pub(super) fn resting(stiffness: f64, rest: LawRest) -> Result<Self, LawError> {
+        match rest {
+            LawRest::Preload(preload) => Self::with_preload(stiffness, preload),
+            LawRest::Level(level) if level < 0.0 => {
+                Self::with_preload(stiffness, stiffness * (-level).powf(1.5))
+            }
+            LawRest::Level(level) => Self::with_gap(stiffness, level),
+        }
     }
+}
 
-    pub(super) fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
-        super::positive_stiffness(stiffness)?;
-        Ok(Self { stiffness, ..*self })
-    }
-
-    pub(super) fn force(&self, displacement: f64) -> Force {
+impl ForceLaw for HertzStop {
+    fn force(&self, displacement: f64, _: f64) -> Force {
         let penetration = displacement - self.contact[0].level;
         if penetration <= 0.0 {
             return Force::ZERO;
@@ -71,7 +78,54 @@ impl HertzStop {
         Force::elastic(-self.stiffness * penetration * root, -1.5 * self.stiffness * root)
     }
 
-    pub(super) fn contacts(&self) -> &[Contact] {
+    fn contacts(&self) -> &[Contact] {
         &self.contact
     }
+
+    fn constant(&self, constant: LawConstant) -> Option<f64> {
+        (constant == LawConstant::Stiffness).then_some(self.stiffness)
+    }
+
+    fn with_constant(&self, constant: LawConstant, value: f64) -> Result<Self, LawError> {
+        match constant {
+            LawConstant::Gap => Self::with_gap(self.stiffness, value),
+            LawConstant::Stiffness => {
+                super::positive_stiffness(value)?;
+                Ok(Self { stiffness: value, ..*self })
+            }
+            other => no_constant("a Hertz contact", other),
+        }
+    }
+
+    fn proportional_to(&self, constant: LawConstant) -> Option<f64> {
+        self.constant(constant)
+    }
 }
+
+impl HertzStiffness {
+    /// The constant [N/m^1.5].
+    #[must_use]
+    pub fn value(self) -> f64 {
+        match self {
+            Self::Given(stiffness) => stiffness,
+            Self::Spheres { radii_m, moduli_pa, poisson_ratios } => {
+                let radii = radii_m.map(|radius| radius.unwrap_or(f64::INFINITY));
+                HertzStop::stiffness_of_spheres(radii, moduli_pa, poisson_ratios)
+            }
+        }
+    }
+}
+
+pub(super) static DESCRIPTION: LawDescription = LawDescription {
+    name: "hertz",
+    identity: LawIdentity::Named("hertz"),
+    force: "k d^1.5",
+    sides: LawSides::One {
+        no_preload: None,
+        build: |values, rest| Ok(LawPart::whole(HertzStop::resting(values.number(0), rest)?.into())),
+    },
+    keys: &[LawKey::hertz_stiffness()],
+    alternative: None,
+    symbol: LawSymbol::Sphere,
+    words: LawWords { report: "Hertz contact", caption: "Hertz contact", last_first: false },
+};

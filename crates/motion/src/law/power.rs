@@ -1,6 +1,9 @@
 //! Springs whose force is a power of the displacement, always active.
 
-use super::{Force, LawError};
+use super::{
+    Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawKey, LawKeyKind, LawPart,
+    LawSides, LawSymbol, LawValues, LawWords, Quantity, VariesAs, force_law::no_constant, quantity::Bound,
+};
 
 /// Degree of a [`PowerSpring`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,21 +46,10 @@ impl PowerSpring {
     pub fn cubic(stiffness: f64) -> Result<Self, LawError> {
         Self::new(stiffness, Degree::Cubic)
     }
+}
 
-    /// Whether the force of the opposite displacement is the opposite one.
-    pub(crate) fn is_odd(&self) -> bool {
-        self.degree != Degree::Quadratic
-    }
-
-    pub(super) fn stiffness(&self) -> f64 {
-        self.stiffness
-    }
-
-    pub(super) fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
-        Self::new(stiffness, self.degree)
-    }
-
-    pub(super) fn force(&self, displacement: f64) -> Force {
+impl ForceLaw for PowerSpring {
+    fn force(&self, displacement: f64, _: f64) -> Force {
         let (k, square) = (self.stiffness, displacement * displacement);
         match self.degree {
             Degree::Linear => Force::elastic(-k * displacement, -k),
@@ -65,4 +57,59 @@ impl PowerSpring {
             Degree::Cubic => Force::elastic(-k * square * displacement, -3.0 * k * square),
         }
     }
+
+    fn is_odd(&self) -> bool {
+        self.degree != Degree::Quadratic
+    }
+
+    fn constant(&self, constant: LawConstant) -> Option<f64> {
+        (constant == LawConstant::Stiffness).then_some(self.stiffness)
+    }
+
+    fn with_constant(&self, constant: LawConstant, value: f64) -> Result<Self, LawError> {
+        match constant {
+            LawConstant::Stiffness => Self::new(value, self.degree),
+            other => no_constant("a spring", other),
+        }
+    }
+
+    fn proportional_to(&self, constant: LawConstant) -> Option<f64> {
+        self.constant(constant)
+    }
+}
+
+/// A term of the spring.
+const fn term(name: &'static str, symbol: &'static str, unit: &'static str, most: f64) -> LawKey {
+    let quantity = Quantity::new(unit, Bound::Including(-most), Bound::Including(most));
+    LawKey { kind: LawKeyKind::Term { quantity }, ..LawKey::number(name, symbol, quantity) }
+}
+
+pub(super) static DESCRIPTION: LawDescription = LawDescription {
+    name: "cubic",
+    identity: LawIdentity::Named("cubic"),
+    force: "k1 r + k2 r^2 + k3 r^3",
+    sides: LawSides::Always { build: of_terms },
+    keys: &[
+        term("stiffness_n_m", "k1", "N/m", 1e18),
+        term("stiffness_n_m2", "k2", "N/m^2", 1e24),
+        LawKey {
+            varies: Some(VariesAs::UnlessZero(LawConstant::Stiffness)),
+            ..term("stiffness_n_m3", "k3", "N/m^3", 1e30)
+        },
+    ],
+    alternative: None,
+    symbol: LawSymbol::ActiveSpring,
+    words: LawWords { report: "cubic spring", caption: "cubic spring", last_first: true },
+};
+
+/// An element for each term that there is, the cubic one with the name of the stop.
+fn of_terms(values: LawValues<'_>) -> Result<Vec<LawPart>, LawError> {
+    let terms =
+        [(2, Degree::Cubic, ""), (1, Degree::Quadratic, " (quadratic)"), (0, Degree::Linear, " (linear)")];
+    let there = terms.into_iter().filter(|(key, ..)| values.number(*key) != 0.0);
+    let part = |(key, degree, suffix)| {
+        let law = PowerSpring::new(values.number(key), degree)?.into();
+        Ok(LawPart { suffix, law, is_turned: false })
+    };
+    there.map(part).collect()
 }

@@ -23,7 +23,11 @@
 //! contact on: such a law says nothing of pressing without an impact. A touch that turns by itself, `p'' <
 //! 0`, is harmless: its force goes like `v^3`.
 
-use super::{Contact, Force, HertzStop, LawError, Pressure, hunt_crossley::damped_hertz};
+use super::{
+    Contact, Force, ForceLaw, ForcePoint, HertzStop, LawAlternative, LawConstant, LawDescription, LawError,
+    LawIdentity, LawKey, LawPart, LawSides, LawSymbol, LawWords, NoPreload, Pressure, Quantity,
+    hunt_crossley::damped_hertz, quantity::Bound,
+};
 
 /// How the loss follows from the coefficient of restitution; formulas and sources see the module.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -122,62 +126,129 @@ impl RestitutionStop {
     pub fn model(&self) -> RestitutionModel {
         self.model
     }
+}
 
-    pub(super) fn restitution(&self) -> f64 {
-        self.restitution
-    }
-
-    pub(super) fn with_restitution(&self, restitution: f64) -> Result<Self, LawError> {
-        Ok(Self { impact_speed: self.impact_speed, ..Self::new(self.elastic, self.model, restitution)? })
-    }
-
-    pub(super) fn struck_at(&self, impact_speed: f64) -> Self {
-        Self { impact_speed, ..*self }
-    }
-
-    pub(super) fn impact_speed(&self) -> f64 {
-        self.impact_speed
-    }
-
-    pub(super) fn is_struck(&self) -> bool {
-        self.impact_speed.is_finite()
-    }
-
-    pub(super) fn with_elastic(&self, elastic: HertzStop) -> Self {
-        Self { elastic, ..*self }
-    }
-
-    pub(super) fn elastic(&self) -> &HertzStop {
-        &self.elastic
-    }
-
-    pub(super) fn force(&self, displacement: f64, velocity: f64) -> Force {
+impl ForceLaw for RestitutionStop {
+    fn force(&self, displacement: f64, velocity: f64) -> Force {
         let force = self.pressing_force(displacement, velocity);
         if force.value < 0.0 { force } else { Force::ZERO }
     }
 
-    pub(super) fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
+    fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
         damped_hertz(&self.elastic, self.factor / self.impact_speed, displacement, velocity)
     }
 
-    /// `df/dv = k p^1.5 c p'/v^2`.
-    pub(super) fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
-        let speed = self.impact_speed;
-        -self.elastic.force(displacement).value * self.factor * velocity / (speed * speed)
-    }
-
-    /// `df/de = -k p^1.5 c'(e) p'/v`.
-    pub(super) fn by_restitution(&self, displacement: f64, velocity: f64) -> f64 {
-        let force = self.elastic.force(displacement).value;
-        force * self.model.slope(self.restitution) * velocity / self.impact_speed
+    fn contacts(&self) -> &[Contact] {
+        self.elastic.contacts()
     }
 
     /// `1 + c p'/v`.
-    pub(super) fn pressure(&self) -> Pressure {
-        Pressure { displacement: 0.0, velocity: self.factor / self.impact_speed, offset: 1.0 }
+    fn pressure(&self) -> Option<Pressure> {
+        Some(Pressure { displacement: 0.0, velocity: self.factor / self.impact_speed, offset: 1.0 })
     }
 
-    pub(super) fn contacts(&self) -> &[Contact] {
-        self.elastic.contacts()
+    fn constant(&self, constant: LawConstant) -> Option<f64> {
+        match constant {
+            LawConstant::Restitution => Some(self.restitution),
+            other => self.elastic.constant(other),
+        }
+    }
+
+    fn with_constant(&self, constant: LawConstant, value: f64) -> Result<Self, LawError> {
+        match constant {
+            LawConstant::Restitution => {
+                Ok(Self { impact_speed: self.impact_speed, ..Self::new(self.elastic, self.model, value)? })
+            }
+            other => Ok(Self { elastic: self.elastic.with_constant(other, value)?, ..*self }),
+        }
+    }
+
+    fn proportional_to(&self, constant: LawConstant) -> Option<f64> {
+        self.elastic.proportional_to(constant)
+    }
+
+    /// `df/de = -k p^1.5 c'(e) p'/v`.
+    fn by_constant(&self, constant: LawConstant, at: ForcePoint) -> f64 {
+        match constant {
+            LawConstant::Restitution => {
+                let force = self.elastic.force(at.displacement, 0.0).value;
+                force * self.model.slope(self.restitution) * at.velocity / self.impact_speed
+            }
+            other => self.elastic.by_constant(other, at),
+        }
+    }
+
+    fn remembers_impact(&self) -> bool {
+        true
+    }
+
+    fn struck_at(&self, impact_speed: f64) -> Self {
+        Self { impact_speed, ..*self }
+    }
+
+    fn impact_speed(&self) -> f64 {
+        self.impact_speed
+    }
+
+    fn is_struck(&self) -> bool {
+        self.impact_speed.is_finite()
+    }
+
+    /// `df/dv = k p^1.5 c p'/v^2`.
+    fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
+        let speed = self.impact_speed;
+        -self.elastic.force(displacement, 0.0).value * self.factor * velocity / (speed * speed)
     }
 }
+
+/// The coefficient of restitution.
+const RESTITUTION: Quantity = Quantity::new("", Bound::Excluding(0.0), Bound::Including(1.0));
+
+/// The law of a model.
+macro_rules! described {
+    ($model:ident, $name:literal, $alternative:expr) => {
+        LawDescription {
+            name: $name,
+            identity: LawIdentity::Model { family: "restitution", model: $name },
+            force: "k d^1.5 (1 + C d'/v)",
+            sides: LawSides::One {
+                no_preload: Some(NoPreload {
+                    why: "the law needs the speed of each impact",
+                    allowed: "allowed: a gap; a contact that is closed at rest has no impact to remember",
+                }),
+                build: |values, rest| {
+                    let elastic = HertzStop::resting(values.number(0), rest)?;
+                    let stop = RestitutionStop::new(elastic, RestitutionModel::$model, values.number(1))?;
+                    Ok(LawPart::whole(stop.into()))
+                },
+            },
+            keys: &[
+                LawKey::hertz_stiffness(),
+                LawKey::number("restitution", "e", RESTITUTION)
+                    .named("coefficient of restitution")
+                    .varying(LawConstant::Restitution),
+            ],
+            alternative: $alternative,
+            symbol: LawSymbol::LossySphere,
+            words: LawWords {
+                report: concat!("Hertz contact (", $name, ")"),
+                caption: "Hertz contact",
+                last_first: false,
+            },
+        }
+    };
+}
+
+pub(super) static DESCRIPTIONS: [LawDescription; 7] = [
+    described!(
+        HuntCrossley,
+        "hunt-crossley",
+        Some(LawAlternative { own: "restitution", other: "loss_s_m", is_default: false })
+    ),
+    described!(HerbertMcWhannell, "herbert-mcwhannell", None),
+    described!(LeeWang, "lee-wang", None),
+    described!(LankaraniNikravesh, "lankarani-nikravesh", None),
+    described!(Gonthier, "gonthier", None),
+    described!(Flores, "flores", None),
+    described!(HuGuo, "hu-guo", None),
+];

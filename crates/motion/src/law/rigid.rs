@@ -1,6 +1,9 @@
 //! Rigid stop with a coefficient of restitution.
 
-use super::{Contact, Force, LawError};
+use super::{
+    Contact, Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawKey, LawPart, LawRest,
+    LawSides, LawSymbol, LawWords, NoPreload, Quantity, force_law::no_constant, quantity::Bound,
+};
 
 /// Rigid stop with a coefficient of restitution.
 ///
@@ -35,7 +38,7 @@ impl RigidStop {
         if !level.is_finite() {
             return Err(LawError::Gap { found: level });
         }
-        let contact = [Contact { level, sign: 1.0, onset_exponent: 1.0 }];
+        let contact = super::one_sided(level, 1.0);
         Self { restitution, contact }.with_restitution(restitution)
     }
 
@@ -62,12 +65,55 @@ impl RigidStop {
             Err(LawError::RigidRestitution { found: restitution })
         }
     }
+}
 
-    pub(super) fn force() -> Force {
+impl ForceLaw for RigidStop {
+    fn force(&self, _: f64, _: f64) -> Force {
         Force::ZERO
     }
 
-    pub(super) fn contacts(&self) -> &[Contact] {
+    fn contacts(&self) -> &[Contact] {
         &self.contact
     }
+
+    fn linear_beyond(&self) -> Option<f64> {
+        Some(self.contact[0].level.abs())
+    }
+
+    fn constant(&self, constant: LawConstant) -> Option<f64> {
+        (constant == LawConstant::Restitution).then_some(self.restitution)
+    }
+
+    fn with_constant(&self, constant: LawConstant, value: f64) -> Result<Self, LawError> {
+        match constant {
+            LawConstant::Gap => Self::with_gap(self.restitution, value),
+            LawConstant::Restitution => self.with_restitution(value),
+            other => no_constant("a rigid stop", other),
+        }
+    }
 }
+
+/// The coefficient of restitution.
+const RESTITUTION: Quantity = Quantity::new("", Bound::Including(0.0), Bound::Including(1.0));
+
+pub(super) static DESCRIPTION: LawDescription = LawDescription {
+    name: "rigid",
+    identity: LawIdentity::Named("rigid"),
+    force: "none: `r` never passes the gap, and an impact with the speed v goes back with `e v`; see below",
+    sides: LawSides::One {
+        no_preload: Some(NoPreload {
+            why: "a rigid stop has no stiffness to press with",
+            allowed: "allowed: a gap",
+        }),
+        build: |values, rest| match rest {
+            LawRest::Level(level) => Ok(LawPart::whole(RigidStop::at_level(values.number(0), level)?.into())),
+            LawRest::Preload(_) => Err(LawError::NoConstant { law: "a rigid stop", constant: "preload" }),
+        },
+    },
+    keys: &[LawKey::number("restitution", "e", RESTITUTION)
+        .named("coefficient of restitution")
+        .varying(LawConstant::Restitution)],
+    alternative: None,
+    symbol: LawSymbol::Wall,
+    words: LawWords { report: "rigid", caption: "rigid", last_first: false },
+};

@@ -3,7 +3,7 @@
 use faer::c64;
 
 use super::System;
-use crate::{Law, LocalElement};
+use crate::LocalElement;
 
 impl System {
     /// Whether `q(t) -> -q(t + T/2)` takes motions to motions, T being the excitation period: all loads are
@@ -31,16 +31,6 @@ impl System {
                 && opposite(&other.support_ratios, &element.support_ratios)
                 && opposite(&other.shape, &element.shape)
         };
-        is_odd(&element.law) || self.elements.iter().any(is_opposite)
-    }
-}
-
-/// Whether a force changes its sign with the displacement.
-fn is_odd(law: &Law) -> bool {
-    match law {
-        Law::Power(law) => law.is_odd(),
-        Law::Formula(law) => law.is_odd(),
-        Law::TwoSided(_) => law.gap().is_some(),
-        _ => false,
+        element.law.is_odd() || self.elements.iter().any(is_opposite)
     }
 }

@@ -1,7 +1,7 @@
 //! Flows against difference quotients.
 
 use faer::Mat;
-use hammerbeam_motion::{Parameter, Stretch, System};
+use hammerbeam_motion::{LawConstant, Parameter, Stretch, System};
 
 use super::integrator;
 
@@ -57,15 +57,27 @@ pub fn assert_sensitivities(
     let left = rounding(system, &flow.state, STEP * stretch.frequency_hz);
     let error = distance(system, &flow.by_frequency, &expected, left);
     assert!(error < bound, "frequency: {error}\n{:?}\n{expected:?}", flow.by_frequency);
+    assert_by_parameters(system, stretch, state, parameters, bound);
+}
+
+/// The column of each parameter against differences.
+pub fn assert_by_parameters(
+    system: &System,
+    stretch: &Stretch,
+    state: &[f64],
+    parameters: &[Parameter],
+    bound: f64,
+) {
+    let mut exact = integrator(system);
     for &parameter in parameters {
         exact.differentiate_by(Some(parameter)).unwrap();
         let flow = exact.flow(stretch, state).unwrap();
         exact.differentiate_by(None).unwrap();
         let value = system.parameter(parameter).unwrap();
         let scale = match parameter {
-            Parameter::Gap { .. } => 1e-3,
-            Parameter::Restitution { .. } => 10.0,
-            Parameter::Stiffness { .. } | Parameter::ContactDamping { .. } => value,
+            Parameter::OfLaw { constant: LawConstant::Gap, .. } => 1e-3,
+            Parameter::OfLaw { constant: LawConstant::Restitution, .. } => 10.0,
+            Parameter::OfLaw { .. } => value,
             // In 1/s, where a ratio is one.
             Parameter::AddedDamping { part: 1.. } => 10.0,
             _ => 0.1,

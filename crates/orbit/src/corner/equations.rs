@@ -118,7 +118,7 @@ impl<'a> TouchEquations<'a> {
         for &element in &elements {
             let level = problem.system().elements()[element].law.gap().unwrap_or(0.0);
             let reach = reach(problem, element);
-            let gap = Parameter::Gap { element };
+            let gap = Parameter::gap(element);
             system = system.with_parameter(gap, WIDE * (level.abs() + reach)).map_err(MotionError::from)?;
         }
         let mut opened = problem.integrator().for_system(system)?;
@@ -410,7 +410,7 @@ fn reach(problem: &ShootingProblem, element: usize) -> f64 {
 }
 
 fn is_gap_of(parameter: Parameter, elements: &[usize]) -> bool {
-    elements.iter().any(|&element| parameter == Parameter::Gap { element })
+    elements.iter().any(|&element| parameter == Parameter::gap(element))
 }
 
 /// `M v`, the matrix by rows.

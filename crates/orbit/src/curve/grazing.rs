@@ -98,7 +98,7 @@ impl Touch {
                 rows[0][nodes + 1] = sign * carried[0] / place.value / length;
                 rows[1][nodes + 1] = sign * carried[1] / place.value / unit;
             }
-            Parameter::Gap { element } if element == self.element => rows[0][nodes + 1] = -1.0 / length,
+            other if other == Parameter::gap(self.element) => rows[0][nodes + 1] = -1.0 / length,
             _ => {
                 let [r, speed] = by_family.unwrap_or_default();
                 rows[0][nodes + 1] = sign * r / length;
@@ -159,13 +159,7 @@ impl Touch {
     /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one
     /// of their two elements alone.
     fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
-        let (Parameter::Gap { element }
-        | Parameter::Stiffness { element }
-        | Parameter::Restitution { element }
-        | Parameter::ContactDamping { element }) = parameter
-        else {
-            return true;
-        };
+        let Parameter::OfLaw { element, .. } = parameter else { return true };
         self.element == other.element || ![self.element, other.element].contains(&element)
     }
 

@@ -63,7 +63,7 @@ impl Passing {
         let mut system = shooting.integrator.system().clone();
         let mut is_parameter = false;
         for Touch { element, .. } in &touches {
-            let gap = Parameter::Gap { element: *element };
+            let gap = Parameter::gap(*element);
             let Some(level) = shooting.integrator.system().elements()[*element].law.gap() else {
                 return Ok(None);
             };
@@ -82,7 +82,7 @@ impl Passing {
 
     /// Gives the parameter that is followed another value.
     pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), MotionError> {
-        if self.touches.iter().any(|touch| parameter == Parameter::Gap { element: touch.element }) {
+        if self.touches.iter().any(|touch| parameter == Parameter::gap(touch.element)) {
             return Ok(());
         }
         self.integrator.set_parameter(parameter, value)

@@ -136,8 +136,8 @@ fn first_lyapunov_coefficients_do_not_depend_on_segments() {
 fn jacobians_agree_with_differences_of_the_residual() {
     let parameters = [
         Parameter::ExcitationScale,
-        Parameter::Stiffness { element: 0 },
-        Parameter::Gap { element: 1 },
+        Parameter::stiffness(0),
+        Parameter::gap(1),
         Parameter::ADDED_DAMPING_RATIO,
     ];
     for parameter in parameters {

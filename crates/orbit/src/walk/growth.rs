@@ -16,7 +16,7 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_motion::Law;
+use hammerbeam_motion::LocalElement;
 
 use super::BranchWalk;
 use crate::{ResonantMode, StopReason};
@@ -71,13 +71,10 @@ impl BranchWalk {
     /// Whether every element is linear for all that follows.
     fn is_beyond_all_levels(&mut self) -> bool {
         let elements = self.problem.system().elements();
-        let piecewise = |law: &Law| matches!(law, Law::Linear(_) | Law::TwoSided(_) | Law::Rigid(_));
-        if !elements.iter().all(|element| piecewise(&element.law)) {
+        let level = |element: &LocalElement| Some((element.shape.clone(), element.law.linear_beyond()?));
+        let Some(levels) = elements.iter().map(level).collect::<Option<Vec<(Vec<f64>, f64)>>>() else {
             return false;
-        }
-        let outermost = |law: &Law| law.contacts().iter().map(|c| c.level.abs()).fold(0.0, f64::max);
-        let levels: Vec<(Vec<f64>, f64)> =
-            elements.iter().map(|element| (element.shape.clone(), outermost(&element.law))).collect();
+        };
         let least = self.of_present(|orbit, integrator, _| {
             let mut least = f64::INFINITY;
             // Supports move as before, and do not count beside motion that grows.

@@ -42,7 +42,7 @@ pub use response::Response;
 pub use rig::Rig;
 pub use search::Search;
 pub use stop::{FixedTo, Place, Stop, StopEntry};
-pub use stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
+pub use stop_law::{Approach, GapMeasured, Side, StopLaw, StopRest};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
 pub use support_motion::MovingSupport;

@@ -1,16 +1,15 @@
 //! The name of a parameter of the study, and its range: `parameter` and `range` of `[[vary]]` and
 //! `[[curve]]`.
 
-use serde::Serialize;
+use hammerbeam_motion::{LawConstant, law::LawKey};
+use serde::{Serialize, Serializer, ser::SerializeStructVariant};
 
 use crate::{
     document::{Quantity, Table, Value, quantity},
     number::{number_named, numbers},
 };
 
-use super::{
-    Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopEntry, StopLaw, Structure,
-};
+use super::{Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopEntry, StopLaw, Structure};
 
 /// A parameter of the study and the range in which it varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,30 +23,16 @@ pub struct VariedParameter {
 }
 
 /// What a parameter is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParameterKind {
     /// Amplitude of the excitation [m or N].
     Amplitude,
-    /// Gap of a stop [m].
-    Gap {
+    /// A constant of the law of a stop, in its unit.
+    OfStop {
         /// Number of the stop, from 0.
         stop: usize,
-    },
-    /// Constant of the law of a stop.
-    Stiffness {
-        /// Number of the stop, from 0.
-        stop: usize,
-    },
-    /// Coefficient of restitution of a stop.
-    Restitution {
-        /// Number of the stop, from 0.
-        stop: usize,
-    },
-    /// Constant of the damping of a stop: of its damper, or the loss of its law.
-    StopDamping {
-        /// Number of the stop, from 0.
-        stop: usize,
+        /// The constant.
+        constant: LawConstant,
     },
     /// Ratio to critical damping of every mode.
     ModalRatio,
@@ -55,6 +40,32 @@ pub enum ParameterKind {
     Damping(DampingKey),
     /// Another number of the model, by its key path.
     Number,
+}
+
+impl Serialize for ParameterKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        const TYPE: &str = "ParameterKind";
+        let (stop, constant) = match self {
+            Self::Amplitude => return serializer.serialize_unit_variant(TYPE, 0, "amplitude"),
+            Self::ModalRatio => return serializer.serialize_unit_variant(TYPE, 2, "modal-ratio"),
+            Self::Damping(key) => return serializer.serialize_newtype_variant(TYPE, 3, "damping", key),
+            Self::Number => return serializer.serialize_unit_variant(TYPE, 4, "number"),
+            Self::OfStop { stop, constant } => (stop, constant),
+        };
+        let (name, number) = match constant {
+            LawConstant::Gap => ("gap", None),
+            LawConstant::Stiffness => ("stiffness", None),
+            LawConstant::Restitution => ("restitution", None),
+            LawConstant::Damping => ("stop-damping", None),
+            LawConstant::Further(number) => ("stop-constant", Some(number)),
+        };
+        let mut variant = serializer.serialize_struct_variant(TYPE, 1, name, 2)?;
+        variant.serialize_field("stop", stop)?;
+        if let Some(number) = number {
+            variant.serialize_field("number", number)?;
+        }
+        variant.end()
+    }
 }
 
 /// A constant of the damping of the structure.
@@ -198,45 +209,16 @@ fn of_dampers(structure: &Structure) -> Vec<Known> {
     }
 }
 
+/// What the description of a law lets vary, and its gap. What else its keys say (the terms of a spring but
+/// the cubic one, the constants of a formula) are numbers of the model as any other.
 fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quantity)> {
-    let (gap, stiffness) = (ParameterKind::Gap { stop }, ParameterKind::Stiffness { stop });
-    let gap_of = |approach: &Approach| matches!(approach, Approach::Gap { .. });
-    let (key, quantity, has_gap) = match law {
-        StopLaw::Hertz { approach, .. }
-        | StopLaw::HuntCrossley { approach, .. }
-        | StopLaw::Restitution { approach, .. } => {
-            ("stiffness_n_m15", quantity::HERTZ_STIFFNESS, gap_of(approach))
-        }
-        StopLaw::Linear { approach, .. } => ("stiffness_n_m", quantity::STIFFNESS, gap_of(approach)),
-        StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
-            ("stiffness_n_m", quantity::STIFFNESS, gap_above_m == gap_below_m)
-        }
-        // Without a cubic term there is none to be varied by its derivative.
-        StopLaw::Cubic { stiffness_n_m3: 0.0, .. } => return Vec::new(),
-        // The constants of a formula are numbers of the model as any other.
-        StopLaw::Formula { .. } => return Vec::new(),
-        StopLaw::Cubic { .. } => ("stiffness_n_m3", quantity::CUBIC_STIFFNESS, false),
-        StopLaw::Rigid { approach, .. } => ("restitution", quantity::RIGID_RESTITUTION, gap_of(approach)),
+    let of = |key: &'static LawKey, value| {
+        let constant = key.constant(value)?;
+        Some((key.name, ParameterKind::OfStop { stop, constant }, key.quantity()?))
     };
-    let first = if key == "restitution" { ParameterKind::Restitution { stop } } else { stiffness };
-    let mut known = vec![(key, first, quantity)];
-    let damping = ParameterKind::StopDamping { stop };
-    match law {
-        StopLaw::Linear { damping_n_s_m, .. } if *damping_n_s_m > 0.0 => {
-            known.push(("damping_n_s_m", damping, quantity::DAMPER));
-        }
-        StopLaw::HuntCrossley { loss_s_m, .. } if *loss_s_m > 0.0 => {
-            known.push(("loss_s_m", damping, quantity::LOSS));
-        }
-        StopLaw::Restitution { .. } => {
-            known.push(("restitution", ParameterKind::Restitution { stop }, quantity::RESTITUTION));
-        }
-        _ => {}
-    }
-    if has_gap {
-        known.push(("gap_m", gap, quantity::GAP));
-    }
-    known
+    let gap = ParameterKind::OfStop { stop, constant: LawConstant::Gap };
+    let gap = law.gap_m().map(|_| ("gap_m", gap, quantity::GAP));
+    law.keys().filter_map(|(key, value)| of(key, value)).chain(gap).collect()
 }
 
 /// Reads `parameter` and `range`; the range in any case, so that all faults of both are told at once.

@@ -1,12 +1,13 @@
 //! Reading a force law that is given as a formula.
 
-use hammerbeam_motion::law::{CONSTANTS, DEEPEST, Formula, FormulaError, Function, LONGEST, VARIABLES};
+use hammerbeam_motion::law::{
+    CONSTANTS, DEEPEST, Formula, FormulaError, Function, LONGEST, LawValue, VARIABLES,
+};
 
-use super::stop_law::StopLaw;
 use crate::document::{Table, closest, quantity};
 
 /// `formula`, and `constants` with a number for each name.
-pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
+pub(super) fn read(table: &Table<'_>) -> Option<LawValue> {
     let formula = table.required("formula");
     let constants = table
         .optional("constants")
@@ -17,7 +18,7 @@ pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
         formula.problem(format!("`formula`: {error}"), help(&error, &constants));
         return None;
     }
-    Some(StopLaw::Formula { formula: text.to_owned(), constants })
+    Some(LawValue::Formula(text.to_owned(), constants))
 }
 
 /// What a formula may have where an error is.

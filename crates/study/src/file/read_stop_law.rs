@@ -5,40 +5,16 @@
 //! time, unless they press at rest. So whatever holds for one-sided stops (parting while there is
 //! penetration left, impacts that are remembered, what sticks to a rigid stop) holds for these.
 
+use hammerbeam_motion::law::{
+    DESCRIPTIONS, HertzStiffness, LawAlternative, LawDescription, LawKey, LawKeyKind, LawSides, LawValue,
+    NoPreload,
+};
+
 use super::{
     read_formula,
-    stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw},
+    stop_law::{Approach, GapMeasured, Side, StopLaw, StopRest},
 };
-use crate::document::{Quantity, Table, Value, quantity};
-
-/// Which law it is.
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    Hertz,
-    Linear,
-    TwoSided,
-    Cubic,
-    Formula,
-    HuntCrossley,
-    Restitution(ImpactModel),
-    Rigid,
-}
-
-const KINDS: [(&str, Kind); 13] = [
-    ("hertz", Kind::Hertz),
-    ("linear", Kind::Linear),
-    ("two-sided", Kind::TwoSided),
-    ("cubic", Kind::Cubic),
-    ("formula", Kind::Formula),
-    ("rigid", Kind::Rigid),
-    ("hunt-crossley", Kind::HuntCrossley),
-    ("herbert-mcwhannell", Kind::Restitution(ImpactModel::HerbertMcwhannell)),
-    ("lee-wang", Kind::Restitution(ImpactModel::LeeWang)),
-    ("lankarani-nikravesh", Kind::Restitution(ImpactModel::LankaraniNikravesh)),
-    ("gonthier", Kind::Restitution(ImpactModel::Gonthier)),
-    ("flores", Kind::Restitution(ImpactModel::Flores)),
-    ("hu-guo", Kind::Restitution(ImpactModel::HuGuo)),
-];
+use crate::document::{Table, Value, quantity};
 
 /// The law of a stop, or those of the two that it is read as.
 pub(super) enum ReadLaw {
@@ -64,75 +40,113 @@ impl Sides {
     }
 }
 
-pub(super) fn read_kind(table: &Table<'_>) -> Option<Kind> {
-    table.required("law").and_then(|value| value.choice(&KINDS))
+/// Which law it is. Of two with one word the second is meant where its key is given.
+pub(super) fn read_description(table: &Table<'_>) -> Option<&'static LawDescription> {
+    let mut named: Vec<(&str, &'static LawDescription)> = Vec::new();
+    for described in DESCRIPTIONS {
+        if !named.iter().any(|(name, _)| *name == described.name) {
+            named.push((described.name, described));
+        }
+    }
+    let first = table.required("law").and_then(|value| value.choice(&named))?;
+    let other = first.alternative.filter(|alternative| table.has(alternative.other)).and_then(|_| {
+        let is_other = |described: &&&LawDescription| {
+            described.name == first.name && described.identity != first.identity
+        };
+        DESCRIPTIONS.iter().find(is_other).copied()
+    });
+    Some(other.unwrap_or(first))
 }
 
-pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<ReadLaw> {
-    match kind {
-        Kind::Hertz => {
-            let stiffness = read_hertz(table);
-            let (approach, sides) = read_one_sided(table);
-            let (stiffness, approach) = (stiffness?, approach?);
-            Some(sides?.of(|side| StopLaw::Hertz { stiffness, approach, side }))
+/// The law of that description, from its keys.
+pub(super) fn read(table: &Table<'_>, description: &'static LawDescription) -> Option<ReadLaw> {
+    if let Some(alternative) = description.alternative.filter(|alternative| !alternative.is_default)
+        && let Some(other) = table.optional(alternative.other)
+    {
+        let help = vec![format!("allowed: one of `{}` and `{}`", alternative.other, alternative.own)];
+        let message = format!("`{}` is given besides `{}`", alternative.other, alternative.own);
+        other.problem(message, help);
+    }
+    let values = read_values(table, description);
+    match description.sides {
+        LawSides::One { no_preload, .. } => {
+            let (approach, sides) = match no_preload {
+                None => read_one_sided(table),
+                Some(refused) => read_with_gap(table, refused),
+            };
+            let (values, approach) = (values?, approach?);
+            let law = |side| StopLaw::new(description, values.clone(), StopRest::OneSided { approach, side });
+            Some(sides?.of(law))
         }
-        Kind::Linear => {
-            let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
-            let damping =
-                table.optional("damping_n_s_m").map_or(Some(0.0), |value| value.number(&quantity::DAMPER));
-            let (approach, sides) = read_one_sided(table);
-            let (stiffness_n_m, damping_n_s_m, approach) = (stiffness?, damping?, approach?);
-            Some(sides?.of(|side| StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side }))
+        LawSides::Two { pair: (key, one_sided), .. } => {
+            let rest = read_gaps(table);
+            let (values, rest) = (values?, rest?);
+            if values[key] == LawValue::Number(0.0) {
+                return Some(ReadLaw::One(StopLaw::new(description, values, rest)));
+            }
+            let one = |side| StopLaw::new(one_sided, values.clone(), one_side_of(rest, side));
+            Some(ReadLaw::Pair([Side::Above, Side::Below].map(one)))
         }
-        Kind::TwoSided => read_two_sided(table),
-        Kind::Cubic => read_cubic(table).map(ReadLaw::One),
-        Kind::Formula => read_formula::read(table).map(ReadLaw::One),
-        Kind::Rigid => read_rigid(table),
-        Kind::HuntCrossley => read_hunt_crossley(table),
-        Kind::Restitution(model) => read_restitution(table, model),
+        LawSides::Always { .. } => Some(ReadLaw::One(StopLaw::new(description, values?, StopRest::Always))),
     }
 }
 
-fn read_rigid(table: &Table<'_>) -> Option<ReadLaw> {
-    let restitution = required(table, "restitution", &quantity::RIGID_RESTITUTION);
-    let why = "a rigid stop has no stiffness to press with";
-    let (approach, sides) = read_with_gap(table, (why, "allowed: a gap"));
-    let (restitution, approach) = (restitution?, approach?);
-    Some(sides?.of(|side| StopLaw::Rigid { restitution, approach, side }))
+/// The values of all keys; every fault of them is noted.
+fn read_values(table: &Table<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
+    let read: Vec<Option<LawValue>> =
+        description.keys.iter().map(|key| read_value(table, key, description)).collect();
+    let values: Vec<LawValue> = read.into_iter().collect::<Option<_>>()?;
+    let is_nothing = |(key, value): (&LawKey, &LawValue)| {
+        matches!(key.kind, LawKeyKind::Term { .. }) && *value == LawValue::Number(0.0)
+    };
+    if description.keys.iter().zip(&values).all(is_nothing) {
+        refuse_no_term(table, description.keys);
+        return None;
+    }
+    Some(values)
 }
 
-/// With the loss itself, or with a coefficient of restitution for every impact.
-fn read_hunt_crossley(table: &Table<'_>) -> Option<ReadLaw> {
-    if !table.has("restitution") {
-        let stiffness = read_hertz(table);
-        if !table.has("loss_s_m") {
-            let help = vec!["allowed: one of `loss_s_m` and `restitution`".into()];
-            table.problem("loss_s_m", "`loss_s_m` is missing in this stop".into(), help);
+fn read_value(table: &Table<'_>, key: &LawKey, description: &LawDescription) -> Option<LawValue> {
+    let or = |default: f64, quantity| {
+        let given = table.optional(key.name);
+        given.map_or(Some(default), |value| value.number(quantity)).map(LawValue::Number)
+    };
+    match &key.kind {
+        LawKeyKind::Formula => read_formula::read(table),
+        LawKeyKind::HertzStiffness => read_hertz(table).map(LawValue::Hertz),
+        LawKeyKind::Term { quantity } => or(0.0, quantity),
+        LawKeyKind::Number { quantity, default: Some(default) } => or(*default, quantity),
+        LawKeyKind::Number { quantity, default: None } => {
+            let distinguishes = |known: &LawAlternative| known.is_default && known.own == key.name;
+            let given = match description.alternative.filter(distinguishes) {
+                None => table.required(key.name),
+                Some(alternative) => {
+                    if !table.has(key.name) {
+                        let help =
+                            vec![format!("allowed: one of `{}` and `{}`", key.name, alternative.other)];
+                        table.problem(key.name, format!("`{}` is missing in this stop", key.name), help);
+                    }
+                    table.optional(key.name)
+                }
+            };
+            given.and_then(|value| value.number(quantity)).map(LawValue::Number)
         }
-        let loss = table.optional("loss_s_m").and_then(|value| value.number(&quantity::LOSS));
-        let (approach, sides) = read_one_sided(table);
-        let (stiffness, loss_s_m, approach) = (stiffness?, loss?, approach?);
-        return Some(sides?.of(|side| StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side }));
     }
-    if let Some(loss) = table.optional("loss_s_m") {
-        let help = vec!["allowed: one of `loss_s_m` and `restitution`".into()];
-        loss.problem("`loss_s_m` is given besides `restitution`".into(), help);
-    }
-    read_restitution(table, ImpactModel::HuntCrossley)
 }
 
-fn read_restitution(table: &Table<'_>, model: ImpactModel) -> Option<ReadLaw> {
-    let stiffness = read_hertz(table);
-    let restitution = required(table, "restitution", &quantity::RESTITUTION);
-    let why = "the law needs the speed of each impact";
-    let allowed = "allowed: a gap; a contact that is closed at rest has no impact to remember";
-    let (approach, sides) = read_with_gap(table, (why, allowed));
-    let (stiffness, restitution, approach) = (stiffness?, restitution?, approach?);
-    Some(sides?.of(|side| StopLaw::Restitution { model, stiffness, restitution, approach, side }))
-}
-
-fn required(table: &Table<'_>, key: &'static str, quantity: &Quantity) -> Option<f64> {
-    table.required(key).and_then(|value| value.number(quantity))
+/// Notes that a law of several terms has none; the last is named.
+fn refuse_no_term(table: &Table<'_>, keys: &[LawKey]) {
+    let Some(last) = keys.last() else { return };
+    let names: Vec<String> = keys.iter().rev().map(|key| format!("`{}`", key.name)).collect();
+    let zero = last.quantity().map_or_else(String::new, |quantity| quantity.with_unit(0.0));
+    let what = if keys.iter().any(|key| table.has(key.name)) {
+        format!("is {zero}, and there is no other term")
+    } else {
+        "is missing in this stop".to_owned()
+    };
+    let (first, others) = names.split_at(names.len() - 1);
+    let help = format!("allowed: any number but zero for {} or {}", first.join(", "), others.join(""));
+    table.problem(last.name, format!("`{}` {what}", last.name), vec![help]);
 }
 
 /// `stiffness_n_m15`, or radii, moduli and Poisson's ratios.
@@ -191,9 +205,8 @@ fn read_gap(table: &Table<'_>) -> Option<Approach> {
 }
 
 /// Gap and side of a law that takes no preload.
-///
-/// * `why`, `allowed`: why it takes none, and what it takes instead.
-fn read_with_gap(table: &Table<'_>, (why, allowed): (&str, &str)) -> (Option<Approach>, Option<Sides>) {
+fn read_with_gap(table: &Table<'_>, refused: NoPreload) -> (Option<Approach>, Option<Sides>) {
+    let NoPreload { why, allowed } = refused;
     let sides = read_sides(table);
     let gap = read_gap(table);
     if !table.has("preload_n") {
@@ -223,10 +236,8 @@ fn read_measured(table: &Table<'_>) -> Option<GapMeasured> {
     table.optional("gap_measured").map_or(Some(GapMeasured::Undeformed), |value| value.choice(&choices))
 }
 
-/// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`; with a damper two linear stops.
-fn read_two_sided(table: &Table<'_>) -> Option<ReadLaw> {
-    let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
-    let damping = table.optional("damping_n_s_m").map_or(Some(0.0), |value| value.number(&quantity::DAMPER));
+/// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`.
+fn read_gaps(table: &Table<'_>) -> Option<StopRest> {
     let both = table.optional("gap_m");
     let each = ["gap_above_m", "gap_below_m"].map(|key| table.optional(key));
     if both.is_some() {
@@ -238,39 +249,16 @@ fn read_two_sided(table: &Table<'_>) -> Option<ReadLaw> {
     let common = both.map_or(Some(0.0), |value| value.number(&quantity::GAP));
     let [above, below] = each.map(|gap| gap.map_or(common, |value| value.number(&quantity::GAP)));
     let measured = read_measured(table);
-    let (stiffness_n_m, damping_n_s_m, measured) = (stiffness?, damping?, measured?);
-    let (gap_above_m, gap_below_m) = (above?, below?);
-    if damping_n_s_m == 0.0 {
-        let gap_measured = measured;
-        return Some(ReadLaw::One(StopLaw::TwoSided {
-            stiffness_n_m,
-            gap_above_m,
-            gap_below_m,
-            gap_measured,
-        }));
-    }
-    let one = |(side, gap_m)| {
-        let approach = Approach::Gap { gap_m, measured };
-        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side }
-    };
-    Some(ReadLaw::Pair([(Side::Above, gap_above_m), (Side::Below, gap_below_m)].map(one)))
+    Some(StopRest::TwoSided { gap_above_m: above?, gap_below_m: below?, gap_measured: measured? })
 }
 
-/// Any of three constants, at least one of which is there and not 0.
-fn read_cubic(table: &Table<'_>) -> Option<StopLaw> {
-    let constant = |key: &'static str, quantity: &Quantity| {
-        table.optional(key).map_or(Some(0.0), |value| value.number(quantity))
-    };
-    let linear = constant("stiffness_n_m", &quantity::SIGNED_STIFFNESS);
-    let quadratic = constant("stiffness_n_m2", &quantity::QUADRATIC_STIFFNESS);
-    let cubic = constant("stiffness_n_m3", &quantity::CUBIC_STIFFNESS);
-    let keys = ["stiffness_n_m3", "stiffness_n_m2", "stiffness_n_m"];
-    let none = !keys.into_iter().any(|key| table.has(key));
-    if [linear, quadratic, cubic] == [Some(0.0); 3] {
-        let what = if none { "is missing in this stop" } else { "is 0 N/m^3, and there is no other term" };
-        let help = "allowed: any number but zero for `stiffness_n_m3`, `stiffness_n_m2` or `stiffness_n_m`";
-        table.problem("stiffness_n_m3", format!("`stiffness_n_m3` {what}"), vec![help.into()]);
-        return None;
+/// One side of a stop on both sides.
+fn one_side_of(rest: StopRest, side: Side) -> StopRest {
+    match rest {
+        StopRest::TwoSided { gap_above_m, gap_below_m, gap_measured: measured } => {
+            let gap_m = if side == Side::Above { gap_above_m } else { gap_below_m };
+            StopRest::OneSided { approach: Approach::Gap { gap_m, measured }, side }
+        }
+        other => other,
     }
-    Some(StopLaw::Cubic { stiffness_n_m: linear?, stiffness_n_m2: quadratic?, stiffness_n_m3: cubic? })
 }

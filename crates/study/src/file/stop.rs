@@ -141,8 +141,8 @@ fn read_name(table: &Table<'_>, index: usize, taken: &[String]) -> Option<String
 fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<(Place, ReadLaw)> {
     let place = read_place(&table, names, excitation);
     // Which keys a stop may have, its law says.
-    let kind = read_stop_law::read_kind(&table)?;
-    let law = read_stop_law::read(&table, kind);
+    let description = read_stop_law::read_description(&table)?;
+    let law = read_stop_law::read(&table, description);
     table.finish();
     Some((place?, law?))
 }

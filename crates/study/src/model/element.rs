@@ -2,17 +2,11 @@
 
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
-    law::{
-        Degree, Formula, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel,
-        RestitutionStop, RigidStop, TwoSidedStop,
-    },
+    law::{LawPart, LawRest, LawSides, LawValues},
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
-use crate::file::{
-    Approach, FixedTo, GapMeasured, HertzStiffness, ImpactModel, Place, Side, Stop, StopLaw, StudyError,
-    StudyFile,
-};
+use crate::file::{Approach, FixedTo, GapMeasured, Place, Side, Stop, StopRest, StudyError, StudyFile};
 
 use super::load::rest;
 
@@ -102,121 +96,28 @@ fn no_rest(file: &StudyFile, key: &str, mode: usize) -> StudyError {
     file.fault(&format!("{key}.gap_measured"), message, vec!["allowed: gap_measured = \"undeformed\"".into()])
 }
 
-/// The element of a stop; two of them for a two-sided one that the sag has pushed past one of its springs.
+/// The elements of a stop: one as a rule, several where its law says so.
 fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalElement>, LawError> {
-    let element = |relative: Relative, law| vec![relative.element(&stop.name, law)];
-    Ok(match stop.law {
-        StopLaw::Hertz { stiffness, approach, side } => {
+    let (law, values) = (&stop.law, LawValues(stop.law.values()));
+    let (relative, parts) = match (law.rest(), law.description().sides) {
+        (StopRest::OneSided { approach, side }, LawSides::One { build, .. }) => {
             let relative = relative.towards(side);
-            let law = hertz(stiffness.value(), approach, relative.at(rest))?;
-            element(relative, Law::Hertz(law))
-        }
-        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => {
-            let relative = relative.towards(side);
-            let elastic = hertz(stiffness.value(), approach, relative.at(rest))?;
-            element(relative, Law::HuntCrossley(HuntCrossleyStop::new(elastic, loss_s_m)?))
-        }
-        StopLaw::Restitution { model, stiffness, restitution, approach, side } => {
-            let relative = relative.towards(side);
-            let elastic = hertz(stiffness.value(), approach, relative.at(rest))?;
-            let law = RestitutionStop::new(elastic, model.formula(), restitution)?;
-            element(relative, Law::Restitution(law))
-        }
-        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
-            let relative = relative.towards(side);
-            let law = linear(stiffness_n_m, approach, relative.at(rest))?.with_damping(damping_n_s_m)?;
-            element(relative, Law::Linear(law))
-        }
-        StopLaw::Rigid { restitution, approach, side } => {
-            let relative = relative.towards(side);
-            let gap = if let Approach::Gap { gap_m, .. } = approach { gap_m } else { 0.0 };
-            let law = RigidStop::at_level(restitution, gap + relative.at(rest))?;
-            element(relative, Law::Rigid(law))
-        }
-        StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, .. } => {
-            let shift = relative.at(rest);
-            let (above, below) = (gap_above_m + shift, gap_below_m - shift);
-            if above >= 0.0 && below >= 0.0 {
-                element(relative, Law::TwoSided(TwoSidedStop::new(stiffness_n_m, above, below)?))
-            } else {
-                let upper = Law::Linear(linear_at(stiffness_n_m, above)?);
-                let lower = Law::Linear(linear_at(stiffness_n_m, below)?);
-                let name = |side: &str| format!("{} ({side})", stop.name);
-                let flipped = relative.clone().towards(Side::Below);
-                vec![relative.element(&name("above"), upper), flipped.element(&name("below"), lower)]
-            }
-        }
-        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
-            let terms = [
-                (stiffness_n_m3, Degree::Cubic, String::new()),
-                (stiffness_n_m2, Degree::Quadratic, " (quadratic)".to_owned()),
-                (stiffness_n_m, Degree::Linear, " (linear)".to_owned()),
-            ];
-            let element = |(stiffness, degree, word): (f64, Degree, String)| {
-                let law = Law::Power(PowerSpring::new(stiffness, degree)?);
-                Ok::<_, LawError>(relative.clone().element(&format!("{}{word}", stop.name), law))
+            let rests = match approach {
+                Approach::Preload { preload_n } => LawRest::Preload(preload_n),
+                Approach::Gap { gap_m, .. } => LawRest::Level(gap_m + relative.at(rest)),
             };
-            let there = terms.into_iter().filter(|(stiffness, ..)| *stiffness != 0.0);
-            return there.map(element).collect();
+            (relative, build(values, rests)?)
         }
-        StopLaw::Formula { ref formula, ref constants } => {
-            element(relative, Law::Formula(Formula::new(formula, constants)?))
+        (StopRest::TwoSided { gap_above_m, gap_below_m, .. }, LawSides::Two { build, .. }) => {
+            let shift = relative.at(rest);
+            (relative, build(values, [gap_above_m + shift, gap_below_m - shift])?)
         }
-    })
-}
-
-fn hertz(stiffness: f64, approach: Approach, rest: f64) -> Result<HertzStop, LawError> {
-    match approach {
-        Approach::Preload { preload_n } => HertzStop::with_preload(stiffness, preload_n),
-        Approach::Gap { gap_m, .. } => match gap_m + rest {
-            level if level >= 0.0 => HertzStop::with_gap(stiffness, level),
-            level => HertzStop::with_preload(stiffness, stiffness * (-level).powf(1.5)),
-        },
-    }
-}
-
-fn linear(stiffness: f64, approach: Approach, rest: f64) -> Result<LinearStop, LawError> {
-    match approach {
-        Approach::Preload { preload_n } => LinearStop::with_preload(stiffness, preload_n),
-        Approach::Gap { gap_m, .. } => linear_at(stiffness, gap_m + rest),
-    }
-}
-
-/// A spring that begins at `r = level`, which a preload expresses where it is negative.
-fn linear_at(stiffness: f64, level: f64) -> Result<LinearStop, LawError> {
-    if level >= 0.0 {
-        LinearStop::with_gap(stiffness, level)
-    } else {
-        LinearStop::with_preload(stiffness, -stiffness * level)
-    }
-}
-
-impl ImpactModel {
-    /// The formula of the model.
-    #[must_use]
-    pub fn formula(self) -> RestitutionModel {
-        match self {
-            Self::HuntCrossley => RestitutionModel::HuntCrossley,
-            Self::HerbertMcwhannell => RestitutionModel::HerbertMcWhannell,
-            Self::LeeWang => RestitutionModel::LeeWang,
-            Self::LankaraniNikravesh => RestitutionModel::LankaraniNikravesh,
-            Self::Gonthier => RestitutionModel::Gonthier,
-            Self::Flores => RestitutionModel::Flores,
-            Self::HuGuo => RestitutionModel::HuGuo,
-        }
-    }
-}
-
-impl HertzStiffness {
-    /// The constant [N/m^1.5].
-    #[must_use]
-    pub fn value(self) -> f64 {
-        match self {
-            Self::Given(stiffness) => stiffness,
-            Self::Spheres { radii_m, moduli_pa, poisson_ratios } => {
-                let radii = radii_m.map(|radius| radius.unwrap_or(f64::INFINITY));
-                HertzStop::stiffness_of_spheres(radii, moduli_pa, poisson_ratios)
-            }
-        }
-    }
+        (StopRest::Always, LawSides::Always { build }) => (relative, build(values)?),
+        _ => unreachable!("a stop rests as its law is described"),
+    };
+    let element = |part: LawPart| {
+        let turned = if part.is_turned { Side::Below } else { Side::Above };
+        relative.clone().towards(turned).element(&format!("{}{}", stop.name, part.suffix), part.law)
+    };
+    Ok(parts.into_iter().map(element).collect())
 }

@@ -1,6 +1,6 @@
 //! Parameters of the study as parameters of the equations of motion.
 
-use hammerbeam_motion::Parameter;
+use hammerbeam_motion::{LawConstant, Parameter};
 
 use super::{Model, damping};
 use crate::file::{
@@ -75,22 +75,17 @@ impl Model {
                 let family = family.expect("families of all numbers that vary are built with the model");
                 Ok(plain(Parameter::OfFamily { family }))
             }
-            ParameterKind::StopDamping { stop } => {
-                Ok(plain(Parameter::ContactDamping { element: self.element_of(study, stop)? }))
-            }
-            ParameterKind::Stiffness { stop } => {
-                Ok(plain(Parameter::Stiffness { element: self.element_of(study, stop)? }))
-            }
-            ParameterKind::Restitution { stop } => {
-                Ok(plain(Parameter::Restitution { element: self.element_of(study, stop)? }))
-            }
-            ParameterKind::Gap { stop } => {
-                let parameter = Parameter::Gap { element: self.element_of(study, stop)? };
+            ParameterKind::OfStop { stop, constant } => {
+                let element = self.element_of(study, stop)?;
+                let plain = plain(Parameter::OfLaw { element, constant });
+                if constant != LawConstant::Gap {
+                    return Ok(plain);
+                }
                 // A gap that is measured from the rest position differs from the level of the element by the
                 // sag.
-                let level = self.system.parameter(parameter).map_err(|error| error.to_string())?;
+                let level = self.system.parameter(plain.parameter).map_err(|error| error.to_string())?;
                 let gap = study.stops[stop].law.gap_m().unwrap_or(level);
-                Ok(StudyParameter { offset: gap - level, ..plain(parameter) })
+                Ok(StudyParameter { offset: gap - level, ..plain })
             }
         }
     }

@@ -1,11 +1,12 @@
 //! What stands below the sketch of a structure: the numbers of the study, in words.
 
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
     Study,
     file::{
         Amplitude, Approach, Beam, BeamPoint, Excitation, ExcitationKind, FixedTo, GapMeasured, Load, Lumped,
-        MovingSupport, Place, Side, Stop, StopLaw, Structure,
+        MovingSupport, Place, Side, Stop, StopLaw, StopRest, Structure,
     },
 };
 
@@ -74,52 +75,51 @@ fn stop_words(stop: &Stop, excitation: &Excitation) -> String {
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
-    let hertz = |stiffness: f64| format!("Hertz contact {} N/m¹·⁵", number(stiffness));
-    let law = match stop.law {
-        StopLaw::Hertz { stiffness, approach, side } => {
-            format!("{}, {}", hertz(stiffness.value()), rest(approach, side))
-        }
-        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => {
-            format!("{}, loss {} s/m, {}", hertz(stiffness.value()), number(loss_s_m), rest(approach, side))
-        }
-        StopLaw::Restitution { stiffness, restitution, approach, side, .. } => format!(
-            "{}, coefficient of restitution {}, {}",
-            hertz(stiffness.value()),
-            number(restitution),
-            rest(approach, side)
-        ),
-        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
-            let damper = if damping_n_s_m > 0.0 {
-                format!(" with {} N s/m", number(damping_n_s_m))
-            } else {
-                String::new()
-            };
-            format!("spring {} N/m{damper}, {}", number(stiffness_n_m), rest(approach, side))
-        }
-        StopLaw::Rigid { restitution, approach, side } => {
-            format!("rigid, coefficient of restitution {}, {}", number(restitution), rest(approach, side))
-        }
-        StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
-            "springs {} N/m on both sides, gaps {} mm above and {} mm below{}",
-            number(stiffness_n_m),
+    format!("{} {place}: {}.", stop.name, law_words(&stop.law))
+}
+
+/// A law by the words of its description, its values and how it rests.
+fn law_words(law: &StopLaw) -> String {
+    let words = law.in_words().into_iter().enumerate();
+    let values: String = words.map(|(place, (key, value))| value_words(key, value, place == 0)).collect();
+    let rest = match law.rest() {
+        StopRest::OneSided { approach, side } => format!(", {}", rest(approach, side)),
+        StopRest::TwoSided { gap_above_m, gap_below_m, gap_measured } => format!(
+            " on both sides, gaps {} mm above and {} mm below{}",
             number(1e3 * gap_above_m),
             number(1e3 * gap_below_m),
             counted(gap_measured)
         ),
-        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
-            let terms = [(stiffness_n_m3, "N/m³"), (stiffness_n_m2, "N/m²"), (stiffness_n_m, "N/m")];
-            let there = terms.iter().filter(|(constant, _)| *constant != 0.0);
-            let words: Vec<String> =
-                there.map(|(constant, unit)| format!("{} {unit}", number(*constant))).collect();
-            format!("cubic spring {}", words.join(", "))
-        }
-        StopLaw::Formula { ref formula, ref constants } => {
+        StopRest::Always => String::new(),
+    };
+    format!("{}{values}{rest}", law.description().words.caption)
+}
+
+/// The value of a key behind what stands before it; lengths in millimetres.
+fn value_words(key: &LawKey, value: &LawValue, is_first: bool) -> String {
+    let unit = key.quantity().map_or("", |quantity| quantity.unit());
+    let (factor, unit) = if unit == "m" { (1e3, "mm".to_owned()) } else { (1.0, raised(unit)) };
+    let value = match value {
+        LawValue::Number(value) => number(factor * value),
+        LawValue::Hertz(stiffness) => number(stiffness.value()),
+        LawValue::Formula(formula, constants) => {
             let with = |(name, value): &(String, f64)| format!(", {name} = {}", number(*value));
-            let constants: String = constants.iter().map(with).collect();
-            format!("force {formula} N{constants}")
+            return format!(" {formula} N{}", constants.iter().map(with).collect::<String>());
         }
     };
-    format!("{} {place}: {law}.", stop.name)
+    let value = format!("{value} {unit}");
+    match key.phrase {
+        LawPhrase::Value if is_first => format!(" {}", value.trim_end()),
+        LawPhrase::Value => format!(", {}", value.trim_end()),
+        LawPhrase::Named(noun) => format!(", {noun} {}", value.trim_end()),
+        LawPhrase::Beside => format!(" with {}", value.trim_end()),
+    }
+}
+
+/// A unit with its exponents raised.
+fn raised(unit: &str) -> String {
+    let Some((base, exponent)) = unit.split_once('^') else { return unit.to_owned() };
+    format!("{base}{}", exponent.chars().map(raise).collect::<String>())
 }
 
 fn rest(approach: Approach, side: Side) -> String {
@@ -206,7 +206,8 @@ pub fn number(value: f64) -> String {
 
 fn raise(character: char) -> char {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    character.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize])
+    let other = if character == '.' { '·' } else { '⁻' };
+    character.to_digit(10).map_or(other, |digit| RAISED[digit as usize])
 }
 
 #[cfg(test)]

@@ -26,7 +26,10 @@ use self::{
     jet::Jet,
     parity::Parity,
 };
-use super::Force;
+use super::{
+    Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawKey, LawKeyKind, LawPart,
+    LawPhrase, LawSides, LawSymbol, LawValue, LawWords, force_law::no_constant,
+};
 
 pub use arithmetic::Function;
 pub use error::FormulaError;
@@ -82,21 +85,10 @@ impl Formula {
         }
         Ok(law)
     }
+}
 
-    pub(super) fn depends_on_velocity(&self) -> bool {
-        self.0.has_velocity
-    }
-
-    pub(super) fn depends_on_displacement(&self) -> bool {
-        self.0.has_displacement
-    }
-
-    /// Whether the force of the opposite motion is the opposite one, as the formula shows by its form.
-    pub(crate) fn is_odd(&self) -> bool {
-        self.0.is_odd
-    }
-
-    pub(super) fn force(&self, displacement: f64, velocity: f64) -> Force {
+impl ForceLaw for Formula {
+    fn force(&self, displacement: f64, velocity: f64) -> Force {
         let Expression { program, has_displacement, has_velocity, .. } = &*self.0;
         let (x, v) = (Jet::displacement(displacement), Jet::velocity(velocity));
         // In the order of their names.
@@ -114,7 +106,7 @@ impl Formula {
     ///
     /// That is the difference of the forces over that of the velocities. Where rounding hides that
     /// difference, as between velocities that are nearly the same, Simpson's rule has more digits.
-    pub(super) fn mean_damping(&self, displacement: f64, [first, last]: [f64; 2]) -> f64 {
+    fn mean_damping(&self, displacement: f64, [first, last]: [f64; 2]) -> f64 {
         let middle = self.force(displacement, 0.5 * (first + last)).damping;
         let apart = last - first;
         let [first, last] = [first, last].map(|velocity| self.force(displacement, velocity));
@@ -123,7 +115,52 @@ impl Formula {
         let rounding = ROUNDINGS * f64::EPSILON * (first.value.abs() + last.value.abs());
         if (by_simpson * apart - difference).abs() <= rounding { by_simpson } else { difference / apart }
     }
+
+    fn depends_on_velocity(&self) -> bool {
+        self.0.has_velocity
+    }
+
+    fn depends_on_displacement(&self) -> bool {
+        self.0.has_displacement
+    }
+
+    /// Whether the force of the opposite motion is the opposite one, as the formula shows by its form.
+    fn is_odd(&self) -> bool {
+        self.0.is_odd
+    }
+
+    /// Its constants are numbers of the study as any other.
+    fn constant(&self, _: LawConstant) -> Option<f64> {
+        None
+    }
+
+    fn with_constant(&self, constant: LawConstant, _: f64) -> Result<Self, LawError> {
+        no_constant("a formula", constant)
+    }
 }
+
+pub(super) static DESCRIPTION: LawDescription = LawDescription {
+    name: "formula",
+    identity: LawIdentity::Named("formula"),
+    force: "any [formula](#formulas) of r and r'",
+    sides: LawSides::Always {
+        build: |values| match values.0 {
+            [LawValue::Formula(text, constants)] => Ok(LawPart::whole(Formula::new(text, constants)?.into())),
+            _ => Err(LawError::NoConstant { law: "a law without a formula", constant: "text" }),
+        },
+    },
+    keys: &[LawKey {
+        name: "formula",
+        field: "formula",
+        symbol: "",
+        kind: LawKeyKind::Formula,
+        phrase: LawPhrase::Value,
+        varies: None,
+    }],
+    alternative: None,
+    symbol: LawSymbol::ActiveSpring,
+    words: LawWords { report: "force", caption: "force", last_first: false },
+};
 
 impl PartialEq for Formula {
     fn eq(&self, other: &Self) -> bool {
