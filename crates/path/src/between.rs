@@ -1,7 +1,7 @@
 //! A further point of the path between two neighbouring accepted ones.
 
 use crate::{
-    corrector::{Candidate, Limits},
+    corrector::Candidate,
     error::Doubt,
     point::{ContinuationPoint, Counters, Events},
     predictor::{Node, hermite},
@@ -27,7 +27,7 @@ const ALIGNED: f64 = 0.7;
 /// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant
 /// or signature are not those of the arc.
 pub fn solve_between(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     ends: [&ContinuationPoint; 2],
     share: f64,
     settings: &Settings,
@@ -44,7 +44,7 @@ pub fn solve_between(
     weigh(&weights, &first.tangent, &mut row);
     let mut counters = Counters::default();
     candidate
-        .correct(problem, &weights, &row, limits(settings, step), &mut counters)
+        .correct(problem, &weights, &row, settings.limits(step), &mut counters)
         .map_err(Doubt::Corrector)?;
     if candidate.sign * from.orientation < 0.0 {
         return Err(Doubt::Reversed);
@@ -72,18 +72,4 @@ pub fn solve_between(
 fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), Doubt> {
     let angle = product(weights, a, b).clamp(-1.0, 1.0).acos();
     if angle > most { Err(Doubt::Angle { angle }) } else { Ok(()) }
-}
-
-fn limits(settings: &Settings, step: f64) -> Limits {
-    Limits {
-        tolerance: settings.tolerance_at(step),
-        loose_tolerance: settings.loose_tolerance_at(step),
-        singular_tolerance: settings.loose_tolerance_at(step).max(0.01 * step),
-        residual_floor: settings.residual_floor,
-        residual_tolerance: settings.residual_tolerance,
-        residual_wanted: settings.residual_wanted,
-        max_iterations: settings.max_iterations,
-        max_displacement: settings.allowed_displacement(step),
-        max_angle: Some(settings.max_angle),
-    }
 }

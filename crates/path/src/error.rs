@@ -123,7 +123,8 @@ pub enum Doubt {
     /// The number of multipliers outside the unit circle changes by another number than the events of the
     /// step account for.
     #[error(
-        "{before} multipliers lie outside the unit circle before the step, {behind} behind it, and no event between accounts for it"
+        "{before} multipliers lie outside the unit circle before the step, {behind} behind it, \
+        and no event between accounts for it"
     )]
     Unaccounted {
         /// Before the step.
@@ -134,7 +135,7 @@ pub enum Doubt {
     /// The candidate lies on a path that this one meets at branch points only.
     #[error("the point lies on a simpler path, {distance:.1e} from it")]
     Simpler {
-        /// [`PathProblem::distance_to_simpler`](crate::PathProblem::distance_to_simpler).
+        /// [`Judge::distance_to_simpler`](crate::Judge::distance_to_simpler).
         distance: f64,
     },
     /// The candidate lies on a stretch that was already walked.

@@ -30,7 +30,7 @@
 //! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents are not those of one arc,
 //! - the signature of the solution changes and `h > signature_step`,
 //! - the Hermite polynomial of `λ` turns twice,
-//! - the point lies on a simpler path, which the problem knows and which is met at branch points only,
+//! - the point lies on a simpler path, which the judge knows and which is met at branch points only,
 //! - the point lies on a stretch that was already walked.
 //!
 //! The second look at a step in doubt is the step to about its middle, and from there on: what short steps
@@ -68,9 +68,9 @@
 //! - Branch points of even multiplicity, at which `D` does not change its sign, are walked through unnoticed.
 //! - Sheets closer than `sheet_distance` with the same direction, or folds closer than the steps that nothing
 //!   else makes short, can be missed.
-//! - Corners behind which `R` changes like a square root end the branch, unless the problem says that it has
-//!   such ([`PathProblem::has_root_corners`]); then they are passed, and known to lie within the step over
-//!   them, or exactly if the problem computes them ([`PathProblem::root_corner`]).
+//! - Corners behind which `R` changes like a square root end the branch, unless the judge says that there are
+//!   such ([`Judge::has_root_corners`]); then they are passed, and known to lie within the step over them, or
+//!   exactly if the judge computes them ([`Judge::root_corner`]).
 
 mod between;
 mod checkpoint;
@@ -79,12 +79,15 @@ mod dense_lu;
 mod dense_problem;
 mod error;
 mod follower;
+mod judge;
 mod memory;
 mod point;
 mod predictor;
 mod problem;
 mod product;
 mod settings;
+mod state;
+mod test_record;
 
 pub use between::solve_between;
 pub use checkpoint::Checkpoint;
@@ -96,9 +99,10 @@ pub use follower::{
     Branch, Direction, Follower, MOST_SHORT_STEPS, PassedCorner, StepOutcome, TwoSidedBranch, follow,
     follow_both,
 };
+pub use judge::{Judge, Outside, RootCorner};
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
-pub use problem::{
-    Determinant, EvaluationError, Outside, PathProblem, RootCorner, SingularJacobian, TestValue,
-};
+pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestKind, TestValue};
 pub use settings::{ParameterRange, Settings};
+pub use state::PathState;
+pub use test_record::TestRecord;

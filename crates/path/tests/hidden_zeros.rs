@@ -1,7 +1,7 @@
 //! Zeros of a test function that undo each other within a step, of which the problem knows.
 
 use hammerbeam_path::{
-    DenseProblem, Direction, EvaluationError, ParameterRange, PathProblem, Settings, TestValue, follow,
+    DenseProblem, Direction, EvaluationError, Judge, ParameterRange, PathProblem, Settings, TestValue, follow,
 };
 
 /// The line `x = λ` with a point of the plane that moves along it, and two test functions: the parameter less
@@ -33,12 +33,14 @@ impl<P: PathProblem> PathProblem for Passing<P> {
         self.line.evaluate(point)
     }
 
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
-        let signed = |value: f64| TestValue::new(value, u32::from(value < 0.0));
+        let signed = |value: f64| TestValue::sign_change(value, u32::from(value < 0.0));
         values.extend([signed(self.at - OTHER), signed(beyond(place(self.at)))]);
     }
+}
 
+impl<P: PathProblem> Judge for Passing<P> {
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
         numbers.extend(place(self.at));

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::support::{range, steps_of};
-use hammerbeam_path::{DenseProblem, Direction, PathProblem, StopReason, follow};
+use hammerbeam_path::{DenseProblem, Direction, Judge, PathProblem, StopReason, follow};
 
 /// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`,
 /// half a turn later.
@@ -21,7 +21,9 @@ struct Twofold<P>(P);
 
 impl<P: PathProblem> PathProblem for Twofold<P> {
     left_to!(0);
+}
 
+impl<P: PathProblem> Judge for Twofold<P> {
     fn images(&self) -> usize {
         2
     }

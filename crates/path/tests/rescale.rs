@@ -32,7 +32,7 @@ fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
             follower.rescale(factor);
         }
         match follower.step(&mut problem) {
-            StepOutcome::Accepted => points.push(follower.in_first_units(follower.current())),
+            StepOutcome::Accepted => points.push(follower.state().in_first_units(follower.current())),
             StepOutcome::Stopped(reason) => return (points, reason),
         }
     }

@@ -68,8 +68,8 @@ fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
     for cut in (1..whole.len()).step_by(7) {
         let mut early = begin().unwrap();
         walk(&mut early, &mut problem.clone(), cut);
-        let checkpoint: Checkpoint = early.checkpoint().clone();
-        let mut late = Follower::resume(&problem, checkpoint, limits, Settings::default());
+        let checkpoint: Checkpoint = early.checkpoint();
+        let mut late = Follower::resume(&mut problem.clone(), checkpoint, limits, Settings::default());
         late.remember(&first);
         whole[..cut].iter().for_each(|point| late.remember(point));
         assert_eq!(

@@ -4,9 +4,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{
-    DenseProblem, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, StopReason, follow_both,
-};
+use hammerbeam_path::{DenseProblem, MOST_SHORT_STEPS, Settings, StopReason, follow_both};
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 
@@ -218,56 +216,6 @@ fn weights_scale_the_problem() {
         assert_reached_end(&branch, 90.5);
         assert_eq!(folds(&branch).len(), 10);
         assert_monotone(&branch, |z| z[0]);
-    }
-}
-
-/// A problem that sees the touches at `0.05 + 0.1 k` and `w` behind each of them coming.
-struct Foreseeing<P> {
-    problem: P,
-    place: f64,
-    width: f64,
-}
-
-impl<P: PathProblem> PathProblem for Foreseeing<P> {
-    left_to!(problem but evaluate);
-
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.place = point[0];
-        self.problem.evaluate(point)
-    }
-    fn signature(&self) -> u64 {
-        self.problem.signature()
-    }
-    fn distance_to_change(&self, tangent: &[f64]) -> f64 {
-        let touches =
-            (0..5).flat_map(|k| [0.1 * f64::from(k) + 0.05, 0.1 * f64::from(k) + 0.05 + self.width]);
-        touches
-            .map(|touch| (touch - self.place) / tangent[0])
-            .filter(|distance| *distance > 0.0)
-            .fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// Between touch and release, `w` apart, `λ = x + 2 w sin³(π p/w)`: a pair of folds, and the same signature
-/// behind them.
-#[test]
-fn pairs_of_folds_between_two_changes_in_one_step_are_found_if_the_problem_sees_them_coming() {
-    for width in [1e-5, 1e-3] {
-        for step in STEPS {
-            let blip = move |x: f64| {
-                let p = (x - 0.05).rem_euclid(0.1);
-                if p >= width || !(0.0..0.5).contains(&x) {
-                    return (x, 1.0, 0);
-                }
-                let (s, c) = (std::f64::consts::PI * p / width).sin_cos();
-                (x + 2.0 * width * s * s * s, 1.0 + 6.0 * std::f64::consts::PI * s * s * c, 1)
-            };
-            let mut problem = Foreseeing { problem: graph(blip), place: 0.0, width };
-            let branch = up(&mut problem, &[0.0, 0.0], -0.5, 0.5, steps_of(step));
-            assert_reached_end(&branch, 0.5);
-            assert_eq!(folds(&branch).len(), 10, "width {width}, step {step}");
-            assert_monotone(&branch, |z| z[0]);
-        }
     }
 }
 

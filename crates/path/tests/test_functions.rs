@@ -25,7 +25,7 @@ fn round(tests: Vec<fn(&[f64]) -> TestValue>, step: f64) -> Branch {
 }
 
 fn signed(value: f64) -> TestValue {
-    TestValue::new(value, u32::from(value < 0.0))
+    TestValue::sign_change(value, u32::from(value < 0.0))
 }
 
 fn zeros(branch: &Branch, index: u32) -> Vec<(f64, f64)> {
@@ -104,7 +104,7 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
     // Zero at x = 0.300 and at x = 0.302: the value has the same sign on both sides, the count tells.
     let pair: fn(&[f64]) -> TestValue = |z| {
         let count = u32::from(z[0] < 0.302) + u32::from(z[0] < 0.300);
-        TestValue::new((z[0] - 0.300) * (z[0] - 0.302), count)
+        TestValue::sign_change((z[0] - 0.300) * (z[0] - 0.302), count)
     };
     let found = zeros(&round(vec![pair], 0.3), 0);
     let mut places: Vec<f64> = found.iter().map(|point| point.0).collect();
@@ -193,7 +193,7 @@ fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
 
 #[test]
 fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function_has_a_value() {
-    changes_twice(&[|z| TestValue::new(beside(z), 0)]);
+    changes_twice(&[|z| TestValue::sign_change(beside(z), 0)]);
 }
 
 /// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and
@@ -202,7 +202,7 @@ fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function
 fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_begins_or_ends() {
     const ALWAYS: f64 = 0.2;
     changes_twice(&[
-        |z| TestValue::new(beside(z).min(ALWAYS), 0),
-        |z| TestValue::new(beside(z).max(ALWAYS), 0),
+        |z| TestValue::sign_change(beside(z).min(ALWAYS), 0),
+        |z| TestValue::sign_change(beside(z).max(ALWAYS), 0),
     ]);
 }

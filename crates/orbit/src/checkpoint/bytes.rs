@@ -1,6 +1,6 @@
 //! Numbers and points of a path as bytes, and back.
 
-use hammerbeam_path::{ContinuationPoint, Events, TestValue};
+use hammerbeam_path::{ContinuationPoint, Events, TestKind, TestValue};
 
 #[derive(Default)]
 pub(super) struct Writer {
@@ -19,6 +19,18 @@ impl Writer {
     pub fn floats(&mut self, values: &[f64]) {
         self.word(values.len() as u64);
         values.iter().for_each(|&value| self.float(value));
+    }
+
+    /// The kind stands above what is left out.
+    pub fn tests(&mut self, tests: &[TestValue]) {
+        self.word(tests.len() as u64);
+        for test in tests {
+            let &TestValue { kind, value, count, undecided, left_out } = test;
+            self.float(value);
+            self.word(u64::from(count));
+            self.word(u64::from(undecided));
+            self.word(u64::from(left_out) | u64::from(kind == TestKind::NearJump) << 32);
+        }
     }
 
     pub fn point(&mut self, point: &ContinuationPoint) {
@@ -66,8 +78,15 @@ impl Reader<'_> {
         let count = self.word()?;
         let test = |_| {
             let value = self.float()?;
-            let mut number = || u32::try_from(self.word()?).ok();
-            Some(TestValue { value, count: number()?, undecided: number()?, left_out: number()? })
+            let [count, undecided, last] = [self.word()?, self.word()?, self.word()?];
+            let kind = match last >> 32 {
+                0 => TestKind::SignChange,
+                1 => TestKind::NearJump,
+                _ => return None,
+            };
+            let number = |word: u64| u32::try_from(word).ok();
+            let (count, undecided) = (number(count)?, number(undecided)?);
+            Some(TestValue { kind, value, count, undecided, left_out: number(last & 0xffff_ffff)? })
         };
         (0..count).map(test).collect()
     }

@@ -42,7 +42,7 @@ pub(super) fn tests(
 
 /// A test function that counts nothing but its sign.
 pub(super) fn signed(value: f64) -> TestValue {
-    TestValue::new(value, u32::from(value < 0.0))
+    TestValue::sign_change(value, u32::from(value < 0.0))
 }
 
 /// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve

@@ -2,7 +2,9 @@
 //! `[nodes; f; x]`, and the parameter `p`.
 
 use hammerbeam_motion::exact::MotionError;
-use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+use hammerbeam_path::{
+    DenseLu, Determinant, EvaluationError, Judge, PathProblem, SingularJacobian, TestValue,
+};
 
 use super::{
     condition::{Condition, Linear},
@@ -226,7 +228,7 @@ impl PathProblem for CurveProblem {
     }
 
     /// In the order of `marks.rs`.
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
         let criticality = self.coefficient();
         let criticality = self.criticality.test(criticality);
@@ -237,6 +239,12 @@ impl PathProblem for CurveProblem {
         values.extend(opposite.map(marks::signed));
     }
 
+    fn judge(&mut self) -> &mut dyn Judge {
+        self
+    }
+}
+
+impl Judge for CurveProblem {
     /// Without the contact that a grazing orbit touches, unless it passes it: whether that touch is counted
     /// is rounding.
     fn signature(&self) -> u64 {

@@ -51,7 +51,7 @@ impl CurveWalk {
 
     fn move_phase(&mut self, offset: f64) -> Result<(), OrbitError> {
         let current = self.follower.current().clone();
-        let begun = self.follower.has_start().then(|| self.follower.checkpoint().start.clone());
+        let begun = self.follower.state().has_start().then(|| self.follower.state().start.clone());
         let start = begun.and_then(|begun| Some((carried(&mut self.problem, &begun, offset).ok()?.0, begun)));
         let (node, matrix) = carried(&mut self.problem, &current, offset)?;
         let cycles = f64::from(self.problem.shooting.period_multiple);

@@ -7,7 +7,7 @@
 //! across a change of contacts tells of it.
 
 use hammerbeam_motion::{System, exact::MotionError};
-use hammerbeam_path::{Direction, Events, Follower, ParameterRange, PathProblem, StepOutcome};
+use hammerbeam_path::{Direction, Events, Follower, Judge, ParameterRange, PathProblem, StepOutcome};
 
 use super::{
     bordered::Bordered,

@@ -1,6 +1,6 @@
 //! A whole branch at once, for small problems and tests.
 
-use super::{Direction, Follower, StepOutcome};
+use super::{Follower, StepOutcome, direction::Direction};
 use crate::{
     error::{PathError, StopReason},
     point::{ContinuationPoint, Counters},
@@ -51,7 +51,7 @@ pub struct TwoSidedBranch {
 /// # Errors
 /// As [`Follower::start`].
 pub fn follow(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     start: &[f64],
     direction: Direction<'_>,
     range: ParameterRange,
@@ -72,7 +72,7 @@ pub fn follow(
 /// # Errors
 /// As [`Follower::start`].
 pub fn follow_both(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     start: &[f64],
     range: ParameterRange,
     settings: Settings,

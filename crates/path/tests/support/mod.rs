@@ -11,7 +11,8 @@ use hammerbeam_path::{
     follow,
 };
 
-/// What a problem leaves to the one in its field: all that has no default, or all but `evaluate`.
+/// What a problem leaves to the one in its field: all that has no default, or all but `evaluate`. It is
+/// its own judge.
 macro_rules! left_to {
     ($inner:tt) => {
         left_to!($inner but evaluate);
@@ -37,6 +38,9 @@ macro_rules! left_to {
         }
         fn solve(&self, right_hand_side: &mut [f64]) {
             self.$inner.solve(right_hand_side);
+        }
+        fn judge(&mut self) -> &mut dyn hammerbeam_path::Judge {
+            self
         }
     };
 }
