@@ -8,15 +8,15 @@ mod bytes;
 
 use hammerbeam_motion::{Parameter, System};
 use hammerbeam_path::{
-    Checkpoint, Counters, Follower, History, Node, ParameterRange, PathState, StopReason, TestRecord,
+    Checkpoint, Counters, Follower, History, Node, ParameterRange, PathState, PathStop, TestRecord,
 };
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
     continuation_parameter::ContinuationParameter,
     shooting::ShootingProblem,
-    solve::{integrator, state_of_rest},
-    state_scale::StateScale,
+    solve::integrator,
+    state_scale::{StateScale, state_of_rest},
     walk::{
         Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations, hertz_per_norm,
         path_settings,
@@ -322,19 +322,19 @@ fn numbers_of(word: u64) -> Option<(u32, u32)> {
 }
 
 /// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.
-fn end_word(stop: Option<StopReason>) -> u64 {
+fn end_word(stop: Option<PathStop>) -> u64 {
     match stop {
-        Some(StopReason::RangeEnd) => 1,
-        Some(StopReason::Closed) => 2,
+        Some(PathStop::RangeEnd) => 1,
+        Some(PathStop::Closed) => 2,
         _ => 0,
     }
 }
 
-fn end_of_word(word: u64) -> Option<Option<StopReason>> {
+fn end_of_word(word: u64) -> Option<Option<PathStop>> {
     match word {
         0 => Some(None),
-        1 => Some(Some(StopReason::RangeEnd)),
-        2 => Some(Some(StopReason::Closed)),
+        1 => Some(Some(PathStop::RangeEnd)),
+        2 => Some(Some(PathStop::Closed)),
         _ => None,
     }
 }

@@ -17,7 +17,7 @@
 //! # Source
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
 
-use hammerbeam_path::{Events, Outside, TestValue};
+use hammerbeam_path::{Outside, PathEvents, TestValue};
 
 use crate::spectrum::Spectrum;
 
@@ -163,7 +163,7 @@ pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
 
 /// How many multipliers lie outside the circle, without those that are critical at these events of a path
 /// with the test functions [`flip`] and [`neimark_sacker`] in this order.
-pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> Outside {
+pub(crate) fn outside(spectrum: &Spectrum, events: PathEvents) -> Outside {
     let multipliers = &spectrum.multipliers;
     let margin = on_circle(multipliers);
     // Those on the circle as well as they are known are so by the margin, too.

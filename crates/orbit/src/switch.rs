@@ -11,7 +11,7 @@
 //! grazing lies between the crossing and the orbit found.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
-use hammerbeam_path::{Direction, Follower, ParameterRange};
+use hammerbeam_path::{Follower, ParameterRange, StartDirection};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -153,7 +153,7 @@ fn leave(
     let start: Vec<f64> = base.iter().zip(&direction).map(|(z, d)| z + reach * unit * d).collect();
     let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
     let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-    let along = Direction::Along(&away);
+    let along = StartDirection::Along(&away);
     let Ok(follower) =
         Follower::start(&mut problem, &start, along, range, path_settings(settings, system, length))
     else {

@@ -18,7 +18,7 @@ mod splits;
 mod stepping;
 
 use hammerbeam_motion::{System, exact::MotionError};
-use hammerbeam_path::{Direction, Follower, ParameterRange};
+use hammerbeam_path::{Follower, ParameterRange, StartDirection};
 
 use crate::{
     BranchRow, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -119,8 +119,8 @@ impl BranchWalk {
         };
         let point = problem.point(&nodes, value);
         let direction = match side {
-            Side::Up => Direction::Increasing,
-            Side::Down => Direction::Decreasing,
+            Side::Up => StartDirection::Increasing,
+            Side::Down => StartDirection::Decreasing,
         };
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let path = path_settings(settings, system, length);

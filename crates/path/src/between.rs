@@ -2,8 +2,8 @@
 
 use crate::{
     corrector::Candidate,
-    error::Doubt,
-    point::{ContinuationPoint, Counters, Events},
+    error::StepDoubt,
+    point::{ContinuationPoint, Counters, PathEvents},
     predictor::{Node, hermite},
     problem::PathProblem,
     product::{distance, product, progress, weigh},
@@ -31,7 +31,7 @@ pub fn solve_between(
     ends: [&ContinuationPoint; 2],
     share: f64,
     settings: &Settings,
-) -> Result<ContinuationPoint, Doubt> {
+) -> Result<ContinuationPoint, StepDoubt> {
     let [from, to] = ends;
     let weights = problem.weights().to_vec();
     check_aligned(&weights, &from.tangent, &to.tangent, ALIGNED.acos())?;
@@ -45,14 +45,14 @@ pub fn solve_between(
     let mut counters = Counters::default();
     candidate
         .correct(problem, &weights, &row, settings.limits(step), &mut counters)
-        .map_err(Doubt::Corrector)?;
+        .map_err(StepDoubt::Corrector)?;
     if candidate.sign * from.orientation < 0.0 {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     candidate.orient(from.orientation);
     check_aligned(&weights, &candidate.node.tangent, &to.tangent, settings.max_angle)?;
     if candidate.signature != from.signature && candidate.signature != to.signature {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     Ok(ContinuationPoint {
         arc_length: from.arc_length + share * (to.arc_length - from.arc_length),
@@ -61,7 +61,7 @@ pub fn solve_between(
         log_determinant: candidate.log_determinant,
         correction_norm: candidate.correction_norm,
         residual_norm: candidate.residual_norm,
-        events: Events::default(),
+        events: PathEvents::default(),
         uncertainty: 0.0,
         evaluations: counters.evaluations,
         point: candidate.point,
@@ -69,7 +69,7 @@ pub fn solve_between(
     })
 }
 
-fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), Doubt> {
+fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), StepDoubt> {
     let angle = product(weights, a, b).clamp(-1.0, 1.0).acos();
-    if angle > most { Err(Doubt::Angle { angle }) } else { Ok(()) }
+    if angle > most { Err(StepDoubt::Angle { angle }) } else { Ok(()) }
 }

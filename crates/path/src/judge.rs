@@ -4,7 +4,7 @@
 //! A follower asks it of one [`Judge`] that the problem hands over. Every question has an answer that
 //! stands for "nothing is known", which is the default: with it a path is followed by its equations alone.
 
-use crate::point::Events;
+use crate::point::PathEvents;
 
 /// How many multipliers of the solution at the last evaluated point lie outside the unit circle: of a
 /// solution that is a fixed point of a map, say.
@@ -59,7 +59,7 @@ pub trait Judge {
     ///
     /// They cross the circle at folds, branch points and zeros of test functions only. What crosses it and
     /// turns real within one step escapes the test functions; here it shows.
-    fn outside(&mut self, events: Events) -> Option<Outside> {
+    fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         let _ = events;
         None
     }

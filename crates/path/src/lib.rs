@@ -35,7 +35,7 @@
 //!
 //! The second look at a step in doubt is the step to about its middle, and from there on: what short steps
 //! find is kept. A doubt that remains at the shortest step is a corner, or ends the branch with its
-//! [`StopReason`].
+//! [`PathStop`].
 //!
 //! **Events** are points of their own. A *fold* is a zero of `t_λ`, located by regula falsi between accepted
 //! points. A *branch point* is a zero of `D` through which the tangent goes straight; a jump to a sheet that
@@ -50,7 +50,7 @@
 //! # Example
 //! The unit circle has two folds and closes.
 //! ```
-//! use hammerbeam_path::{DenseProblem, Direction, ParameterRange, Settings, StopReason, follow};
+//! use hammerbeam_path::{DenseProblem, StartDirection, ParameterRange, Settings, PathStop, follow};
 //!
 //! let mut circle = DenseProblem::new(1, |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
 //!     residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
@@ -58,8 +58,8 @@
 //!     0
 //! });
 //! let range = ParameterRange::new(-2.0, 2.0)?;
-//! let branch = follow(&mut circle, &[1.0, 0.0], Direction::Increasing, range, Settings::default())?;
-//! assert_eq!(branch.stop, StopReason::Closed);
+//! let branch = follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, Settings::default())?;
+//! assert_eq!(branch.stop, PathStop::Closed);
 //! assert_eq!(branch.folds().count(), 2);
 //! # Ok::<(), hammerbeam_path::PathError>(())
 //! ```
@@ -94,13 +94,13 @@ pub use checkpoint::Checkpoint;
 pub use corrector::CorrectorError;
 pub use dense_lu::DenseLu;
 pub use dense_problem::DenseProblem;
-pub use error::{Doubt, PathError, StopReason};
+pub use error::{PathError, PathStop, StepDoubt};
 pub use follower::{
-    Branch, Direction, Follower, MOST_SHORT_STEPS, PassedCorner, StepOutcome, TwoSidedBranch, follow,
+    Branch, Follower, MOST_SHORT_STEPS, PassedCorner, StartDirection, StepOutcome, TwoSidedBranch, follow,
     follow_both,
 };
 pub use judge::{Judge, Outside, RootCorner};
-pub use point::{ContinuationPoint, Counters, Events};
+pub use point::{ContinuationPoint, Counters, PathEvents};
 pub use predictor::{History, Node};
 pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestKind, TestValue};
 pub use settings::{ParameterRange, Settings};

@@ -2,9 +2,9 @@
 
 use crate::{
     corrector::Candidate,
-    error::StopReason,
+    error::PathStop,
     memory::in_units,
-    point::{ContinuationPoint, Events},
+    point::{ContinuationPoint, PathEvents},
     predictor::{History, MOST_EARLIER_NODES, Node},
     product::{norm, scale},
 };
@@ -35,7 +35,7 @@ pub struct PathState {
     /// A change of signature is known to lie within this distance ahead; zero if none is known.
     pub change_ahead: f64,
     /// Why the branch ended, if it did.
-    pub stop: Option<StopReason>,
+    pub stop: Option<PathStop>,
 }
 
 impl PathState {
@@ -81,7 +81,7 @@ impl PathState {
         &mut self,
         trial: &Candidate,
         arc_length: f64,
-        (events, uncertainty): (Events, f64),
+        (events, uncertainty): (PathEvents, f64),
     ) {
         let current = &mut self.current;
         current.point.copy_from_slice(&trial.point);

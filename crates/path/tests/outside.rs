@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
 use hammerbeam_path::{
-    Branch, Direction, EvaluationError, Events, Judge, Outside, ParameterRange, PathProblem, Settings,
-    TestValue, follow,
+    Branch, EvaluationError, Judge, Outside, ParameterRange, PathEvents, PathProblem, Settings,
+    StartDirection, TestValue, follow,
 };
 
 /// A path along which multipliers go that depend on the unknown alone, those of a pair one after the other.
@@ -77,7 +77,7 @@ impl<P: PathProblem> PathProblem for Multiplied<P> {
 }
 
 impl<P: PathProblem> Judge for Multiplied<P> {
-    fn outside(&mut self, events: Events) -> Option<Outside> {
+    fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         let mut left = (self.multipliers)(self.x);
         let all = left.len();
         if events.fold {
@@ -110,7 +110,7 @@ fn zeros<P: PathProblem>(
     settings: Settings,
 ) -> (Vec<f64>, Branch) {
     let range = ParameterRange::new(-1.0, 1.0).unwrap();
-    let branch = follow(&mut problem, &start, Direction::Increasing, range, settings).unwrap();
+    let branch = follow(&mut problem, &start, StartDirection::Increasing, range, settings).unwrap();
     let zeros = branch.points.iter().filter(|point| point.events.zeros == 1);
     (zeros.map(|point| point.point[0]).collect(), branch)
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
-use hammerbeam_path::{DenseProblem, Settings, StopReason};
+use hammerbeam_path::{DenseProblem, PathStop, Settings};
 use proptest::prelude::*;
 
 /// `λ = x + Σ a_k sin(k x + φ_k)`.
@@ -133,7 +133,7 @@ proptest! {
         let last = polygon.knots[pieces.len() - 1];
         let reached = branch.points.last().unwrap().point[0] >= last;
         let last = branch.points.last();
-        prop_assert!(reached || branch.stop == StopReason::Budget, "{:?} {:?}", branch.stop, last);
+        prop_assert!(reached || branch.stop == PathStop::Budget, "{:?} {:?}", branch.stop, last);
         if marked && reached {
             let turns = pieces.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0).count();
             prop_assert_eq!(branch.folds().count(), turns);

@@ -4,7 +4,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{DenseProblem, MOST_SHORT_STEPS, Settings, StopReason, follow_both};
+use hammerbeam_path::{DenseProblem, MOST_SHORT_STEPS, PathStop, Settings, follow_both};
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 
@@ -240,7 +240,7 @@ fn a_path_that_leads_nowhere_is_left() {
     let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);
     let settings = Settings { crawl_step: 1e-7, ..steps_of(0.01) };
     let branch = up(&mut mixed(3, 0.3, wriggle), &mixed_point(3, 0.3, 0.0, 0.0), -1.0, 1.0, settings);
-    let StopReason::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
+    let PathStop::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
     assert_eq!(steps, MOST_SHORT_STEPS);
     assert!(parameter < 1e-7 * MOST_SHORT_STEPS as f64, "{parameter}");
 }

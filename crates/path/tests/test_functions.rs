@@ -1,7 +1,7 @@
 //! Zeros of test functions become points of their own.
 
 use hammerbeam_path::{
-    Branch, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason, TestValue, follow,
+    Branch, DenseProblem, ParameterRange, PathProblem, PathStop, Settings, StartDirection, TestValue, follow,
 };
 
 /// The unit circle `x² + λ² = 1`, with these test functions.
@@ -18,9 +18,9 @@ fn circle(tests: Vec<fn(&[f64]) -> TestValue>) -> impl PathProblem {
 fn round(tests: Vec<fn(&[f64]) -> TestValue>, step: f64) -> Branch {
     let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).expect("in order");
-    let branch = follow(&mut circle(tests), &[1.0, 0.0], Direction::Increasing, range, settings);
+    let branch = follow(&mut circle(tests), &[1.0, 0.0], StartDirection::Increasing, range, settings);
     let branch = branch.expect("the start lies on the circle");
-    assert_eq!(branch.stop, StopReason::Closed);
+    assert_eq!(branch.stop, PathStop::Closed);
     branch
 }
 
@@ -183,7 +183,7 @@ fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
             let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
             let range = ParameterRange::new(-2.0, 2.0).expect("in order");
             let mut problem = DenseProblem::new(1, equation).with_tests(tests.to_vec());
-            let branch = follow(&mut problem, &start, Direction::Increasing, range, settings);
+            let branch = follow(&mut problem, &start, StartDirection::Increasing, range, settings);
             let branch = branch.expect("the start lies on the circle");
             let changes = branch.points.iter().filter(|point| point.events.signature_change);
             assert_eq!(changes.count(), 4, "step {step}, angle {angle}");

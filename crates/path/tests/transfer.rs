@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use hammerbeam_path::{
-    ContinuationPoint, DenseProblem, Direction, Follower, Judge, Node, ParameterRange, PathError,
-    PathProblem, Settings, StepOutcome, StopReason,
+    ContinuationPoint, DenseProblem, Follower, Judge, Node, ParameterRange, PathError, PathProblem, PathStop,
+    Settings, StartDirection, StepOutcome,
 };
 
 type Function = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64]) -> u64>;
@@ -61,7 +61,7 @@ fn transfer(follower: &mut Follower, copies: usize) -> Result<Circle, PathError>
 
 fn begun(problem: &mut Circle, start: &[f64]) -> Follower {
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
-    Follower::start(problem, start, Direction::Increasing, range, Settings::default()).unwrap()
+    Follower::start(problem, start, StartDirection::Increasing, range, Settings::default()).unwrap()
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn a_circle_closes_at_its_start_whatever_happens_to_its_unknowns() {
         match follower.step(&mut problem) {
             StepOutcome::Accepted => folds += u32::from(follower.current().events.fold),
             StepOutcome::Stopped(reason) => {
-                assert_eq!(reason, StopReason::Closed);
+                assert_eq!(reason, PathStop::Closed);
                 assert_eq!(follower.counters().accepted, step - 1);
                 break;
             }
@@ -120,7 +120,7 @@ fn a_start_that_is_out_of_reach_can_be_brought_back() {
             match follower.step(&mut problem) {
                 StepOutcome::Accepted => {}
                 StepOutcome::Stopped(reason) => {
-                    assert_eq!(reason, StopReason::Closed);
+                    assert_eq!(reason, PathStop::Closed);
                     closed = true;
                 }
             }

@@ -5,7 +5,7 @@
 //! sign of `(-1)^k`, k the number of negative `g_i`. A `g_i` below [`KNOWN`] is undecided.
 
 use hammerbeam_path::{
-    Branch, DenseProblem, Direction, Judge, ParameterRange, PathProblem, Settings, StopReason, TestValue,
+    Branch, DenseProblem, Judge, ParameterRange, PathProblem, PathStop, Settings, StartDirection, TestValue,
     follow,
 };
 
@@ -54,8 +54,9 @@ fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
     let mut circle = Circle { inner: DenseProblem::new(1, equation), parts: parts.to_vec(), at: [0.0, 0.0] };
     let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
-    let branch: Branch = follow(&mut circle, &[1.0, 0.0], Direction::Increasing, range, settings).unwrap();
-    assert_eq!(branch.stop, StopReason::Closed);
+    let branch: Branch =
+        follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, settings).unwrap();
+    assert_eq!(branch.stop, PathStop::Closed);
     let at = branch.points.iter().filter(|point| point.events.zeros & 1 == 1);
     at.map(|point| [point.point[0], point.point[1]]).collect()
 }

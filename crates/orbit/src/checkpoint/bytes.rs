@@ -1,6 +1,6 @@
 //! Numbers and points of a path as bytes, and back.
 
-use hammerbeam_path::{ContinuationPoint, Events, TestKind, TestValue};
+use hammerbeam_path::{ContinuationPoint, PathEvents, TestKind, TestValue};
 
 #[derive(Default)]
 pub(super) struct Writer {
@@ -42,7 +42,7 @@ impl Writer {
         self.word(point.signature);
         self.float(point.correction_norm);
         self.float(point.residual_norm);
-        let Events { fold, branch_point, signature_change, corner, zeros } = point.events;
+        let PathEvents { fold, branch_point, signature_change, corner, zeros } = point.events;
         let bits = [fold, branch_point, signature_change, corner];
         let bits: u64 = bits.iter().enumerate().map(|(i, &set)| u64::from(set) << i).sum();
         self.word(bits | u64::from(zeros) << 32);
@@ -104,7 +104,7 @@ impl Reader<'_> {
             events: {
                 let bits = self.word()?;
                 let set = |bit: u64| bits >> bit & 1 == 1;
-                Events {
+                PathEvents {
                     fold: set(0),
                     branch_point: set(1),
                     signature_change: set(2),

@@ -69,7 +69,10 @@
 //! than one way at once, as orbits of two periods that become symmetric ones of one, the end is not
 //! recognised either.
 
+mod along;
 mod bordered;
+mod clear;
+mod closing;
 mod condition;
 mod criticality;
 mod deflated;
@@ -77,6 +80,7 @@ mod differences;
 mod frequency_end;
 mod grazing;
 mod image;
+mod linear;
 mod lyapunov;
 mod marks;
 mod meeting;
@@ -92,6 +96,7 @@ mod rows;
 mod shooting;
 mod splits;
 mod start;
+mod touched;
 mod walk;
 
 #[cfg(test)]

@@ -7,10 +7,12 @@ use hammerbeam_path::{
 };
 
 use super::{
-    condition::{Condition, Linear},
+    condition::Condition,
     criticality::Criticality,
     deflated::other_eigenvalues,
+    linear::Linear,
     marks,
+    opposite::opposite_clearance,
     shooting::{Place, Shooting, times},
 };
 
@@ -235,7 +237,7 @@ impl PathProblem for CurveProblem {
         values.extend(marks::tests(&self.condition, &self.tests, &self.other_multipliers(), criticality));
         // Where it cannot be followed there it has no value.
         let place = self.place(&self.evaluated);
-        let opposite = self.shooting.opposite_clearance(&place).unwrap_or(Some(f64::INFINITY));
+        let opposite = opposite_clearance(&mut self.shooting, &place).unwrap_or(Some(f64::INFINITY));
         values.extend(opposite.map(marks::signed));
     }
 

@@ -1,7 +1,7 @@
 //! What only orbits know, and the path asks of its judge: multipliers, orbits of shorter period, the same
 //! orbit a period later, contacts, and grazing of rigid stops.
 
-use hammerbeam_path::{Events, Judge, Outside, PathProblem, RootCorner};
+use hammerbeam_path::{Judge, Outside, PathEvents, PathProblem, RootCorner};
 
 use super::ShootingProblem;
 use crate::{corner, stability};
@@ -27,7 +27,7 @@ impl Judge for ShootingProblem {
         stability::pairs_cross_both_ways(before.as_chunks().0, behind.as_chunks().0)
     }
 
-    fn outside(&mut self, events: Events) -> Option<Outside> {
+    fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         if !self.watches_stability() {
             return None;
         }

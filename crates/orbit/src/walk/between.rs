@@ -6,7 +6,7 @@
 //! although nothing happens at either that accounts for it, the place between is found by halving. Where the
 //! contacts change, multipliers may jump, and nothing is asked.
 
-use hammerbeam_path::{ContinuationPoint, Events, solve_between};
+use hammerbeam_path::{ContinuationPoint, PathEvents, solve_between};
 
 use super::{
     orbit_path::OrbitPath,
@@ -44,7 +44,8 @@ pub(super) fn show_hidden_events(
             Err(error) => return Err(error),
         },
     };
-    let of_rows = rows.iter().map(|between| outside(&spectrum_of(&between.row.solution), Events::default()));
+    let of_rows =
+        rows.iter().map(|between| outside(&spectrum_of(&between.row.solution), PathEvents::default()));
     let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
     let corner = from.events.corner || to.events.corner;
     let changes = corner || rows.iter().any(|between| between.point.signature != from.signature);
@@ -137,7 +138,7 @@ fn event_row(
     if off(critical) > JUMPS || change != 1 + usize::from(is_pair) {
         return Ok(None);
     }
-    point.events = Events { zeros: if is_pair { 2 } else { 1 }, ..Events::default() };
+    point.events = PathEvents { zeros: if is_pair { 2 } else { 1 }, ..PathEvents::default() };
     let at_corners = path.follower.settings().min_step;
     let contacts = Vec::new();
     let place =
@@ -148,7 +149,7 @@ fn event_row(
 }
 
 /// Least and most number of multipliers outside the circle.
-pub(super) fn outside(spectrum: &Spectrum, events: Events) -> (u32, u32) {
+pub(super) fn outside(spectrum: &Spectrum, events: PathEvents) -> (u32, u32) {
     let outside = stability::outside(spectrum, events);
     (outside.least, outside.most)
 }

@@ -1,6 +1,6 @@
 //! Why the path of a walk ended, in terms of orbits.
 
-use hammerbeam_path::StopReason as PathStop;
+use hammerbeam_path::PathStop;
 
 use super::{
     orbit_path::OrbitPath, row::row_at, shorter_period::is_near_shorter_period, splits::splits_here,

@@ -88,7 +88,7 @@ impl RowRecord {
         let located = located::describe(&mut path.problem, place);
         let first = BranchRow { located, ..row_at(path, &at_corner)? };
         evaluate(&mut path.problem, &current.point)?;
-        let without_events = ContinuationPoint { events: hammerbeam_path::Events::default(), ..current };
+        let without_events = ContinuationPoint { events: hammerbeam_path::PathEvents::default(), ..current };
         Ok((Some(first), row_at(path, &without_events)?))
     }
 }

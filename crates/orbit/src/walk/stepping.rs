@@ -1,6 +1,6 @@
 //! From one solution of a walk to the next.
 
-use hammerbeam_path::{ContinuationPoint, StepOutcome, StopReason as PathStop};
+use hammerbeam_path::{ContinuationPoint, PathStop, StepOutcome};
 
 use super::{
     BranchWalk, Walked,

@@ -1,13 +1,13 @@
 //! A candidate that is to be accepted, with what happened on the way to it.
 
-use crate::{error::StopReason, point::Events};
+use crate::{error::PathStop, point::PathEvents};
 
 /// What is known of a candidate that is to be accepted.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Arrival {
-    pub events: Events,
+    pub events: PathEvents,
     /// The branch ends here for this reason.
-    pub end: Option<StopReason>,
+    pub end: Option<PathStop>,
     /// Earlier nodes of the predictor, for the order in the step control.
     pub earlier: usize,
     /// Sign of `t_λ` from here on, if it differs from that before.

@@ -3,7 +3,7 @@
 
 use crate::{
     corrector::{Candidate, CorrectorError, Limits},
-    error::Doubt,
+    error::StepDoubt,
     memory::PathMemory,
     point::{ContinuationPoint, Counters},
     predictor::Node,
@@ -76,17 +76,17 @@ impl Attempt<'_> {
     }
 
     /// Corrects the trial with the present border.
-    pub fn correct(&mut self, limits: Limits) -> Result<(), Doubt> {
+    pub fn correct(&mut self, limits: Limits) -> Result<(), StepDoubt> {
         let corrected =
             self.trial.correct(self.problem, &self.frame.weights, self.row, limits, self.counters);
-        corrected.map_err(Doubt::Corrector)
+        corrected.map_err(StepDoubt::Corrector)
     }
 
     /// Corrects the trial at fixed parameter.
-    pub fn correct_at_parameter(&mut self, limits: Limits) -> Result<(), Doubt> {
+    pub fn correct_at_parameter(&mut self, limits: Limits) -> Result<(), StepDoubt> {
         let Frame { weights, parameter_row, .. } = self.frame;
         let corrected = self.trial.correct(self.problem, weights, parameter_row, limits, self.counters);
-        corrected.map_err(Doubt::Corrector)
+        corrected.map_err(StepDoubt::Corrector)
     }
 
     /// Evaluates the trial, with correction and direction for the present border.
@@ -105,16 +105,16 @@ impl Attempt<'_> {
     }
 
     /// Evaluates the problem at a point, to no other end.
-    pub fn evaluate(&mut self, point: &[f64]) -> Result<(), Doubt> {
+    pub fn evaluate(&mut self, point: &[f64]) -> Result<(), StepDoubt> {
         self.counters.evaluations += 1;
-        self.problem.evaluate(point).map_err(|error| Doubt::Corrector(error.into()))
+        self.problem.evaluate(point).map_err(|error| StepDoubt::Corrector(error.into()))
     }
 
     /// Evaluates the trial again, so that the problem holds the point that is accepted. Its test functions
     /// stay as they are noted: of one whose zero was located there before, the sign at the trial is rounding.
-    pub fn return_to_trial(&mut self) -> Result<(), Doubt> {
+    pub fn return_to_trial(&mut self) -> Result<(), StepDoubt> {
         self.counters.evaluations += 1;
-        self.problem.evaluate(&self.trial.point).map_err(|error| Doubt::Corrector(error.into()))
+        self.problem.evaluate(&self.trial.point).map_err(|error| StepDoubt::Corrector(error.into()))
     }
 
     /// Length of the trial's step along the tangent of its base.

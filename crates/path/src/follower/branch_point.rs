@@ -6,8 +6,8 @@
 use super::{arrival::Arrival, attempt::Attempt, beside, bracket::Bracket, locator::Locator};
 use crate::{
     corrector::CorrectorError,
-    error::Doubt,
-    point::Events,
+    error::StepDoubt,
+    point::PathEvents,
     product::{norm, scale},
 };
 
@@ -26,22 +26,22 @@ const STATIONARY: f64 = 0.02;
 pub(super) fn arrive_at_branch_point(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     let (share, smallness) = search(attempt, locator)?;
     if smallness > VANISHING {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     let parameter_sign = turn_at_branch_point(attempt, share)?;
     let uncertainty = beside::sharpen(attempt, locator, share);
     interpolate_tangent(attempt, locator, share);
     locator.arrive(attempt);
-    let events = Events { branch_point: true, fold: parameter_sign.is_some(), ..Events::default() };
+    let events = PathEvents { branch_point: true, fold: parameter_sign.is_some(), ..PathEvents::default() };
     Ok(Arrival { events, parameter_sign, anchors_anew: true, uncertainty, ..Arrival::default() })
 }
 
 /// Leaves the point with the smallest `|D|` found in the probe, evaluated last; returns its share of the step
 /// and its `|D|` relative to the larger of those at both ends.
-fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64), Doubt> {
+fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64), StepDoubt> {
     let state = attempt.state;
     let scale = attempt.trial.log_determinant.max(state.current.log_determinant);
     let length = attempt.progress();
@@ -57,7 +57,7 @@ fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64)
             Err(CorrectorError::SingularJacobian) => {
                 return exactly_singular(attempt, locator, sigma / length);
             }
-            Err(error) if smallest.1 > VANISHING => return Err(Doubt::Corrector(error)),
+            Err(error) if smallest.1 > VANISHING => return Err(StepDoubt::Corrector(error)),
             Err(_) => break,
             Ok(()) => {}
         }
@@ -68,7 +68,7 @@ fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64)
             std::mem::swap(&mut locator.probe, &mut locator.best);
         }
         if bracket.width() < JUMP_WIDTH * length && smallest.1 > JUMP_SIZE {
-            return Err(Doubt::Reversed);
+            return Err(StepDoubt::Reversed);
         }
         if size <= SHARP || bracket.width() <= attempt.settings().correction_floor {
             break;
@@ -79,10 +79,14 @@ fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64)
 }
 
 /// The matrix could not even be factorised: the probe lies on the branch point as far as numbers tell.
-fn exactly_singular(attempt: &Attempt<'_>, locator: &mut Locator, share: f64) -> Result<(f64, f64), Doubt> {
+fn exactly_singular(
+    attempt: &Attempt<'_>,
+    locator: &mut Locator,
+    share: f64,
+) -> Result<(f64, f64), StepDoubt> {
     let probe = &mut locator.probe;
     if probe.residual_norm > attempt.settings().correction_tolerance {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     probe.node.point.copy_from_slice(&probe.point);
     probe.signature = attempt.state.current.signature;
@@ -92,7 +96,7 @@ fn exactly_singular(attempt: &Attempt<'_>, locator: &mut Locator, share: f64) ->
 }
 
 /// New sign of `t_λ` if the parameter turns at the branch point itself.
-fn turn_at_branch_point(attempt: &Attempt<'_>, share: f64) -> Result<Option<f64>, Doubt> {
+fn turn_at_branch_point(attempt: &Attempt<'_>, share: f64) -> Result<Option<f64>, StepDoubt> {
     let (before, after) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
     if before * after >= 0.0 {
         return Ok(None);
@@ -102,7 +106,7 @@ fn turn_at_branch_point(attempt: &Attempt<'_>, share: f64) -> Result<Option<f64>
     if here.abs() <= STATIONARY * first.abs().max(after.abs()) {
         return Ok(Some(-before));
     }
-    if here * before > 0.0 { Ok(None) } else { Err(Doubt::HiddenFolds) }
+    if here * before > 0.0 { Ok(None) } else { Err(StepDoubt::HiddenFolds) }
 }
 
 /// At a branch point the direction from the factorisation is that of no branch; both ends of the step have

@@ -1,7 +1,7 @@
 //! Locating a change of the signature, by bisection: a signature has no size.
 
 use super::{arrival::Arrival, attempt::Attempt, locator::Locator};
-use crate::error::Doubt;
+use crate::error::StepDoubt;
 
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
@@ -11,7 +11,7 @@ pub(super) fn arrive_at_change(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     earlier: usize,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     let settings = attempt.settings();
     let sharp = (CHANGE_WIDTH * settings.signature_step).max(settings.correction_floor);
     let (mut low, mut high) = (0.0, attempt.progress());

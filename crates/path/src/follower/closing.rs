@@ -2,7 +2,7 @@
 
 use super::{arrival::Arrival, attempt::Attempt, locator::Locator};
 use crate::{
-    error::{Doubt, StopReason},
+    error::{PathStop, StepDoubt},
     point::ContinuationPoint,
     predictor::Node,
     product::{distance, product},
@@ -61,7 +61,7 @@ pub(super) fn arrive_at_start(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     image: usize,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     let start = image_of_start(attempt, image);
     let sigma = attempt.progress_of(&start);
     locator.probe_between(attempt, sigma, sigma)?;
@@ -71,5 +71,5 @@ pub(super) fn arrive_at_start(
     let apart = distance(weights, &node.point, &start.point);
     let cosine = product(weights, &node.tangent, &start.tangent);
     let closed = apart <= 10.0 * attempt.settings().correction_tolerance && cosine > ALIGNED;
-    Ok(Arrival { end: closed.then_some(StopReason::Closed), ..Arrival::default() })
+    Ok(Arrival { end: closed.then_some(PathStop::Closed), ..Arrival::default() })
 }

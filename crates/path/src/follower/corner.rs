@@ -10,8 +10,8 @@
 use super::{arrival::Arrival, attempt::Attempt, finding::turned, locator::Locator};
 use crate::{
     corrector::{CorrectorError, Limits},
-    error::Doubt,
-    point::Events,
+    error::StepDoubt,
+    point::PathEvents,
     predictor::Node,
     product::{add_scaled, product, progress},
     settings::Settings,
@@ -29,7 +29,10 @@ const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 ///
 /// # Errors
 /// There is no corner that leads on.
-pub(super) fn turn_corner(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(Arrival, f64), Doubt> {
+pub(super) fn turn_corner(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+) -> Result<(Arrival, f64), StepDoubt> {
     for advance in ADVANCES {
         for length in REACHES.map(|reach| reach * attempt.step) {
             if advance * length > attempt.settings().sheet_distance
@@ -42,19 +45,19 @@ pub(super) fn turn_corner(attempt: &mut Attempt<'_>, locator: &mut Locator) -> R
             }
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
 /// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind the
 /// corner.
-fn step_behind_corner(attempt: &mut Attempt<'_>, length: f64, advance: f64) -> Result<(), Doubt> {
+fn step_behind_corner(attempt: &mut Attempt<'_>, length: f64, advance: f64) -> Result<(), StepDoubt> {
     // Linearises on the old tangent, this far ahead.
     attempt.border_across(&attempt.state.base().tangent);
     attempt.put_ahead(length);
     linearise(attempt)?;
     let direction = attempt.trial.node.tangent.clone();
     attempt.border_across(&direction);
-    attempt.refactorise().map_err(Doubt::Corrector)?;
+    attempt.refactorise().map_err(StepDoubt::Corrector)?;
     attempt.trial.apply_correction();
     add_scaled(&mut attempt.trial.point, advance, &direction);
     let limits = limits(attempt.settings(), advance);
@@ -66,21 +69,21 @@ pub(super) fn correct_behind_corner(
     attempt: &mut Attempt<'_>,
     direction: &[f64],
     limits: Limits,
-) -> Result<(), Doubt> {
+) -> Result<(), StepDoubt> {
     attempt.correct(limits)?;
     attempt.trial.orient(attempt.state.orientation);
     let agrees = product(&attempt.frame.weights, &attempt.trial.node.tangent, direction) > 0.9;
-    if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
+    if agrees { Ok(()) } else { Err(StepDoubt::NotLocated) }
 }
 
 /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old
 /// tangent.
-pub(super) fn linearise(attempt: &mut Attempt<'_>) -> Result<(), Doubt> {
+pub(super) fn linearise(attempt: &mut Attempt<'_>) -> Result<(), StepDoubt> {
     let first = attempt.linearise();
     if first == Err(CorrectorError::SingularJacobian) {
-        attempt.refactorise_at_parameter().map_err(Doubt::Corrector)?;
+        attempt.refactorise_at_parameter().map_err(StepDoubt::Corrector)?;
     } else {
-        first.map_err(Doubt::Corrector)?;
+        first.map_err(StepDoubt::Corrector)?;
     }
     attempt.trial.orient(attempt.state.orientation);
     Ok(())
@@ -98,7 +101,11 @@ fn limits(settings: &Settings, length: f64) -> Limits {
 
 /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead, the
 /// trial itself, behind the turn, is the next point.
-fn arrive_at_corner(attempt: &mut Attempt<'_>, locator: &mut Locator, length: f64) -> Result<Arrival, Doubt> {
+fn arrive_at_corner(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    length: f64,
+) -> Result<Arrival, StepDoubt> {
     let base = attempt.state.base();
     let met = meeting(&attempt.frame.weights, base, &attempt.trial.node, length);
     if let Some(back) = met.filter(|_| turns(attempt)) {
@@ -108,13 +115,13 @@ fn arrive_at_corner(attempt: &mut Attempt<'_>, locator: &mut Locator, length: f6
 }
 
 /// The trial, with the tangent behind the corner, is the next point.
-pub(super) fn arrive_behind_corner(attempt: &mut Attempt<'_>) -> Result<Arrival, Doubt> {
+pub(super) fn arrive_behind_corner(attempt: &mut Attempt<'_>) -> Result<Arrival, StepDoubt> {
     if !attempt.is_in_range() {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     let after = attempt.trial.tangent_parameter();
     let fold = turned(attempt, after);
-    let events = Events { corner: turns(attempt), fold, ..Events::default() };
+    let events = PathEvents { corner: turns(attempt), fold, ..PathEvents::default() };
     Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
 }
 
@@ -131,12 +138,12 @@ fn evaluate_corner(
     locator: &mut Locator,
     back: f64,
     length: f64,
-) -> Result<(), Doubt> {
+) -> Result<(), StepDoubt> {
     locator.probe.point.copy_from_slice(&attempt.trial.node.point);
     add_scaled(&mut locator.probe.point, -back, &attempt.trial.node.tangent);
     border_both_sides(attempt);
     let limits = Limits { max_angle: None, ..limits(attempt.settings(), length) };
-    locator.correct(attempt, limits).map_err(Doubt::Corrector)?;
+    locator.correct(attempt, limits).map_err(StepDoubt::Corrector)?;
     locator.arrive(attempt);
     let behind = &locator.probe;
     attempt.trial.node.tangent.copy_from_slice(&behind.node.tangent);

@@ -2,7 +2,7 @@
 
 /// Where a branch sets out from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Direction<'a> {
+pub enum StartDirection<'a> {
     /// The parameter increases at first. The start is corrected at fixed parameter.
     Increasing,
     /// The parameter decreases at first. The start is corrected at fixed parameter.
@@ -12,8 +12,8 @@ pub enum Direction<'a> {
     Along(&'a [f64]),
 }
 
-impl Direction<'_> {
+impl StartDirection<'_> {
     pub(super) fn sign(self) -> f64 {
-        if self == Direction::Decreasing { -1.0 } else { 1.0 }
+        if self == StartDirection::Decreasing { -1.0 } else { 1.0 }
     }
 }

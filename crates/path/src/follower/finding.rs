@@ -2,7 +2,7 @@
 
 use super::{attempt::Attempt, closing, locator::Locator};
 use crate::{
-    error::Doubt,
+    error::StepDoubt,
     product::{distance, product, progress},
 };
 
@@ -34,9 +34,9 @@ const BESIDE: f64 = 1000.0;
 const NOISE: f64 = 100.0;
 
 /// Judges the corrected trial, and orients its tangent.
-pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Finding, Doubt> {
+pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Finding, StepDoubt> {
     if attempt.changes_signature() && attempt.step > attempt.settings().signature_step {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     check_defect(attempt, attempt.step)?;
     if attempt.trial.sign * attempt.state.orientation < 0.0 {
@@ -47,7 +47,7 @@ pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<F
         return Ok(Finding::Closing(image));
     }
     if let Some(arc_length) = attempt.meets_earlier_stretch() {
-        return Err(Doubt::Retraced { arc_length });
+        return Err(StepDoubt::Retraced { arc_length });
     }
     let slope = attempt.trial.tangent_parameter();
     Ok(if turned(attempt, slope) { Finding::Fold } else { Finding::Regular })
@@ -74,12 +74,12 @@ pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
-pub(super) fn check_defect(attempt: &Attempt<'_>, length: f64) -> Result<(), Doubt> {
+pub(super) fn check_defect(attempt: &Attempt<'_>, length: f64) -> Result<(), StepDoubt> {
     let (weights, base, node) = (&attempt.frame.weights, attempt.state.base(), &attempt.trial.node);
     let cosine = product(weights, &base.tangent, &node.tangent).clamp(-1.0, 1.0);
     let angle = cosine.acos();
     if angle > attempt.settings().max_angle {
-        return Err(Doubt::Angle { angle });
+        return Err(StepDoubt::Angle { angle });
     }
     let chord = distance(weights, &node.point, &base.point) * (1.0 + angle * angle / 24.0);
     let half = -0.5 * chord;
@@ -87,11 +87,11 @@ pub(super) fn check_defect(attempt: &Attempt<'_>, length: f64) -> Result<(), Dou
     let squares = weights.iter().enumerate().map(|(i, weight)| weight * offset(i) * offset(i));
     let defect = squares.sum::<f64>().sqrt();
     let allowed = attempt.allowed_displacement(length) + 0.1 * chord * angle;
-    if defect > allowed { Err(Doubt::Defect { defect }) } else { Ok(()) }
+    if defect > allowed { Err(StepDoubt::Defect { defect }) } else { Ok(()) }
 }
 
 /// The cubic Hermite polynomial of `λ` over the step must neither turn twice nor come near to it.
-fn check_hidden_folds(attempt: &Attempt<'_>) -> Result<(), Doubt> {
+fn check_hidden_folds(attempt: &Attempt<'_>) -> Result<(), StepDoubt> {
     if attempt.step < NOISE * attempt.settings().correction_floor {
         return Ok(());
     }
@@ -100,7 +100,7 @@ fn check_hidden_folds(attempt: &Attempt<'_>) -> Result<(), Doubt> {
     // The slope is a difference of parameters over the step: what rounding leaves of it means nothing.
     let rounding = 64.0 * f64::EPSILON * attempt.trial.parameter().abs() / attempt.step;
     let hidden = slope.inner_roots() == 2 || (slope.least() > rounding && slope.dips());
-    if same_sign && hidden { Err(Doubt::HiddenFolds) } else { Ok(()) }
+    if same_sign && hidden { Err(StepDoubt::HiddenFolds) } else { Ok(()) }
 }
 
 /// Slope `dλ/dσ` of the Hermite polynomial through base and trial.

@@ -7,13 +7,13 @@ use super::{
     finding::parameter_slope,
     locator::{Locator, Probing},
 };
-use crate::error::Doubt;
+use crate::error::StepDoubt;
 
 /// Enough for bisection to reach rounding, were it needed.
 const MOST_PROBES: u32 = 60;
 
 /// Ends the step at the fold before the trial: `|t_λ| ≤ fold_tolerance`, or a bracket of rounding.
-pub(super) fn arrive_at_fold(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Arrival, Doubt> {
+pub(super) fn arrive_at_fold(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Arrival, StepDoubt> {
     let frame = attempt.frame;
     let (reached, floor) = (frame.settings.fold_tolerance, frame.settings.correction_floor);
     let before = attempt.state.parameter_sign;
@@ -35,17 +35,21 @@ pub(super) fn arrive_at_fold(attempt: &mut Attempt<'_>, locator: &mut Locator) -
     let uncertainty = bracket.uncertainty(locator.probe.tangent_parameter());
     locator.arrive(attempt);
     if !attempt.is_in_range() {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     let mut arrival = Arrival { parameter_sign: Some(-before), uncertainty, ..Arrival::default() };
     arrival.events.fold = true;
     Ok(arrival)
 }
 
-fn check_probe(attempt: &Attempt<'_>, locator: &Locator) -> Result<(), Doubt> {
+fn check_probe(attempt: &Attempt<'_>, locator: &Locator) -> Result<(), StepDoubt> {
     if locator.probe.sign * attempt.state.orientation < 0.0 {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     let changed = locator.probe.signature != attempt.state.current.signature;
-    if changed && attempt.step > attempt.settings().signature_step { Err(Doubt::Signature) } else { Ok(()) }
+    if changed && attempt.step > attempt.settings().signature_step {
+        Err(StepDoubt::Signature)
+    } else {
+        Ok(())
+    }
 }

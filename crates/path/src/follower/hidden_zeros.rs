@@ -9,7 +9,7 @@
 //! the step, or to the zero that was found before it.
 
 use super::{attempt::Attempt, locator::Locator, undecided::left_out};
-use crate::{error::Doubt, problem::TestValue};
+use crate::{error::StepDoubt, problem::TestValue};
 
 /// A function that falls inside a step to this share of its smaller end value is looked at more closely.
 const DIP: f64 = 0.5;
@@ -19,7 +19,7 @@ const EDGE: f64 = 0.02;
 const BEHIND: f64 = 0.05;
 
 /// Whether zeros lie on the way to the trial that no sign shows.
-pub(super) fn hides_zeros(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<bool, Doubt> {
+pub(super) fn hides_zeros(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<bool, StepDoubt> {
     Ok(undoes_zeros(attempt) || ends_at_zero(attempt) || begins_at_zero(attempt, locator)?)
 }
 
@@ -75,7 +75,7 @@ fn ends_at_zero(attempt: &Attempt<'_>) -> bool {
 
 /// Whether a test function has a value at the trial that it had not before, and the line through the
 /// values of one of them there and a little behind comes from zero within the step.
-fn begins_at_zero(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<bool, Doubt> {
+fn begins_at_zero(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<bool, StepDoubt> {
     let begins =
         |(before, after): (&TestValue, &TestValue)| !before.value.is_finite() && after.value.is_finite();
     if !attempt.tests.pairs(&attempt.trial.tests).any(begins) {

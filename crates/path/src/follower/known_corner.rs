@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     corrector::Limits,
-    error::Doubt,
+    error::StepDoubt,
     judge::RootCorner,
     predictor::Node,
     product::{add_scaled, distance, norm, product, scale},
@@ -80,15 +80,15 @@ pub(super) struct Turned {
 ///
 /// # Errors
 /// The judge knows of none within the step.
-pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, Doubt> {
+pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
     if !attempt.problem.judge().has_root_corners() {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     let (frame, state, step) = (attempt.frame, attempt.state, attempt.step);
     let tolerance = frame.settings.correction_tolerance;
     let ahead = |corner: &[f64]| lies_ahead(&frame.weights, state.base(), corner, (WITHIN * step, tolerance));
     let found = attempt.problem.judge().root_corner(&state.base().point, step, &ahead);
-    let corner = found.ok_or(Doubt::NotLocated)?;
+    let corner = found.ok_or(StepDoubt::NotLocated)?;
     attempt.counters.evaluations += corner.evaluations;
     for behind in &corner.behind {
         if let Ok((arrival, length)) = arrive_behind(attempt, &corner, behind) {
@@ -98,7 +98,7 @@ pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, Dou
             return Ok(Turned { arrival, length, corner });
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
 /// Whether a corner lies ahead on the arc from `base`, within this length, where points are known to the
@@ -117,11 +117,11 @@ fn arrive_behind(
     attempt: &mut Attempt<'_>,
     corner: &RootCorner,
     [behind, farther]: &[Vec<f64>; 2],
-) -> Result<(Arrival, f64), Doubt> {
+) -> Result<(Arrival, f64), StepDoubt> {
     let weights = &attempt.frame.weights;
     let length = distance(weights, behind, &corner.corner);
     if length > FARTHEST * attempt.settings().sheet_distance {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     let mut direction = farther.clone();
     add_scaled(&mut direction, -1.0, &corner.corner);
@@ -138,7 +138,7 @@ fn arrive_behind(
         scale(&mut attempt.trial.node.tangent, -1.0);
     }
     if along.abs() < ALIGNED || (along < 0.0 && !turns_round) {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     let arrival = arrive_behind_root_corner(attempt, length)?;
     Ok((Arrival { anchors_anew: turns_round, ..arrival }, length))

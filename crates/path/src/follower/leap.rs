@@ -11,7 +11,7 @@ use super::{
     finding::{check_defect, turned},
     simpler::check_simpler,
 };
-use crate::{error::Doubt, point::Events};
+use crate::{error::StepDoubt, point::PathEvents};
 
 /// Lengths that are tried, in shortest steps.
 const REACHES: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
@@ -20,7 +20,7 @@ const REACHES: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 ///
 /// # Errors
 /// No such step goes straight on along the same arc.
-pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Doubt> {
+pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     for reach in REACHES {
         let length = reach * attempt.settings().min_step;
         if 0.1 * length > attempt.settings().sheet_distance {
@@ -31,18 +31,18 @@ pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Doubt> {
             return Ok((arrival, length));
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
-fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, Doubt> {
+fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoubt> {
     attempt.border_across(&attempt.state.base().tangent);
     attempt.put_ahead(length);
     attempt.correct(attempt.limits(length))?;
     if attempt.changes_signature() {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     if !attempt.is_in_range() {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     // Without orienting it, the tangent goes on in the direction of the last one.
     check_defect(attempt, length)?;
@@ -50,7 +50,7 @@ fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, Doubt> {
     let slope = attempt.trial.tangent_parameter();
     let fold = turned(attempt, slope);
     Ok(Arrival {
-        events: Events { branch_point, fold, ..Events::default() },
+        events: PathEvents { branch_point, fold, ..PathEvents::default() },
         parameter_sign: fold.then(|| slope.signum()),
         anchors_anew: branch_point,
         uncertainty: length,

@@ -4,7 +4,7 @@
 use super::{attempt::Attempt, bracket::Bracket};
 use crate::{
     corrector::{Candidate, CorrectorError, Limits},
-    error::Doubt,
+    error::StepDoubt,
     predictor::hermite,
     problem::PathProblem,
 };
@@ -50,9 +50,14 @@ impl Locator {
     /// Corrects the probe at `σ` of the step, predicted by the interpolant through both ends of the step.
     ///
     /// * `length`: of the step, for the limits.
-    pub fn probe_between(&mut self, attempt: &mut Attempt<'_>, length: f64, sigma: f64) -> Result<(), Doubt> {
+    pub fn probe_between(
+        &mut self,
+        attempt: &mut Attempt<'_>,
+        length: f64,
+        sigma: f64,
+    ) -> Result<(), StepDoubt> {
         self.predict(attempt, sigma, false);
-        self.correct(attempt, attempt.probing_limits(length)).map_err(Doubt::Corrector)
+        self.correct(attempt, attempt.probing_limits(length)).map_err(StepDoubt::Corrector)
     }
 
     /// Puts the probe on the path at a place of the step to the trial, as sharply as the sign of its value
@@ -62,22 +67,22 @@ impl Locator {
         attempt: &mut Attempt<'_>,
         probing: &Probing<'_>,
         mut value: impl FnMut(&mut Candidate, &mut dyn PathProblem) -> Option<f64>,
-    ) -> Result<f64, Doubt> {
+    ) -> Result<f64, StepDoubt> {
         self.predict(attempt, probing.place, probing.goes_on);
         let sharp = attempt.probing_limits(attempt.step);
         let loose = Limits { tolerance: sharp.tolerance.max(LOOSE * probing.bracket.width()), ..sharp };
-        self.correct(attempt, loose).map_err(Doubt::Corrector)?;
-        let mut found = value(&mut self.probe, attempt.problem).ok_or(Doubt::NotLocated)?;
+        self.correct(attempt, loose).map_err(StepDoubt::Corrector)?;
+        let mut found = value(&mut self.probe, attempt.problem).ok_or(StepDoubt::NotLocated)?;
         let due = self.probe.correction_norm;
         let floor = attempt.settings().correction_floor;
         let in_doubt = probing.bracket.slope() * (BEYOND_DOUBT * due).max(floor);
         if due > sharp.tolerance && found.abs() <= in_doubt.max(probing.reached) {
             let (moved, iterations) = (self.probe.displacement + due, self.probe.iterations);
             self.probe.point.copy_from_slice(&self.probe.node.point);
-            self.correct(attempt, sharp).map_err(Doubt::Corrector)?;
+            self.correct(attempt, sharp).map_err(StepDoubt::Corrector)?;
             self.probe.displacement += moved;
             self.probe.iterations += iterations;
-            found = value(&mut self.probe, attempt.problem).ok_or(Doubt::NotLocated)?;
+            found = value(&mut self.probe, attempt.problem).ok_or(StepDoubt::NotLocated)?;
         }
         self.best.node.copy_from(&self.probe.node);
         Ok(found)
@@ -115,7 +120,7 @@ impl Locator {
     }
 
     /// Evaluates the best probe again, so that the problem holds the point that is accepted.
-    pub fn return_to_best(&mut self, attempt: &mut Attempt<'_>) -> Result<(), Doubt> {
+    pub fn return_to_best(&mut self, attempt: &mut Attempt<'_>) -> Result<(), StepDoubt> {
         std::mem::swap(&mut self.probe, &mut self.best);
         attempt.evaluate(&self.probe.point)
     }

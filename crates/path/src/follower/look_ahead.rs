@@ -7,7 +7,7 @@
 //! sign comes back, and then it was none.
 
 use super::{Follower, StepOutcome};
-use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem, settings::Settings};
+use crate::{corrector::CorrectorError, error::StepDoubt, problem::PathProblem, settings::Settings};
 
 /// Points after which a change of sign is still not beyond doubt that is none.
 const FARTHEST: usize = 200;
@@ -15,7 +15,7 @@ const FARTHEST: usize = 200;
 impl Follower {
     /// Whether the slope of the trial, which says nothing yet, is that behind a fold. The problem is
     /// evaluated at the trial again.
-    pub(super) fn turns_for_good(&mut self, problem: &mut dyn PathProblem) -> Result<bool, Doubt> {
+    pub(super) fn turns_for_good(&mut self, problem: &mut dyn PathProblem) -> Result<bool, StepDoubt> {
         let sign = self.state.parameter_sign;
         let before = self.state.base().tangent.last().map_or(0.0, |slope| slope * sign);
         if self.looks_ahead || before < 0.0 || self.trial.tangent_parameter() * sign >= 0.0 {
@@ -29,7 +29,7 @@ impl Follower {
         self.counters.evaluations = ahead.counters.evaluations + 1;
         self.counters.factorisations = ahead.counters.factorisations;
         let evaluated = problem.evaluate(&self.trial.point);
-        evaluated.map_err(|error| Doubt::Corrector(CorrectorError::Evaluation(error)))?;
+        evaluated.map_err(|error| StepDoubt::Corrector(CorrectorError::Evaluation(error)))?;
         Ok(turns)
     }
 

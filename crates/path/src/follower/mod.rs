@@ -40,14 +40,14 @@ mod undecided;
 mod whole;
 mod zero;
 
-pub use direction::Direction;
+pub use direction::StartDirection;
 pub use known_corner::PassedCorner;
 pub use whole::{Branch, TwoSidedBranch, follow, follow_both};
 
 use crate::{
     checkpoint::Checkpoint,
     corrector::{Candidate, CorrectorError},
-    error::{Doubt, StopReason},
+    error::{PathStop, StepDoubt},
     memory::PathMemory,
     point::{ContinuationPoint, Counters},
     predictor::best_predictor,
@@ -82,7 +82,7 @@ pub enum StepOutcome {
     /// [`Follower::current`] is a new point, and the problem was evaluated last exactly there.
     Accepted,
     /// The branch ended with the point accepted last. The problem may have been evaluated elsewhere.
-    Stopped(StopReason),
+    Stopped(PathStop),
 }
 
 /// Follows one path in one direction, one accepted point per call.
@@ -133,7 +133,7 @@ impl Follower {
 
     /// Why the branch ended, if it did.
     #[must_use]
-    pub fn stop_reason(&self) -> Option<StopReason> {
+    pub fn stop_reason(&self) -> Option<PathStop> {
         self.state.stop
     }
 
@@ -223,17 +223,17 @@ impl Follower {
     }
 
     /// Why the branch ends here, if it has too many points, or does not get anywhere.
-    fn used_up(&self) -> Option<StopReason> {
+    fn used_up(&self) -> Option<PathStop> {
         let Counters { accepted, short_in_a_row: steps, .. } = self.counters;
         if accepted >= self.frame.settings.max_points {
-            return Some(StopReason::Budget);
+            return Some(PathStop::Budget);
         }
         let parameter = self.state.current.parameter();
-        (steps >= MOST_SHORT_STEPS).then_some(StopReason::Crawls { parameter, steps })
+        (steps >= MOST_SHORT_STEPS).then_some(PathStop::Crawls { parameter, steps })
     }
 
     /// Attempts shorter and shorter steps until one is beyond doubt.
-    fn next_point(&mut self, problem: &mut dyn PathProblem) -> Result<(), StopReason> {
+    fn next_point(&mut self, problem: &mut dyn PathProblem) -> Result<(), PathStop> {
         let mut attempts = Attempts::at(&self.frame, &self.state);
         let mut looks = Looks::at(&self.frame, &self.state);
         self.passed = None;
@@ -286,7 +286,7 @@ impl Follower {
     }
 
     /// One try; on success the trial is the next point, and the problem evaluated there.
-    fn try_step(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, Doubt> {
+    fn try_step(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, StepDoubt> {
         let arrival = self.arrive(problem, attempts)?;
         let (mut attempt, locator) = self.attempt(problem, attempts.step);
         let arrival = check_simpler(&mut attempt, arrival)?;
@@ -295,7 +295,7 @@ impl Follower {
     }
 
     /// Predicts, corrects, judges, and locates what the path itself shows on the way.
-    fn arrive(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, Doubt> {
+    fn arrive(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, StepDoubt> {
         let (mut attempt, locator) = self.attempt(problem, attempts.step);
         let earlier = attempt.predict(attempts.most_earlier);
         if !attempt.is_in_range() {
@@ -322,9 +322,9 @@ impl Follower {
     }
 
     /// Gives up an attempt; length of the next one.
-    fn reject(&mut self, doubt: Doubt, attempts: &mut Attempts) -> f64 {
+    fn reject(&mut self, doubt: StepDoubt, attempts: &mut Attempts) -> f64 {
         self.counters.rejected += 1;
-        if doubt == Doubt::Signature {
+        if doubt == StepDoubt::Signature {
             self.state.change_ahead = attempts.step;
         }
         attempts.reject(doubt, self.frame.settings.max_angle)
@@ -335,7 +335,7 @@ impl Follower {
         &mut self,
         problem: &mut dyn PathProblem,
         step: f64,
-    ) -> Result<(Arrival, f64), Doubt> {
+    ) -> Result<(Arrival, f64), StepDoubt> {
         let (mut attempt, _) = self.attempt(problem, step);
         let turned = turn_known_corner(&mut attempt)?;
         let arrival = zeros_at_once(&mut attempt, turned.arrival);
@@ -357,13 +357,13 @@ impl Follower {
         Some((zeros_at_once(attempt, arrival), length))
     }
 
-    fn too_short(&self, step: f64, doubt: Doubt) -> StopReason {
+    fn too_short(&self, step: f64, doubt: StepDoubt) -> PathStop {
         let parameter = self.state.current.parameter();
         match doubt {
-            Doubt::Corrector(CorrectorError::Evaluation(error)) => {
-                StopReason::EvaluationFailed { parameter, step, error }
+            StepDoubt::Corrector(CorrectorError::Evaluation(error)) => {
+                PathStop::EvaluationFailed { parameter, step, error }
             }
-            _ => StopReason::StepTooShort { parameter, step, residual: self.trial.residual_norm, doubt },
+            _ => PathStop::StepTooShort { parameter, step, residual: self.trial.residual_norm, doubt },
         }
     }
 

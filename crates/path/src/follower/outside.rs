@@ -16,7 +16,7 @@ use super::{
     arrival::{Arrival, Counted},
     attempt::Attempt,
 };
-use crate::{error::Doubt, judge::Outside};
+use crate::{error::StepDoubt, judge::Outside};
 
 /// Share of `signature_step` down to which a step is in doubt whose events do not account for what crosses
 /// the circle.
@@ -24,7 +24,7 @@ const LEAST: f64 = 0.02;
 
 /// Doubts a step over which more multipliers cross the circle than its events say, and notes those behind the
 /// trial, evaluated last.
-pub(super) fn check_outside(attempt: &mut Attempt<'_>, arrival: Arrival) -> Result<Arrival, Doubt> {
+pub(super) fn check_outside(attempt: &mut Attempt<'_>, arrival: Arrival) -> Result<Arrival, StepDoubt> {
     let here = attempt.problem.judge().outside(arrival.events);
     let Some(here) = here else { return Ok(arrival) };
     let jumps = arrival.events.corner || attempt.changes_signature();
@@ -46,11 +46,11 @@ pub(super) fn check_outside(attempt: &mut Attempt<'_>, arrival: Arrival) -> Resu
 
 /// Whether what lies outside at one place can be what lies outside at another, each from the least to the
 /// most.
-fn account(before: (u32, u32), behind: (u32, u32)) -> Result<(), Doubt> {
+fn account(before: (u32, u32), behind: (u32, u32)) -> Result<(), StepDoubt> {
     if before.0 > behind.1 {
-        Err(Doubt::Unaccounted { before: before.0, behind: behind.1 })
+        Err(StepDoubt::Unaccounted { before: before.0, behind: behind.1 })
     } else if behind.0 > before.1 {
-        Err(Doubt::Unaccounted { before: before.1, behind: behind.0 })
+        Err(StepDoubt::Unaccounted { before: before.1, behind: behind.0 })
     } else {
         Ok(())
     }

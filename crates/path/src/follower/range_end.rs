@@ -3,11 +3,11 @@
 use super::{arrival::Arrival, attempt::Attempt, finding::check_defect};
 use crate::{
     corrector::Limits,
-    error::{Doubt, StopReason},
+    error::{PathStop, StepDoubt},
 };
 
 /// The trial of this step lies beyond an end of the range: arrives exactly at the end instead.
-pub(super) fn arrive_at_end(attempt: &mut Attempt<'_>, most_earlier: usize) -> Result<Arrival, Doubt> {
+pub(super) fn arrive_at_end(attempt: &mut Attempt<'_>, most_earlier: usize) -> Result<Arrival, StepDoubt> {
     let range = attempt.frame.range;
     let end = if attempt.trial.parameter() > range.high() { range.high() } else { range.low() };
     let sigma = predict_at(attempt, end, most_earlier);
@@ -21,7 +21,7 @@ pub(super) fn arrive_at_end(attempt: &mut Attempt<'_>, most_earlier: usize) -> R
     attempt.correct_at_parameter(limits)?;
     attempt.trial.orient(attempt.state.orientation);
     check_end(attempt, end)?;
-    Ok(Arrival { end: Some(StopReason::RangeEnd), ..Arrival::default() })
+    Ok(Arrival { end: Some(PathStop::RangeEnd), ..Arrival::default() })
 }
 
 /// Predicts in `0 ≤ σ ≤ step` where the predictor reaches the parameter `end`, by the secant method.
@@ -43,13 +43,13 @@ fn predict_at(attempt: &mut Attempt<'_>, end: f64, most_earlier: usize) -> f64 {
 }
 
 /// The parameter moves out of the range at the end, and nothing else happens on the way.
-fn check_end(attempt: &Attempt<'_>, end: f64) -> Result<(), Doubt> {
+fn check_end(attempt: &Attempt<'_>, end: f64) -> Result<(), StepDoubt> {
     if attempt.changes_signature() && attempt.step > attempt.settings().signature_step {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     check_defect(attempt, attempt.step)?;
     let outwards = if end == attempt.frame.range.high() { 1.0 } else { -1.0 };
     let leaves =
         attempt.trial.tangent_parameter() * outwards > 0.0 && attempt.state.parameter_sign * outwards > 0.0;
-    if leaves { Ok(()) } else { Err(Doubt::HiddenFolds) }
+    if leaves { Ok(()) } else { Err(StepDoubt::HiddenFolds) }
 }

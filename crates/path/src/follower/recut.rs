@@ -5,7 +5,7 @@
 //! by a look ahead.
 
 use super::{arrival::Arrival, attempt::Attempt, finding::check_defect};
-use crate::{corrector::Limits, error::Doubt};
+use crate::{corrector::Limits, error::StepDoubt};
 
 /// How far ahead the path must go on straight, in steps.
 const LOOK_AHEAD: f64 = 1e3;
@@ -15,7 +15,7 @@ const LOOK_AHEAD: f64 = 1e3;
 ///
 /// # Errors
 /// The path does not go on straight: the branch stops.
-pub(super) fn pass_recut(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Doubt> {
+pub(super) fn pass_recut(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     let step = attempt.step;
     attempt.border_across(&attempt.state.base().tangent);
     correct_ahead(attempt, LOOK_AHEAD * step)?;
@@ -25,14 +25,14 @@ pub(super) fn pass_recut(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Do
         && attempt.trial.sign * attempt.state.orientation < 0.0
         && attempt.changes_signature();
     if !recut {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     check_defect(attempt, step)?;
     Ok((Arrival { anchors_anew: true, ..Arrival::default() }, step))
 }
 
 /// Corrects the trial in the plane this far ahead, with the displacement allowed for the step.
-fn correct_ahead(attempt: &mut Attempt<'_>, distance: f64) -> Result<(), Doubt> {
+fn correct_ahead(attempt: &mut Attempt<'_>, distance: f64) -> Result<(), StepDoubt> {
     attempt.put_ahead(distance);
     let bend = distance * distance;
     let allowed = attempt.settings().allowed_displacement(attempt.step) + bend;

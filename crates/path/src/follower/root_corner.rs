@@ -29,7 +29,7 @@ use super::{
 };
 use crate::{
     corrector::Limits,
-    error::Doubt,
+    error::StepDoubt,
     product::{add_scaled, distance, norm, scale},
 };
 
@@ -73,14 +73,14 @@ struct Root {
 pub(super) fn turn_root_corner(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
-) -> Result<(Arrival, f64), Doubt> {
+) -> Result<(Arrival, f64), StepDoubt> {
     if !attempt.problem.judge().has_root_corners() {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     go_onto_root(attempt, locator).or_else(|_| go_off_root(attempt))
 }
 
-fn go_onto_root(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(Arrival, f64), Doubt> {
+fn go_onto_root(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(Arrival, f64), StepDoubt> {
     let root = root_ahead(attempt, locator, PROBE * attempt.step)?;
     for length in ONTO.map(|distance| distance * attempt.settings().sheet_distance) {
         if guess_on_root(attempt, &root, length).is_err() {
@@ -93,25 +93,25 @@ fn go_onto_root(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(Arr
             return Ok((arrival, length));
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
 /// The root behind the surface, as seen at two distances along the old tangent.
-fn root_ahead(attempt: &mut Attempt<'_>, locator: &mut Locator, ahead: f64) -> Result<Root, Doubt> {
+fn root_ahead(attempt: &mut Attempt<'_>, locator: &mut Locator, ahead: f64) -> Result<Root, StepDoubt> {
     let base = attempt.state.base();
     let along = |distance: f64| {
         let mut point = base.point.clone();
         add_scaled(&mut point, distance, &base.tangent);
         point
     };
-    let farther = residual_behind(attempt, &along(FARTHER * ahead))?.ok_or(Doubt::NotLocated)?;
+    let farther = residual_behind(attempt, &along(FARTHER * ahead))?.ok_or(StepDoubt::NotLocated)?;
     let place = along(ahead);
-    let jump = residual_behind(attempt, &place)?.ok_or(Doubt::NotLocated)?;
+    let jump = residual_behind(attempt, &place)?.ok_or(StepDoubt::NotLocated)?;
     // `ν²` grows from 1 by what belongs to the distance between the two places.
     let growth = (dot(&farther, &jump) / dot(&jump, &jump)).powi(2) - 1.0;
     let reach = (FARTHER - 1.0) * ahead / growth;
     if !(0.5 * ahead..2.0 * ahead).contains(&reach) {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     // The last point lies within rounding of the surface, on either side.
     let response = response_before(attempt, locator, &along(-ahead), &jump)?;
@@ -124,7 +124,7 @@ fn root_ahead(attempt: &mut Attempt<'_>, locator: &mut Locator, ahead: f64) -> R
     if rate.is_normal() {
         Ok(Root { corner: along(ahead - reach), jump, direction, rate, reach })
     } else {
-        Err(Doubt::NotLocated)
+        Err(StepDoubt::NotLocated)
     }
 }
 
@@ -134,7 +134,7 @@ fn is_behind(attempt: &mut Attempt<'_>) -> bool {
 }
 
 /// The residual at a point; none where the signature is the present one.
-fn residual_behind(attempt: &mut Attempt<'_>, point: &[f64]) -> Result<Option<Vec<f64>>, Doubt> {
+fn residual_behind(attempt: &mut Attempt<'_>, point: &[f64]) -> Result<Option<Vec<f64>>, StepDoubt> {
     attempt.evaluate(point)?;
     Ok(is_behind(attempt).then(|| attempt.problem.residual().to_vec()))
 }
@@ -145,12 +145,12 @@ fn response_before(
     locator: &mut Locator,
     point: &[f64],
     jump: &[f64],
-) -> Result<Vec<f64>, Doubt> {
+) -> Result<Vec<f64>, StepDoubt> {
     attempt.border_across(&attempt.state.base().tangent);
     locator.probe.point.copy_from_slice(point);
-    locator.linearise(attempt).map_err(Doubt::Corrector)?;
+    locator.linearise(attempt).map_err(StepDoubt::Corrector)?;
     if is_behind(attempt) {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     let mut response: Vec<f64> = jump.iter().copied().chain([0.0]).collect();
     attempt.problem.solve(&mut response);
@@ -163,10 +163,10 @@ fn rise_along(
     attempt: &mut Attempt<'_>,
     (place, ahead): (&[f64], f64),
     (jump, response): (&[f64], &[f64]),
-) -> Result<f64, Doubt> {
+) -> Result<f64, StepDoubt> {
     let size = norm(&attempt.frame.weights, response);
     let mut share = LEAST_RISE * ahead / size;
-    let mut rise = Err(Doubt::NotLocated);
+    let mut rise = Err(StepDoubt::NotLocated);
     while share * size < attempt.settings().sheet_distance {
         let mut point = place.to_vec();
         add_scaled(&mut point, share, response);
@@ -183,7 +183,7 @@ fn rise_along(
 }
 
 /// Puts the trial at this distance on the root, with the ν that belongs there.
-fn guess_on_root(attempt: &mut Attempt<'_>, root: &Root, length: f64) -> Result<(), Doubt> {
+fn guess_on_root(attempt: &mut Attempt<'_>, root: &Root, length: f64) -> Result<(), StepDoubt> {
     let wanted = root.rate * length;
     let by_square = |found: f64| root.reach * (wanted * wanted - found * found);
     let (mut shallow, mut deep) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -212,7 +212,7 @@ fn guess_on_root(attempt: &mut Attempt<'_>, root: &Root, length: f64) -> Result<
             break;
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
 /// Evaluates at a place behind the corner, along the root and along the old tangent; returns ν there.
@@ -220,7 +220,7 @@ fn evaluate_on_root(
     attempt: &mut Attempt<'_>,
     root: &Root,
     (length, depth): (f64, f64),
-) -> Result<f64, Doubt> {
+) -> Result<f64, StepDoubt> {
     let base = attempt.state.base();
     attempt.trial.point.copy_from_slice(&root.corner);
     add_scaled(&mut attempt.trial.point, length, &root.direction);
@@ -234,7 +234,7 @@ fn evaluate_on_root(
     Ok((along + root.rate * length).max(0.0))
 }
 
-fn go_off_root(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Doubt> {
+fn go_off_root(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     let weights = &attempt.frame.weights;
     let mut aside: Vec<f64> = (1..=weights.len()).map(|k| ((k * k) as f64).cos()).collect();
     let unit = 1.0 / norm(weights, &aside);
@@ -254,17 +254,17 @@ fn go_off_root(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), Doubt> {
             }
         }
     }
-    Err(Doubt::NotLocated)
+    Err(StepDoubt::NotLocated)
 }
 
 /// Linearises beside the last point; an error if the signature there is the same.
-fn look_aside(attempt: &mut Attempt<'_>, aside: &[f64], sideways: f64) -> Result<(), Doubt> {
+fn look_aside(attempt: &mut Attempt<'_>, aside: &[f64], sideways: f64) -> Result<(), StepDoubt> {
     let base = attempt.state.base();
     attempt.border_across(&base.tangent);
     attempt.trial.point.copy_from_slice(&base.point);
     add_scaled(&mut attempt.trial.point, sideways, aside);
     linearise(attempt)?;
-    if is_behind(attempt) { Ok(()) } else { Err(Doubt::Signature) }
+    if is_behind(attempt) { Ok(()) } else { Err(StepDoubt::Signature) }
 }
 
 /// Makes the point at this distance behind the corner the trial.
@@ -273,11 +273,11 @@ fn correct_off_root(
     (aside, sideways): (&[f64], f64),
     direction: &[f64],
     length: f64,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     attempt.trial.point.copy_from_slice(&attempt.state.base().point);
     add_scaled(&mut attempt.trial.point, sideways, aside);
     attempt.border_across(direction);
-    attempt.linearise().map_err(Doubt::Corrector)?;
+    attempt.linearise().map_err(StepDoubt::Corrector)?;
     attempt.trial.apply_correction();
     add_scaled(&mut attempt.trial.point, length, direction);
     let limits = Limits { max_displacement: length, ..attempt.limits(length) };
@@ -286,12 +286,15 @@ fn correct_off_root(
 }
 
 /// The trial is the next point, unless it is on this side of the corner or was walked before.
-pub(super) fn arrive_behind_root_corner(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, Doubt> {
+pub(super) fn arrive_behind_root_corner(
+    attempt: &mut Attempt<'_>,
+    length: f64,
+) -> Result<Arrival, StepDoubt> {
     if !attempt.changes_signature() {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     if let Some(arc_length) = attempt.meets_earlier_stretch() {
-        return Err(Doubt::Retraced { arc_length });
+        return Err(StepDoubt::Retraced { arc_length });
     }
     // The corner lies between the last point, which is before it, and this one.
     let (base, trial) = (attempt.state.base(), &attempt.trial.node);

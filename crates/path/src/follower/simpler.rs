@@ -8,7 +8,7 @@
 //! halved, and the halves are beyond doubt.
 
 use super::{arrival::Arrival, attempt::Attempt};
-use crate::error::Doubt;
+use crate::error::StepDoubt;
 
 /// A distance that falls in one step to less than this share was not walked.
 const FALLEN: f64 = 1e-2;
@@ -17,7 +17,7 @@ const FALLEN: f64 = 1e-2;
 const NOTHING: f64 = 100.0;
 
 /// Doubts a trial on a simpler path, unless it is the branch point where that is met.
-pub(super) fn check_simpler(attempt: &mut Attempt<'_>, arrival: Arrival) -> Result<Arrival, Doubt> {
+pub(super) fn check_simpler(attempt: &mut Attempt<'_>, arrival: Arrival) -> Result<Arrival, StepDoubt> {
     if arrival.events.branch_point {
         return Ok(arrival);
     }
@@ -32,7 +32,7 @@ pub(super) fn check_simpler(attempt: &mut Attempt<'_>, arrival: Arrival) -> Resu
     }
     let distance = judge.distance_to_simpler(&attempt.trial.point);
     if distance < indistinct(attempt.trial.correction_norm).max(FALLEN * before) {
-        return Err(Doubt::Simpler { distance });
+        return Err(StepDoubt::Simpler { distance });
     }
     Ok(arrival)
 }

@@ -1,11 +1,11 @@
 //! The first point of a branch.
 
-use super::{Follower, direction::Direction};
+use super::{Follower, direction::StartDirection};
 use crate::{
     checkpoint::Checkpoint,
     corrector::{Candidate, Limits},
-    error::{PathError, StopReason},
-    point::{ContinuationPoint, Counters, Events},
+    error::{PathError, PathStop},
+    point::{ContinuationPoint, Counters, PathEvents},
     problem::PathProblem,
     product::{norm, scale, weigh},
     settings::{ParameterRange, Settings},
@@ -23,7 +23,7 @@ impl Follower {
     pub fn start(
         problem: &mut dyn PathProblem,
         start: &[f64],
-        direction: Direction<'_>,
+        direction: StartDirection<'_>,
         range: ParameterRange,
         settings: Settings,
     ) -> Result<Self, PathError> {
@@ -47,9 +47,9 @@ impl Follower {
         scale(&mut trial.node.tangent, direction.sign());
         let current = first_point(&trial, direction.sign(), counters);
         let mut state = PathState::at_start(current, &trial.node, settings.initial_step);
-        state.outside = problem.judge().outside(Events::default()).map(|here| (here.least, here.most));
+        state.outside = problem.judge().outside(PathEvents::default()).map(|here| (here.least, here.most));
         if state.current.parameter() == range.end_ahead(state.parameter_sign) {
-            state.stop = Some(StopReason::RangeEnd);
+            state.stop = Some(PathStop::RangeEnd);
         }
         let mut follower = Self::resume(problem, Checkpoint { state, tests, counters }, range, settings);
         follower.memory.remember(&follower.state.current, 1.0);
@@ -68,10 +68,10 @@ fn check_inside(parameter: f64, range: ParameterRange) -> Result<(), PathError> 
     Err(PathError::StartOutsideRange { parameter, low: range.low(), high: range.high() })
 }
 
-pub(super) fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
+pub(super) fn first_border(direction: StartDirection<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
     let length = weights.len();
     let mut row = vec![0.0; length];
-    if let Direction::Along(vector) = direction {
+    if let StartDirection::Along(vector) = direction {
         check_length(vector.len(), length)?;
         weigh(weights, vector, &mut row);
         scale(&mut row, 1.0 / norm(weights, vector));
@@ -105,7 +105,7 @@ fn first_point(trial: &Candidate, sign: f64, counters: Counters) -> Continuation
         log_determinant: trial.log_determinant,
         correction_norm: trial.correction_norm,
         residual_norm: trial.residual_norm,
-        events: Events::default(),
+        events: PathEvents::default(),
         uncertainty: 0.0,
         evaluations: counters.evaluations,
     }

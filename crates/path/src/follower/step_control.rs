@@ -6,7 +6,7 @@
 use super::attempt::Frame;
 use crate::{
     corrector::{Candidate, CorrectorError},
-    error::{Doubt, StopReason},
+    error::{PathStop, StepDoubt},
     predictor::order,
     product::distance,
     state::PathState,
@@ -44,9 +44,9 @@ impl Attempts {
     /// Length of the next attempt after one that was rejected.
     ///
     /// The second rejection falls back to the next simpler predictor, the third to the tangent.
-    pub fn reject(&mut self, doubt: Doubt, max_angle: f64) -> f64 {
+    pub fn reject(&mut self, doubt: StepDoubt, max_angle: f64) -> f64 {
         self.rejected += 1;
-        if doubt == Doubt::Signature {
+        if doubt == StepDoubt::Signature {
             return 0.5 * self.step;
         }
         if self.rejected > 1 {
@@ -54,14 +54,14 @@ impl Attempts {
         }
         self.step
             * match doubt {
-                Doubt::Corrector(CorrectorError::Displaced { displacement, allowed }) => {
+                StepDoubt::Corrector(CorrectorError::Displaced { displacement, allowed }) => {
                     (0.25 * allowed / displacement).powf(1.0 / order(self.most_earlier)).clamp(0.1, 0.5)
                 }
-                Doubt::Corrector(CorrectorError::Turned { angle }) | Doubt::Angle { angle } => {
+                StepDoubt::Corrector(CorrectorError::Turned { angle }) | StepDoubt::Angle { angle } => {
                     (0.5 * max_angle / angle).clamp(0.25, 0.5)
                 }
-                Doubt::Corrector(_) => 0.25,
-                Doubt::Retraced { .. } => {
+                StepDoubt::Corrector(_) => 0.25,
+                StepDoubt::Retraced { .. } => {
                     self.retraced += 1;
                     0.5
                 }
@@ -76,13 +76,13 @@ impl Attempts {
         &self,
         frame: &Frame,
         state: &PathState,
-        doubt: Doubt,
+        doubt: StepDoubt,
         shorter: f64,
-    ) -> Option<StopReason> {
-        let Doubt::Retraced { arc_length: met_arc_length } = doubt else { return None };
+    ) -> Option<PathStop> {
+        let StepDoubt::Retraced { arc_length: met_arc_length } = doubt else { return None };
         let parameter = state.current.parameter();
         (shorter < frame.settings.min_step || self.retraced > MOST_RETRACED)
-            .then_some(StopReason::RunsBack { parameter, met_arc_length })
+            .then_some(PathStop::RunsBack { parameter, met_arc_length })
     }
 }
 

@@ -11,7 +11,7 @@
 
 use super::{
     Follower,
-    direction::Direction,
+    direction::StartDirection,
     start::{check_length, first_border, start_limits},
 };
 use crate::{
@@ -99,7 +99,7 @@ impl Follower {
     ) -> Result<(ContinuationPoint, Node), PathError> {
         let weights = problem.weights().to_vec();
         check_length(guess.point.len(), weights.len())?;
-        let row = first_border(Direction::Along(&guess.tangent), &weights)?;
+        let row = first_border(StartDirection::Along(&guess.tangent), &weights)?;
         let mut trial = Candidate::new(weights.len());
         trial.point.copy_from_slice(&guess.point);
         let parameter = trial.parameter();

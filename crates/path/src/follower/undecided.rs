@@ -11,11 +11,11 @@
 //! nothing has happened. Nor has anything where it leaves zero after a stretch of it.
 
 use super::attempt::Attempt;
-use crate::{error::Doubt, problem::TestValue};
+use crate::{error::StepDoubt, problem::TestValue};
 
 /// Makes the test functions of the last point and of the trial, where they were just asked for, comparable;
 /// bits of those that are not.
-pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>) -> Result<u32, Doubt> {
+pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>) -> Result<u32, StepDoubt> {
     let all_known = |(before, after): (&TestValue, &TestValue)| {
         before.left_out == 0
             && before.undecided >= after.undecided
@@ -44,7 +44,7 @@ pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>) -> Result<u32, Doub
 
 /// Asks for the test functions of the last point anew where more of them is to be left out; the problem is
 /// evaluated at the trial behind.
-fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<(), Doubt> {
+fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<(), StepDoubt> {
     let known = &attempt.tests.values;
     if known.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
         return Ok(());

@@ -16,8 +16,8 @@ use super::{
 };
 use crate::{
     corrector::Candidate,
-    error::Doubt,
-    point::Events,
+    error::StepDoubt,
+    point::PathEvents,
     problem::{PathProblem, TestKind, TestValue},
     test_record::has_bit,
 };
@@ -35,7 +35,7 @@ pub(super) fn stop_at_zeros(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     mut arrival: Arrival,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     ask_for_tests(attempt);
     if attempt.tests.values.len() != attempt.trial.tests.len() {
         return Ok(arrival);
@@ -44,12 +44,12 @@ pub(super) fn stop_at_zeros(
     arrival.zeros_near = attempt.tests.stay_behind_zeros(&mut attempt.trial.tests, None);
     let is_long = attempt.step > attempt.settings().signature_step;
     if is_long && hides_zeros(attempt, locator)? {
-        return Err(Doubt::HiddenZeros);
+        return Err(StepDoubt::HiddenZeros);
     }
     for index in (0..attempt.trial.tests.len()).filter(|index| !has_bit(apart, *index)) {
         let zeros = attempt.tests.values[index].count.abs_diff(attempt.trial.tests[index].count);
         if is_long && (zeros >= 2 || zeros == 0 && dips(attempt, index)) {
-            return Err(Doubt::HiddenZeros);
+            return Err(StepDoubt::HiddenZeros);
         }
         if zeros % 2 == 1 && attempt.trial.tests[index].kind == TestKind::SignChange {
             arrival = stop_at_zero(attempt, locator, index, arrival)?;
@@ -57,7 +57,7 @@ pub(super) fn stop_at_zeros(
     }
     // What lies on the way to a zero may not be seen from beyond it.
     if is_long && arrival.events.zeros != 0 && undoes_zeros(attempt) {
-        return Err(Doubt::HiddenZeros);
+        return Err(StepDoubt::HiddenZeros);
     }
     Ok(arrival)
 }
@@ -90,7 +90,7 @@ fn stop_at_zero(
     locator: &mut Locator,
     index: usize,
     found: Arrival,
-) -> Result<Arrival, Doubt> {
+) -> Result<Arrival, StepDoubt> {
     let (at, behind) = (attempt.progress(), attempt.trial.tests.clone());
     let mut arrival = arrive_at_zero(attempt, locator, index)?.unwrap_or(found);
     let near = attempt.tests.stay_behind_zeros(&mut attempt.trial.tests, Some(index));
@@ -144,7 +144,7 @@ fn arrive_at_zero(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     index: usize,
-) -> Result<Option<Arrival>, Doubt> {
+) -> Result<Option<Arrival>, StepDoubt> {
     let (ends, after) = (Ends::of(attempt, index), attempt.trial.tests[index]);
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
@@ -167,7 +167,7 @@ fn arrive_at_zero(
         if value.abs() <= SHARP * ends.size || bracket.uncertainty(value) <= floor {
             break;
         }
-        let outside = attempt.problem.judge().outside(Events::default());
+        let outside = attempt.problem.judge().outside(PathEvents::default());
         let outside = outside.filter(|outside| outside.least == outside.most);
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
@@ -176,7 +176,7 @@ fn arrive_at_zero(
         return Ok(None);
     }
     if !attempt.frame.range.contains(locator.probe.parameter()) {
-        return Err(Doubt::NotLocated);
+        return Err(StepDoubt::NotLocated);
     }
     locator.probe.orient(attempt.state.orientation);
     locator.arrive(attempt);

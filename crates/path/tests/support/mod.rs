@@ -7,7 +7,7 @@
 )]
 
 use hammerbeam_path::{
-    Branch, ContinuationPoint, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason,
+    Branch, ContinuationPoint, DenseProblem, ParameterRange, PathProblem, PathStop, Settings, StartDirection,
     follow,
 };
 
@@ -129,7 +129,7 @@ pub fn steps_of(max_parameter_step: f64) -> Settings {
 
 /// Follows with increasing parameter; panics with the reason if the start fails.
 pub fn up(problem: &mut impl PathProblem, start: &[f64], low: f64, high: f64, settings: Settings) -> Branch {
-    follow(problem, start, Direction::Increasing, range(low, high), settings).unwrap()
+    follow(problem, start, StartDirection::Increasing, range(low, high), settings).unwrap()
 }
 
 pub fn down(
@@ -139,7 +139,7 @@ pub fn down(
     high: f64,
     settings: Settings,
 ) -> Branch {
-    follow(problem, start, Direction::Decreasing, range(low, high), settings).unwrap()
+    follow(problem, start, StartDirection::Decreasing, range(low, high), settings).unwrap()
 }
 
 /// Parameters of the folds in the order of travel.
@@ -156,7 +156,7 @@ pub fn assert_monotone(branch: &Branch, place: impl Fn(&[f64]) -> f64) {
 }
 
 pub fn assert_reached_end(branch: &Branch, parameter: f64) {
-    assert_eq!(branch.stop, StopReason::RangeEnd);
+    assert_eq!(branch.stop, PathStop::RangeEnd);
     assert_eq!(branch.points.last().unwrap().parameter(), parameter, "bit by bit");
 }
 
