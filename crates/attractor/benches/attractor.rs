@@ -186,7 +186,8 @@ fn whole_basin(_: &mut Criterion) {
 fn tell(integrator: &str, cells: usize, taken: Duration) {
     let rate = cells as f64 / taken.as_secs_f64();
     println!(
-        "{integrator}: {cells} cells on {CORES} cores in {:.2} s, {rate:.4} cells/s; 200 x 200 cells would take {:.2} min",
+        "{integrator}: {cells} cells on {CORES} cores in {:.2} s, {rate:.4} cells/s; \
+        200 x 200 cells would take {:.2} min",
         taken.as_secs_f64(),
         WHOLE / rate / 60.0
     );

@@ -4,10 +4,9 @@
 //! largest exponent, and K of the 0-1 test on that entry of the state that moves most. With the largest
 //! exponent `L` per period over N periods,
 //!
-//! | indicator | regular | chaotic | else |
-//! |---|---|---|---|
-//! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N`, not surely below zero | `L - half width > 10/N` | undecided, or below: still settling |
-//! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
+//! - exponent: regular `-2/N <= L <= 10/N`, half width `<= 20/N`, not surely below zero; chaotic
+//!   `L - half width > 10/N`; else undecided, or below: still settling
+//! - 0-1 test: regular `K < 0.2`; chaotic `K > 0.8`; else undecided
 //!
 //! and, of a motion that both call regular, its returns over eight times as many periods (`returns.rs`): the
 //! distance to the state n periods before, for every n up to the longest period looked for, stays the same on
@@ -159,7 +158,8 @@ impl Doubt {
             Self::ExponentUndecided => "the largest exponent is neither near zero nor surely above it",
             Self::ZeroOneUndecided => "the 0-1 test is undecided",
             Self::NotTurning => {
-                "the exponent is near zero and the 0-1 test says regular, but the motion does not come back as on a torus"
+                "the exponent is near zero and the 0-1 test says regular, \
+                but the motion does not come back as on a torus"
             }
             Self::NotSettled => "the motion has not settled, or its period is longer than those looked for",
         }

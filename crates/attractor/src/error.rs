@@ -25,13 +25,15 @@ pub enum AttractorError {
     /// A motion is to begin within a contact whose law remembers its impact: the state does not tell how that
     /// contact began.
     #[error(
-        "the state lies {depth:.3e} m within the contact of {stop:?}, and its law needs to know how fast it closed"
+        "the state lies {depth:.3e} m within the contact of {stop:?}, \
+        and its law needs to know how fast it closed"
     )]
     WithinContact { stop: String, depth: f64 },
     /// A contact whose law remembers its impact stays closed in the settled motion: what it does there
     /// depends on the speed of the first touch, and so on where the motion was begun.
     #[error(
-        "{element} is closed over the whole settled motion: its law needs to know how fast a contact began, and that is what is left of how the motion was begun"
+        "{element} is closed over the whole settled motion: its law needs to know how fast a contact began, \
+        and that is what is left of how the motion was begun"
     )]
     NeverOpens { element: String },
     /// Tangent vectors have become linearly dependent or infinite: the sections are too long for the growth

@@ -7,21 +7,19 @@
 //! excitation period or a part of it, by the exact integrator; any vector field serves as well, by the
 //! general one, and so does any map.
 //!
-//! | question | indicator | file |
-//! |---|---|---|
-//! | does it repeat, after how many periods? | distance of states | `settle.rs` |
-//! | do neighbouring motions part, and how fast? | Lyapunov exponents, by QR, with confidence from block averages | `tangents.rs`, `lyapunov.rs` |
-//! | the same, from a series alone | the 0-1 test | `zero_one.rs` |
-//! | does it come back as on a torus? | shifts that are tripled | `returns.rs` |
-//! | which kind is it? | all of these; doubtful where they disagree | `classify.rs` |
+//! - does it repeat, after how many periods?: distance of states, `settle.rs`
+//! - do neighbouring motions part, and how fast?: Lyapunov exponents, by QR, with confidence from block
+//!   averages, `tangents.rs`, `lyapunov.rs`
+//! - the same, from a series alone: the 0-1 test, `zero_one.rs`
+//! - does it come back as on a torus?: shifts that are tripled, `returns.rs`
+//! - which kind is it?: all of these; doubtful where they disagree, `classify.rs`
 //!
-//! | file | idea |
-//! |---|---|
-//! | `section.rs`, `part.rs` | motions, advanced section by section; parts of sections |
-//! | `simulate.rs`, `poincare.rs` | motion in time with every contact, and what it needs to go on; sections at a phase and at touches |
-//! | `sweep.rs` | stepped sweeps with the state carried over, diagrams from many states |
-//! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
-//! | `parallel.rs`, `random.rs` | work on many threads with the same results; numbers from a seed |
+//! - `section.rs`, `part.rs`: motions, advanced section by section; parts of sections
+//! - `simulate.rs`, `poincare.rs`: motion in time with every contact, and what it needs to go on; sections
+//!   at a phase and at touches
+//! - `sweep.rs`: stepped sweeps with the state carried over, diagrams from many states
+//! - `grid.rs`, `basins.rs`: where the motions from a grid of states lead
+//! - `parallel.rs`, `random.rs`: work on many threads with the same results; numbers from a seed
 //!
 //! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of
 //! cells does so step by step, and can show progress and stop in between.

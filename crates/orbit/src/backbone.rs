@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 use hammerbeam_motion::{Contact, LocalElement, System};
 
-use crate::{noise::Noise, solve::state_of_rest};
+use crate::{noise::Noise, state_scale::state_of_rest};
 
 /// Samples of a cycle of the describing function.
 const SAMPLES: u32 = 128;

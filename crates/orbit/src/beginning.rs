@@ -7,7 +7,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError},
 };
 
-use crate::solve::state_of_rest;
+use crate::state_scale::state_of_rest;
 
 /// Cycles within which a motion that cannot begin has said so.
 const INSTANT: f64 = 1.0 / 1024.0;

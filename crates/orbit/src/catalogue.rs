@@ -11,8 +11,8 @@ use crate::{
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
     size::{Cut, orbit_scale, scale_from},
-    solve::{Wanted, approach, correct, has_minimal_period, integrator, solution, state_scale},
-    state_scale::StateScale,
+    solve::{Wanted, approach, correct, has_minimal_period, integrator, solution},
+    state_scale::{StateScale, state_scale},
 };
 
 /// Two orbits this close, relative to the orbit, are the same.

@@ -7,17 +7,20 @@
 mod bytes;
 
 use hammerbeam_motion::{Parameter, System};
-use hammerbeam_path::{Checkpoint, Counters, Follower, History, Node, ParameterRange, StopReason};
+use hammerbeam_path::{
+    Checkpoint, Counters, Follower, History, Node, ParameterRange, PathState, PathStop, TestRecord,
+};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
     continuation_parameter::ContinuationParameter,
-    density::{LastRows, Place},
-    recut::Origin,
     shooting::ShootingProblem,
-    solve::{integrator, state_of_rest},
-    state_scale::StateScale,
-    walk::{Effort, Growth, hertz_per_norm, path_settings},
+    solve::integrator,
+    state_scale::{StateScale, state_of_rest},
+    walk::{
+        Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations, hertz_per_norm,
+        path_settings,
+    },
 };
 use bytes::{Reader, Writer};
 
@@ -29,12 +32,13 @@ impl BranchWalk {
     #[must_use]
     pub fn checkpoint(&self) -> Vec<u8> {
         let mut out = Writer::default();
-        let state = self.follower.checkpoint();
+        let Self { path, record, growth, effort, begins_with_present } = self;
+        let (state, tests) = (path.follower.state(), path.follower.tests());
         out.word(MAGIC);
-        write_varied(&mut out, self.problem.period_multiple(), self.problem.varied());
-        out.word(self.problem.segments() as u64);
-        out.float(self.problem.phase());
-        out.floats(self.problem.scale().values());
+        write_varied(&mut out, path.problem.period_multiple(), path.problem.varied());
+        out.word(path.problem.segments() as u64);
+        out.float(path.problem.phase());
+        out.floats(path.problem.scale().values());
         out.point(&state.current);
         out.point(&state.start);
         out.word(state.history.used as u64);
@@ -49,43 +53,37 @@ impl BranchWalk {
         {
             out.float(value);
         }
-        for tests in [&state.tests, &state.tests_before] {
-            out.word(tests.len() as u64);
-            for test in tests {
-                out.float(test.value);
-                for number in [test.count, test.undecided, test.left_out] {
-                    out.word(u64::from(number));
-                }
-            }
-        }
-        out.floats(&state.noted);
-        out.word(u64::from(state.zeros_near));
+        out.tests(&tests.values);
+        out.tests(&tests.before);
+        out.floats(&tests.noted);
+        out.word(u64::from(tests.zeros_near));
         out.word(numbers_word(state.outside));
-        let Counters { evaluations, factorisations, accepted, rejected, short_in_a_row } = state.counters;
+        let Counters { evaluations, factorisations, accepted, rejected, short_in_a_row } =
+            path.follower.counters();
         let counts = [evaluations, factorisations, accepted, rejected, short_in_a_row];
         counts.iter().for_each(|&count| out.word(count));
-        out.word(self.evaluations_between);
+        out.word(record.evaluations_between);
         out.word(end_word(state.stop));
-        out.word(self.last_rows.0.len() as u64);
-        for place in &self.last_rows.0 {
+        out.word(record.last_rows.0.len() as u64);
+        for place in &record.last_rows.0 {
             [place.arc_length, place.frequency_hz, place.displacement]
                 .iter()
                 .for_each(|&value| out.float(value));
         }
-        out.word(self.touches.len() as u64);
-        self.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
-        out.word(numbers_word(self.outside));
-        out.word(u64::from(self.begins_with_present));
-        out.word(u64::from(self.origin.is_some()));
-        if let Some(origin) = &self.origin {
+        out.word(record.touches.len() as u64);
+        record.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
+        out.word(numbers_word(record.outside));
+        out.word(u64::from(*begins_with_present));
+        out.word(u64::from(path.origin.is_some()));
+        if let Some(origin) = &path.origin {
             out.float(origin.phase);
             out.point(&origin.point);
         }
-        out.float(self.growth.amplitude);
-        out.float(self.growth.parameter);
+        out.float(growth.amplitude);
+        out.float(growth.parameter);
         out.word(self.operations());
-        out.word(self.effort.mark.0);
-        out.float(self.effort.mark.1);
+        out.word(effort.mark.0);
+        out.float(effort.mark.1);
         out.bytes
     }
 
@@ -94,7 +92,7 @@ impl BranchWalk {
     #[must_use]
     pub fn take_journal(&mut self) -> Vec<u8> {
         let mut out = Writer::default();
-        self.journal.drain(..).for_each(|point| out.point(&point));
+        self.path.journal.drain(..).for_each(|point| out.point(&point));
         out.bytes
     }
 
@@ -119,7 +117,8 @@ impl BranchWalk {
             problem.watch_stability();
         }
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, system, length));
+        let mut follower =
+            Follower::resume(&mut problem, state, range, path_settings(settings, system, length));
         let mut reader = Reader { bytes: journal };
         let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
@@ -134,22 +133,11 @@ impl BranchWalk {
             follower.remember(&point);
         }
         let (journal, settings) = (Vec::new(), *settings);
-        let mut walk = Self {
-            problem,
-            follower,
-            journal,
-            settings,
-            range_hz,
-            last_rows,
-            evaluations_between,
-            touches: beside.touches,
-            outside: beside.outside,
-            begins_with_present: beside.begins_with_present,
-            origin: beside.origin,
-            growth: beside.growth,
-            effort: beside.effort,
-        };
-        walk.effort.counted = walk.counted_operations();
+        let Beside { touches, outside, begins_with_present, origin, growth, effort } = beside;
+        let path = OrbitPath { problem, follower, settings, range_hz, journal, origin, measures_anew: false };
+        let record = RowRecord { touches, outside, last_rows, evaluations_between };
+        let mut walk = Self { path, record, growth, effort, begins_with_present };
+        walk.effort.counted = counted_operations(&walk.path, walk.evaluations());
         Ok(walk)
     }
 }
@@ -186,12 +174,12 @@ fn read(
         Ok(integrator) => integrator,
         Err(error) => return Some(Err(error)),
     };
-    let state = read_follower(reader, point_length)?;
+    let mut state = read_follower(reader, point_length)?;
     let evaluations_between = reader.word()?;
-    let state = Checkpoint { stop: end_of_word(reader.word()?)?, ..state };
+    state.state.stop = end_of_word(reader.word()?)?;
     let mut last_rows = LastRows::default();
     for _ in 0..reader.word()? {
-        last_rows.0.push(Place {
+        last_rows.0.push(RowPlace {
             arc_length: reader.float()?,
             frequency_hz: reader.float()?,
             displacement: reader.float()?,
@@ -223,7 +211,7 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
     {
         return None;
     }
-    Some(Checkpoint {
+    let mut state = PathState {
         current,
         start,
         history,
@@ -233,20 +221,24 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
         parameter_sign: reader.float()?,
         unit: reader.float()?,
         change_ahead: reader.float()?,
-        tests: reader.tests()?,
-        tests_before: reader.tests()?,
+        outside: None,
+        stop: None,
+    };
+    let tests = TestRecord {
+        values: reader.tests()?,
+        before: reader.tests()?,
         noted: reader.floats()?,
         zeros_near: u32::try_from(reader.word()?).ok()?,
-        outside: numbers_of(reader.word()?),
-        counters: Counters {
-            evaluations: reader.word()?,
-            factorisations: reader.word()?,
-            accepted: reader.word()?,
-            rejected: reader.word()?,
-            short_in_a_row: reader.word()?,
-        },
-        stop: None,
-    })
+    };
+    state.outside = numbers_of(reader.word()?);
+    let counters = Counters {
+        evaluations: reader.word()?,
+        factorisations: reader.word()?,
+        accepted: reader.word()?,
+        rejected: reader.word()?,
+        short_in_a_row: reader.word()?,
+    };
+    Some(Checkpoint { state, tests, counters })
 }
 
 /// The period and what varies: a word with the period below and the code of the parameter above, 0 for the
@@ -314,19 +306,19 @@ fn numbers_of(word: u64) -> Option<(u32, u32)> {
 }
 
 /// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.
-fn end_word(stop: Option<StopReason>) -> u64 {
+fn end_word(stop: Option<PathStop>) -> u64 {
     match stop {
-        Some(StopReason::RangeEnd) => 1,
-        Some(StopReason::Closed) => 2,
+        Some(PathStop::RangeEnd) => 1,
+        Some(PathStop::Closed) => 2,
         _ => 0,
     }
 }
 
-fn end_of_word(word: u64) -> Option<Option<StopReason>> {
+fn end_of_word(word: u64) -> Option<Option<PathStop>> {
     match word {
         0 => Some(None),
-        1 => Some(Some(StopReason::RangeEnd)),
-        2 => Some(Some(StopReason::Closed)),
+        1 => Some(Some(PathStop::RangeEnd)),
+        2 => Some(Some(PathStop::Closed)),
         _ => None,
     }
 }

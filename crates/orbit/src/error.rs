@@ -21,17 +21,20 @@ pub enum OrbitError {
     Eigenvalues(#[from] NoEigenvalues),
     /// Newton's method did not come to a periodic orbit.
     #[error(
-        "no periodic orbit near the guess at {frequency_hz} Hz: correction {correction:.2e} after {iterations} iterations"
+        "no periodic orbit near the guess at {frequency_hz} Hz: correction {correction:.2e} \
+        after {iterations} iterations"
     )]
     NotConverged { frequency_hz: f64, correction: f64, iterations: u32 },
     /// No start led to an orbit of that period.
     #[error(
-        "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts"
+        "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz \
+        from {starts} starts"
     )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
     /// A law needs the speed with which its contact began, and the contact never begins.
     #[error(
-        "{element} is closed over the whole motion at {frequency_hz} Hz: its law needs to know how fast a contact began, and no orbit can begin within one"
+        "{element} is closed over the whole motion at {frequency_hz} Hz: its law needs to know \
+        how fast a contact began, and no orbit can begin within one"
     )]
     NeverOpens { element: String, frequency_hz: f64 },
     /// No other branch was found where one should leave.
@@ -39,7 +42,8 @@ pub enum OrbitError {
     NoCrossing { frequency_hz: f64 },
     /// The orbit does not have what a curve is to follow.
     #[error(
-        "the orbit at {frequency_hz} Hz has no such touch of a contact or pair of multipliers to follow; a contact with damping that opens, in the midst of its penetration, is none"
+        "the orbit at {frequency_hz} Hz has no such touch of a contact or pair of multipliers to follow; \
+        a contact with damping that opens, in the midst of its penetration, is none"
     )]
     NoEvent { frequency_hz: f64 },
     /// The period asked for is not one that is looked for.

@@ -19,10 +19,10 @@ use crate::{
     catalogue::Catalogue,
     crossings::Branches,
     cut::search_cut,
+    matching::nearest_returns,
     noise::Noise,
     sampling::{Passed, Patience, sample},
     start::{Effort, SETTLED, STARTS, check_multiple, search_start, starting_states},
-    survey::nearest_returns,
 };
 
 /// Periods after which a motion is taken as settled or as never settling,

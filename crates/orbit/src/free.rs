@@ -7,10 +7,7 @@
 use faer::{Mat, linalg::solvers::SolveLstsq};
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
-use crate::{
-    OrbitError, OrbitSettings, Response,
-    solve::{integrator, state_scale},
-};
+use crate::{OrbitError, OrbitSettings, Response, solve::integrator, state_scale::state_scale};
 
 /// A free periodic motion.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,30 +7,39 @@
 //! outside, so whoever drives it can show progress, stop, store it between two steps and take it up again
 //! with the same bits.
 //!
-//! | file | idea |
-//! |---|---|
-//! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
-//! | `continuation_parameter.rs`, `state_scale.rs`, `size.rs` | what varies along a branch; in which units states are measured; the size of an orbit |
-//! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
-//! | `start.rs`, `reach.rs`, `neighbour.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere; from the orbit of a slightly different system |
-//! | `find.rs`, `beginning.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, states at which a motion can begin, the orbits known, Newton's method from many states, where branches cross the frequency |
-//! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
-//! | `recompute.rs` | the same point of a branch with other segments or tolerances |
-//! | `walk.rs`, `walk/`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, step by step, cutting orbits into more segments on the way, storing a walk |
-//! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
-//! | `corner/` | grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides |
-//! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
-//! | `spectrum.rs` | multipliers, and which of them are on the unit circle as well as they are known: stable, marginal, unstable |
-//! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
-//! | `switch.rs` | leaving a flip or branch point onto the other branch |
-//! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
-//! | `trials.rs` | harmonic orbits at a frequency, quickly |
-//! | `probe.rs`, `backbone.rs`, `linear_contact.rs` | attractors at a frequency, quickly; states of large amplitude from which motions begin; frequencies at which the linear response reaches a contact |
-//! | `arrival.rs` | whether a motion has come to a stable orbit that is known |
-//! | `curve/` | curves of folds, flips, Neimark-Sacker points and grazing in two parameters |
-//! | `density.rs` | rows between, where straight lines from row to row would not do |
-//! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
-//! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
+//! - `shooting.rs`, `shooting/`: the equations of multiple shooting, condensed to the first node; what the
+//!   path crate asks of them, and of their judge
+//! - `continuation_parameter.rs`, `state_scale.rs`, `size.rs`: what varies along a branch; in which units
+//!   states are measured; the size of an orbit
+//! - `eigenvalues.rs`: multipliers, the eigenvalues of the product of the segments
+//! - `start.rs`, `reach.rs`, `neighbour.rs`: the first orbit of a branch, by simulation; from an orbit
+//!   elsewhere; from the orbit of a slightly different system
+//! - `find.rs`, `beginning.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs`: all orbits at one
+//!   frequency: the search, states at which a motion can begin, the orbits known, Newton's method from
+//!   many states, where branches cross the frequency
+//! - `solve.rs`: Newton's method at a fixed frequency, and what is stored of a converged orbit
+//! - `recompute.rs`: the same point of a branch with other segments or tolerances
+//! - `walk.rs`, `walk/`: walking, step by step: the path (`orbit_path.rs`), why it ends, the rows and
+//!   those between them (`row.rs`, `density.rs`, `between.rs`), cutting orbits anew on the way
+//!   (`resegment.rs`, `halves.rs`, `recut.rs`)
+//! - `checkpoint.rs`: storing a walk
+//! - `cut.rs`: phases at which an orbit may start
+//! - `corner/`: grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides
+//! - `stop.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again at once
+//! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
+//!   stable, marginal, unstable
+//! - `stability.rs`, `located.rs`: test functions of flips and Neimark-Sacker points; what is known of an
+//!   event
+//! - `switch.rs`: leaving a flip or branch point onto the other branch
+//! - `survey.rs`, `matching.rs`: all orbits that simulation leads to at a frequency; whether two orbits
+//!   are the same
+//! - `trials.rs`: harmonic orbits at a frequency, quickly
+//! - `probe.rs`, `backbone.rs`, `linear_contact.rs`: attractors at a frequency, quickly; states of large
+//!   amplitude from which motions begin; frequencies at which the linear response reaches a contact
+//! - `arrival.rs`: whether a motion has come to a stable orbit that is known
+//! - `curve/`: curves of folds, flips, Neimark-Sacker points and grazing in two parameters
+//! - `free.rs`: free motion of an undamped system: the amplitude is given, the frequency unknown
+//! - `settings.rs`, `solution.rs`, `error.rs`: what goes in and what comes out
 //!
 //! # Stability
 //! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of
@@ -50,7 +59,7 @@
 //! corner there, which is walked round like any other. So has it where an impact on a rigid stop comes or
 //! goes, with derivatives that grow without bound on the side of the impact: that corner is computed from the
 //! orbit cut at its touch, where the speed of the impact is a smooth coordinate (`corner/`; see
-//! [`root_corner`](hammerbeam_path::PathProblem::root_corner)).
+//! [`root_corner`](hammerbeam_path::Judge::root_corner)).
 //!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers
@@ -68,8 +77,9 @@
 //! };
 //! let model = oscillator.structure()?.reduce(&Reduction::None, &Damping::none(), &[])?.model;
 //! let mass = model.point("mass").expect("every mass is a point").clone();
-//! let force = HarmonicForce { shape: mass.shape.clone(), harmonic: Harmonic { order: 1, amplitude: 0.5, phase: 0.0 } };
-//! let system = System::new(model, &Load { support: vec![], forces: vec![force] }, vec![])?;
+//! let force = HarmonicForce { shape: mass.shape.clone(), harmonic: Harmonic { order: 1, amplitude: 0.5,
+//! phase: 0.0 } }; let system = System::new(model, &Load { support: vec![], forces: vec![force] },
+//! vec![])?;
 //!
 //! let response = Response { shape: mass.shape, support_ratios: mass.support_ratios };
 //! let frequency_hz = 1.0 / std::f64::consts::TAU;
@@ -90,12 +100,10 @@ mod corner;
 mod crossings;
 mod curve;
 mod cut;
-mod density;
 mod eigenvalues;
 mod error;
 mod find;
 mod free;
-mod halves;
 mod linear_contact;
 mod located;
 mod matching;
@@ -104,8 +112,6 @@ mod noise;
 mod probe;
 mod reach;
 mod recompute;
-mod recut;
-mod resegment;
 mod sampling;
 mod settings;
 mod shooting;

@@ -121,7 +121,7 @@ pub(crate) struct NearChange {
 /// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened
 /// there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
 pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Option<LocatedEvent> {
-    let events = hammerbeam_path::Events { corner: false, ..place.point.events };
+    let events = hammerbeam_path::PathEvents { corner: false, ..place.point.events };
     if !events.any() {
         return None;
     }
@@ -152,7 +152,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Optio
 
 /// The multiplier that makes an event, and its distance from its place, squared at a mere branch point; none
 /// at mere grazing.
-fn critical(events: hammerbeam_path::Events, multipliers: &[[f64; 2]]) -> (Option<[f64; 2]>, f64) {
+fn critical(events: hammerbeam_path::PathEvents, multipliers: &[[f64; 2]]) -> (Option<[f64; 2]>, f64) {
     let distance: fn(&[f64; 2]) -> f64 = if events.zeros & 1 != 0 {
         |[re, im]| (1.0 + re).hypot(*im)
     } else if events.zeros & 2 != 0 {

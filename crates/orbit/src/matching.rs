@@ -125,3 +125,17 @@ impl<'a> Matcher<'a> {
         Ok(orbit_near(integrator, (guess.0, &nodes), orbit, self.settings)?.0)
     }
 }
+
+/// Stretches of `lag` periods, one state for each, that end closest to where they begin, the closest first.
+pub(crate) fn nearest_returns<'s>(
+    states: &'s [Vec<f64>],
+    scale: &StateScale,
+    lag: usize,
+    most: usize,
+) -> Vec<&'s [Vec<f64>]> {
+    let distance = |k: usize| scale.distance(&states[k + lag], &states[k]);
+    let mut returns: Vec<(f64, usize)> =
+        (0..states.len().saturating_sub(lag)).map(|k| (distance(k), k)).collect();
+    returns.sort_by(|x, y| x.0.total_cmp(&y.0));
+    returns.iter().take(most).map(|&(_, k)| &states[k..k + lag]).collect()
+}

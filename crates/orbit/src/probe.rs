@@ -17,10 +17,11 @@ use crate::{
     backbone::backbone_states,
     catalogue::{Arrived, Catalogue},
     cut::search_cut,
+    matching::nearest_returns,
     solve::Wanted,
     start::starting_states,
     state_scale::StateScale,
-    survey::{nearest_returns, repeats_after},
+    survey::repeats_after,
 };
 
 /// Excitation periods between two looks, besides the largest multiple.

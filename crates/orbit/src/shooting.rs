@@ -43,13 +43,14 @@
 //! side on which the nodes lie.
 //!
 //! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in
-//! `shooting/equations.rs`.
+//! `shooting/equations.rs`, and of what only orbits know in `shooting/judge.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 mod equations;
 mod flows;
+mod judge;
 
 use hammerbeam_motion::{
     Flow, Stretch, System,
@@ -306,6 +307,11 @@ impl ShootingProblem {
         let products = self.products.iter().map(Vec::as_slice);
         let error = monodromy_error(products, self.node_size(), accuracy);
         Spectrum::of(self.node_size(), self.monodromy(), error)
+    }
+
+    /// Whether flips and Neimark-Sacker points are looked for.
+    pub fn watches_stability(&self) -> bool {
+        self.watches_stability
     }
 
     /// Has flips and Neimark-Sacker points located.

@@ -17,8 +17,7 @@ use hammerbeam_motion::{
 
 use crate::{
     PeriodicSolution,
-    solve::{state_scale, unit_scale},
-    state_scale::StateScale,
+    state_scale::{StateScale, state_scale, unit_scale},
 };
 
 /// States in each excitation period.

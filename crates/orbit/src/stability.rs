@@ -18,7 +18,7 @@
 //! # Source
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
 
-use hammerbeam_path::{Events, Outside, TestValue};
+use hammerbeam_path::{Outside, PathEvents, TestValue};
 
 use crate::spectrum::Spectrum;
 
@@ -164,7 +164,7 @@ pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
 
 /// How many multipliers lie outside the circle, without those that are critical at these events of a path
 /// with the test functions [`flip`] and [`neimark_sacker`] in this order.
-pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> Outside {
+pub(crate) fn outside(spectrum: &Spectrum, events: PathEvents) -> Outside {
     let multipliers = &spectrum.multipliers;
     let margin = on_circle(multipliers);
     // Those on the circle as well as they are known are so by the margin, too.
@@ -203,7 +203,7 @@ fn remove_least(multipliers: &mut Vec<[f64; 2]>, distance: impl Fn(&[f64; 2]) ->
 }
 
 fn signed(magnitude: f64, count: u32) -> TestValue {
-    TestValue::new(if count.is_multiple_of(2) { magnitude } else { -magnitude }, count)
+    TestValue::sign_change(if count.is_multiple_of(2) { magnitude } else { -magnitude }, count)
 }
 
 #[cfg(test)]
@@ -215,9 +215,9 @@ mod tests {
         assert_eq!(flip(&[[-1.0, 0.0], [0.5, 0.0]]).value, 0.0);
         let beyond = flip(&[[-3.0, 0.0], [0.5, 0.0]]);
         assert_eq!((beyond.value, beyond.count), (-3.0, 1));
-        assert_eq!(fold(&[[3.0, 0.0], [0.5, 0.0]]), TestValue::new(-1.0, 1));
+        assert_eq!(fold(&[[3.0, 0.0], [0.5, 0.0]]), TestValue::sign_change(-1.0, 1));
         // A pair that meets at -1 + 0i touches zero from above on both sides.
-        assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue::new(0.25, 2));
+        assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue::sign_change(0.25, 2));
         assert!(flip(&[[-1.5, 0.1], [-1.5, -0.1]]).value > 0.25);
     }
 
@@ -243,13 +243,13 @@ mod tests {
     fn the_neimark_sacker_function_vanishes_for_a_pair_on_the_circle_only() {
         let on = neimark_sacker(&[[0.6, 0.8], [0.6, -0.8]]).value;
         assert!(on.abs() < 1e-15, "{on}");
-        assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue::new(-1.0, 1));
+        assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue::sign_change(-1.0, 1));
         assert!(pair_turns_real(&[[1.016, 5e-4], [1.016, -5e-4], [0.2, 0.0]]));
         assert!(!pair_turns_real(&[[0.9999, 0.0141], [0.9999, -0.0141], [0.01, 0.0]]));
         assert!(!pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "there is no pair");
         assert!(pair_is_nearest_to_one(&[[1.015, 0.018], [1.015, -0.018], [0.24, 0.0]]));
         assert!(!pair_is_nearest_to_one(&[[0.6, 0.8], [0.6, -0.8], [1.001, 0.0]]));
         // A real pair with product one is a neutral saddle, which is no bifurcation.
-        assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue::new(1.0, 0));
+        assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue::sign_change(1.0, 0));
     }
 }

@@ -8,7 +8,8 @@ use crate::{
     cut::search_cut,
     noise::Noise,
     size::scale_from,
-    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
+    solve::{has_minimal_period, integrator, nodes_from, orbit_near},
+    state_scale::state_scale,
 };
 
 /// Excitation periods simulated between two attempts of Newton's method.

@@ -6,6 +6,8 @@
 //! the origin is; then the origin counts. Rounding is relative to the whole state, so a motion below a
 //! thousandth of it is measured by that.
 
+use hammerbeam_motion::System;
+
 /// Least size of a motion, relative to its state.
 const LEAST_MOTION: f64 = 1e-3;
 
@@ -69,6 +71,37 @@ impl StateScale {
         let norm = |squares: f64| (squares / nodes as f64).sqrt();
         norm(about_rest).min(norm(whole)).max(LEAST_MOTION * norm(whole))
     }
+}
+
+/// Units of one `kg^1/2 m/s` about the place of rest.
+pub(crate) fn unit_scale(system: &System, frequency_hz: f64) -> StateScale {
+    let reference = std::f64::consts::TAU * frequency_hz;
+    StateScale::new(&system.model().natural_frequencies, reference, 1.0).about(state_of_rest(system))
+}
+
+/// Scale of one state of which no more is known: how far about it starts are spread. Orbits, and guesses of
+/// them, are measured by their motion (`size.rs`).
+pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
+    let mut scale = unit_scale(system, frequency_hz);
+    let size = scale.size(state);
+    if size > 0.0 {
+        scale.multiply(size);
+    }
+    scale
+}
+
+/// Where the modes rest under the constant loads, without stops; rigid ones, which rest nowhere, at zero.
+pub(crate) fn state_of_rest(system: &System) -> Vec<f64> {
+    let mut rest = vec![0.0; 2 * system.dof()];
+    if let Some(index) = system.orders().iter().position(|&order| order == 0) {
+        let load = system.modal_load(index, 0.0).amplitude;
+        let modes = load.iter().zip(&system.model().natural_frequencies);
+        rest.iter_mut()
+            .zip(modes)
+            .filter(|(_, (_, w))| **w > 0.0)
+            .for_each(|(z, (b, w))| *z = b.re / (w * w));
+    }
+    rest
 }
 
 #[cfg(test)]

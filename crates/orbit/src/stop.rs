@@ -1,7 +1,5 @@
 //! Why a walk ended, in terms of orbits.
 
-use crate::{BranchWalk, solve::evaluate};
-
 /// Why a walk along a branch ended.
 ///
 /// Places are frequencies [Hz], or values of the parameter where another one varies.
@@ -100,48 +98,4 @@ pub struct ResonantMode {
     pub frequency_hz: f64,
     /// Its ratio to critical damping.
     pub damping_ratio: f64,
-}
-
-impl BranchWalk {
-    /// The reason, in terms of orbits.
-    pub(crate) fn stop_reason(&mut self, reason: hammerbeam_path::StopReason) -> StopReason {
-        let frequency_hz = self.follower.current().parameter();
-        match reason {
-            hammerbeam_path::StopReason::RangeEnd => StopReason::RangeEnd { frequency_hz },
-            hammerbeam_path::StopReason::Closed => StopReason::Closed,
-            hammerbeam_path::StopReason::StepTooShort { step, residual, doubt, .. } => {
-                self.splitting(frequency_hz).unwrap_or_else(|| StopReason::StepTooShort {
-                    frequency_hz,
-                    step,
-                    residual,
-                    doubt: doubt.to_string(),
-                })
-            }
-            hammerbeam_path::StopReason::Crawls { steps, .. } => {
-                self.splitting(frequency_hz).unwrap_or_else(|| StopReason::Crawls {
-                    frequency_hz,
-                    solutions: steps,
-                    largest_multiplier: self.largest_multiplier(),
-                })
-            }
-            hammerbeam_path::StopReason::RunsBack { parameter, met_arc_length } => {
-                StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
-            }
-            hammerbeam_path::StopReason::EvaluationFailed { parameter, error, .. } => {
-                let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
-                self.splitting(frequency_hz)
-                    .unwrap_or(StopReason::Motion { frequency_hz: parameter, message })
-            }
-            hammerbeam_path::StopReason::Budget => {
-                StopReason::Budget { solutions: self.follower.counters().accepted as usize }
-            }
-        }
-    }
-
-    /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
-    fn largest_multiplier(&mut self) -> f64 {
-        let point = self.follower.current().clone();
-        let row = evaluate(&mut self.problem, &point.point).and_then(|()| self.row_at(&point));
-        row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
-    }
 }

@@ -12,7 +12,7 @@ use crate::{
     FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
     arrival::StableOrbits,
     cut::search_cut,
-    matching::{distance_in_phase, states_at_phase},
+    matching::{distance_in_phase, nearest_returns, states_at_phase},
     size::{orbit_scale, scale_from},
     solve::integrator,
     start::{attempt, attempt_nodes, starting_states},
@@ -184,18 +184,4 @@ impl Survey<'_> {
 pub(crate) fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
     let last = states.len() - 1;
     (1..=largest.min(last)).find(|&period| scale.distance(&states[last], &states[last - period]) < REPEATED)
-}
-
-/// Stretches of `lag` periods, one state for each, that end closest to where they begin, the closest first.
-pub(crate) fn nearest_returns<'s>(
-    states: &'s [Vec<f64>],
-    scale: &StateScale,
-    lag: usize,
-    most: usize,
-) -> Vec<&'s [Vec<f64>]> {
-    let distance = |k: usize| scale.distance(&states[k + lag], &states[k]);
-    let mut returns: Vec<(f64, usize)> =
-        (0..states.len().saturating_sub(lag)).map(|k| (distance(k), k)).collect();
-    returns.sort_by(|x, y| x.0.total_cmp(&y.0));
-    returns.iter().take(most).map(|&(_, k)| &states[k..k + lag]).collect()
 }

@@ -11,14 +11,14 @@
 //! grazing lies between the crossing and the orbit found.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
-use hammerbeam_path::{Direction, Follower, ParameterRange};
+use hammerbeam_path::{Follower, ParameterRange, StartDirection};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     shooting::ShootingProblem,
     size::orbit_scale,
     solve::{evaluate, integrator, nodes_from, solution},
-    walk::{hertz_per_norm, path_settings},
+    walk::{OrbitPath, hertz_per_norm, path_settings},
 };
 
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
@@ -71,8 +71,21 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`].
     pub fn present(&mut self) -> Result<PeriodicSolution, OrbitError> {
-        evaluate(&mut self.problem, &self.follower.current().point)?;
-        Ok(self.row()?.solution)
+        evaluate(&mut self.path.problem, &self.path.follower.current().point)?;
+        Ok(self.record.row(&mut self.path)?.solution)
+    }
+
+    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from;
+    /// `None` where there is none.
+    pub(crate) fn flip_here(&mut self) -> Result<Option<Crossing>, OrbitError> {
+        if self.path.current().events.zeros & 1 == 0 {
+            return Ok(None);
+        }
+        let row = self.record.row(&mut self.path)?;
+        let Some(located) = row.located.filter(|located| !located.direction.is_empty()) else {
+            return Ok(None);
+        };
+        Ok(Some(Crossing { orbit: row.solution, direction: located.direction, factor: 2 }))
     }
 }
 
@@ -129,7 +142,7 @@ fn leave(
     if evaluate(&mut problem, &base).is_err() {
         return Ok(None);
     }
-    let signature = hammerbeam_path::PathProblem::signature(&problem);
+    let signature = hammerbeam_path::Judge::signature(&problem);
     let direction = problem.point(&slopes, crossing.direction[crossing.direction.len() - 1]);
     let norm = |vector: &[f64]| {
         let squares = vector.iter().zip(hammerbeam_path::PathProblem::weights(&problem));
@@ -140,7 +153,7 @@ fn leave(
     let start: Vec<f64> = base.iter().zip(&direction).map(|(z, d)| z + reach * unit * d).collect();
     let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
     let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-    let along = Direction::Along(&away);
+    let along = StartDirection::Along(&away);
     let Ok(follower) =
         Follower::start(&mut problem, &start, along, range, path_settings(settings, system, length))
     else {
@@ -156,7 +169,8 @@ fn leave(
     if away_in_states > reach.abs() || away_in_frequency > amplitude.abs() {
         return Ok(None);
     }
-    let mut walk = BranchWalk::of(problem, follower, orbit.maxima.displacement, (settings, range_hz));
+    let path = OrbitPath::new(problem, follower, (settings, range_hz));
+    let mut walk = BranchWalk::of(path, orbit.maxima.displacement);
     walk.begins_with_present = true;
     Ok(Some((walk, same_contacts)))
 }

@@ -1,33 +1,37 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
 mod between;
+mod density;
 mod effort;
+mod end;
 mod growth;
+mod halves;
+mod last_rows;
+mod orbit_path;
+mod recut;
+mod refine;
+mod resegment;
 mod row;
 mod settings;
 mod shorter_period;
 mod splits;
 mod stepping;
 
-use hammerbeam_motion::{
-    System,
-    exact::{ExactIntegrator, MotionError},
-};
-use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange};
+use hammerbeam_motion::{System, exact::MotionError};
+use hammerbeam_path::{Follower, ParameterRange, StartDirection};
 
 use crate::{
-    OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
+    BranchRow, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     continuation_parameter::ContinuationParameter,
-    density::{LastRows, Place},
-    recut::Origin,
     shooting::ShootingProblem,
-    size::{Cut, orbit_scale},
-    solve::{integrator, nodes_from},
-    state_scale::StateScale,
+    size::orbit_scale,
+    solve::{evaluate, integrator, nodes_from},
 };
-pub(crate) use between::{Between, outside, spectrum_of};
-pub(crate) use effort::Effort;
+pub(crate) use effort::{Effort, counted_operations};
 pub(crate) use growth::Growth;
+pub(crate) use last_rows::{LastRows, RowPlace};
+pub(crate) use orbit_path::{OrbitPath, Origin};
+pub(crate) use row::RowRecord;
 use settings::segment_count;
 pub(crate) use settings::{hertz_per_norm, path_settings};
 
@@ -38,27 +42,13 @@ pub(crate) use settings::{hertz_per_norm, path_settings};
 /// bits.
 #[derive(Debug)]
 pub struct BranchWalk {
-    pub(crate) problem: ShootingProblem,
-    pub(crate) follower: Follower,
-    /// Accepted points since the last [`BranchWalk::take_journal`].
-    pub(crate) journal: Vec<ContinuationPoint>,
-    pub(crate) settings: OrbitSettings,
-    pub(crate) range_hz: (f64, f64),
-    /// Touches of each contact at the row before.
-    pub(crate) touches: Vec<u32>,
-    /// Least and most number of multipliers outside the unit circle at the row before, once there is one.
-    pub(crate) outside: Option<(u32, u32)>,
-    /// The present point is still to be given as a row: the walk has left a crossing.
-    pub(crate) begins_with_present: bool,
-    /// For the density of rows.
-    pub(crate) last_rows: LastRows,
-    /// Shooting evaluations spent on rows between points of the path.
-    pub(crate) evaluations_between: u64,
-    /// The start as it was begun, once the phase at which orbits begin has moved.
-    pub(crate) origin: Option<Origin>,
+    pub(crate) path: OrbitPath,
+    pub(crate) record: RowRecord,
     /// Of the amplitude, while the parameter stands still.
     pub(crate) growth: Growth,
     pub(crate) effort: Effort,
+    /// The present point is still to be given as a row: the walk has left a crossing.
+    pub(crate) begins_with_present: bool,
 }
 
 /// An orbit that a walk has come to, without its maxima.
@@ -129,70 +119,53 @@ impl BranchWalk {
         };
         let point = problem.point(&nodes, value);
         let direction = match side {
-            Side::Up => Direction::Increasing,
-            Side::Down => Direction::Decreasing,
+            Side::Up => StartDirection::Increasing,
+            Side::Down => StartDirection::Decreasing,
         };
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let path = path_settings(settings, system, length);
         let started = Follower::start(&mut problem, &point, direction, range, path);
         let follower = started.map_err(|error| problem.failure_or(error))?;
-        Ok(Self::of(problem, follower, start.maxima.displacement, (settings, range_hz)))
+        let path = OrbitPath::new(problem, follower, (settings, range_hz));
+        Ok(Self::of(path, start.maxima.displacement))
     }
 
     /// A walk at its start, whose maximum displacement is given.
-    pub(crate) fn of(
-        problem: ShootingProblem,
-        follower: Follower,
-        displacement: f64,
-        (settings, range_hz): (&OrbitSettings, (f64, f64)),
-    ) -> Self {
-        let journal = vec![follower.current().clone()];
-        let touches = problem.touches().to_vec();
-        let last_rows = LastRows(vec![Place::new(follower.current(), displacement)]);
-        Self {
-            problem,
-            follower,
-            journal,
-            settings: *settings,
-            range_hz,
-            touches,
-            outside: None,
-            begins_with_present: false,
-            last_rows,
-            evaluations_between: 0,
-            origin: None,
-            growth: Growth::default(),
-            effort: Effort::default(),
-        }
+    pub(crate) fn of(path: OrbitPath, displacement: f64) -> Self {
+        let record = RowRecord::at_start(&path, displacement);
+        let (growth, effort) = (Growth::default(), Effort::default());
+        Self { path, record, growth, effort, begins_with_present: false }
     }
 
-    /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
-    fn of_present(
-        &mut self,
-        ask: impl FnOnce(Cut<'_>, &mut ExactIntegrator, &StateScale) -> Result<f64, MotionError>,
-    ) -> Option<f64> {
-        let point = &self.follower.current().point;
-        self.problem.move_to(point).ok()?;
-        let (frequency_hz, nodes) = (self.problem.frequency(point), self.problem.nodes(point));
-        let (phase, period_multiple) = (self.problem.phase(), self.problem.period_multiple());
-        let scale = self.problem.scale().clone();
-        let orbit = Cut { phase, nodes: &nodes, frequency_hz, period_multiple };
-        ask(orbit, self.problem.integrator(), &scale).ok()
+    /// The row of the start, to be taken before the first step.
+    ///
+    /// # Errors
+    /// See [`OrbitError`].
+    pub fn start_row(&mut self) -> Result<BranchRow, OrbitError> {
+        evaluate(&mut self.path.problem, &self.path.follower.current().point)?;
+        let mut row = self.record.row(&mut self.path)?;
+        row.events.start = true;
+        Ok(row)
     }
 
     /// Excitation periods of an orbit.
     pub(crate) fn period_multiple(&self) -> u32 {
-        self.problem.period_multiple()
+        self.path.problem.period_multiple()
     }
 
     /// Why the motion could not be computed at the last evaluation, if so.
     pub(crate) fn motion_failure(&self) -> Option<OrbitError> {
-        self.problem.failure().map(|failure| OrbitError::Motion(failure.clone()))
+        self.path.motion_failure()
+    }
+
+    /// Operations since the start of the walk (`effort.rs`).
+    pub(crate) fn operations(&self) -> u64 {
+        self.effort.operations(counted_operations(&self.path, self.evaluations()))
     }
 
     /// Shooting evaluations since the start of the walk.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        self.follower.counters().evaluations + self.evaluations_between
+        self.path.follower.counters().evaluations + self.record.evaluations_between
     }
 }

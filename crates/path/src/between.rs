@@ -1,9 +1,9 @@
 //! A further point of the path between two neighbouring accepted ones.
 
 use crate::{
-    corrector::{Candidate, Limits},
-    error::Doubt,
-    point::{ContinuationPoint, Counters, Events},
+    corrector::Candidate,
+    error::StepDoubt,
+    point::{ContinuationPoint, Counters, PathEvents},
     predictor::{Node, hermite},
     problem::PathProblem,
     product::{distance, product, progress, weigh},
@@ -27,11 +27,11 @@ const ALIGNED: f64 = 0.7;
 /// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant
 /// or signature are not those of the arc.
 pub fn solve_between(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     ends: [&ContinuationPoint; 2],
     share: f64,
     settings: &Settings,
-) -> Result<ContinuationPoint, Doubt> {
+) -> Result<ContinuationPoint, StepDoubt> {
     let [from, to] = ends;
     let weights = problem.weights().to_vec();
     check_aligned(&weights, &from.tangent, &to.tangent, ALIGNED.acos())?;
@@ -44,15 +44,15 @@ pub fn solve_between(
     weigh(&weights, &first.tangent, &mut row);
     let mut counters = Counters::default();
     candidate
-        .correct(problem, &weights, &row, limits(settings, step), &mut counters)
-        .map_err(Doubt::Corrector)?;
+        .correct(problem, &weights, &row, settings.limits(step), &mut counters)
+        .map_err(StepDoubt::Corrector)?;
     if candidate.sign * from.orientation < 0.0 {
-        return Err(Doubt::Reversed);
+        return Err(StepDoubt::Reversed);
     }
     candidate.orient(from.orientation);
     check_aligned(&weights, &candidate.node.tangent, &to.tangent, settings.max_angle)?;
     if candidate.signature != from.signature && candidate.signature != to.signature {
-        return Err(Doubt::Signature);
+        return Err(StepDoubt::Signature);
     }
     Ok(ContinuationPoint {
         arc_length: from.arc_length + share * (to.arc_length - from.arc_length),
@@ -61,7 +61,7 @@ pub fn solve_between(
         log_determinant: candidate.log_determinant,
         correction_norm: candidate.correction_norm,
         residual_norm: candidate.residual_norm,
-        events: Events::default(),
+        events: PathEvents::default(),
         uncertainty: 0.0,
         evaluations: counters.evaluations,
         point: candidate.point,
@@ -69,21 +69,7 @@ pub fn solve_between(
     })
 }
 
-fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), Doubt> {
+fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), StepDoubt> {
     let angle = product(weights, a, b).clamp(-1.0, 1.0).acos();
-    if angle > most { Err(Doubt::Angle { angle }) } else { Ok(()) }
-}
-
-fn limits(settings: &Settings, step: f64) -> Limits {
-    Limits {
-        tolerance: settings.tolerance_at(step),
-        loose_tolerance: settings.loose_tolerance_at(step),
-        singular_tolerance: settings.loose_tolerance_at(step).max(0.01 * step),
-        residual_floor: settings.residual_floor,
-        residual_tolerance: settings.residual_tolerance,
-        residual_wanted: settings.residual_wanted,
-        max_iterations: settings.max_iterations,
-        max_displacement: settings.allowed_displacement(step),
-        max_angle: Some(settings.max_angle),
-    }
+    if angle > most { Err(StepDoubt::Angle { angle }) } else { Ok(()) }
 }

@@ -23,7 +23,8 @@ use crate::{
 pub enum CorrectorError {
     /// The corrections do not shrink fast enough.
     #[error(
-        "no convergence in {iterations} iterations, correction {correction_norm:.2e}, residual {residual_norm:.2e}"
+        "no convergence in {iterations} iterations, correction {correction_norm:.2e}, \
+        residual {residual_norm:.2e}"
     )]
     NotConverged { iterations: u32, correction_norm: f64, residual_norm: f64 },
     /// The corrector moves the prediction further than a step of this length allows.
@@ -84,7 +85,7 @@ pub(crate) struct Candidate {
     pub signature: u64,
     /// Test functions, where they were asked for.
     pub tests: Vec<TestValue>,
-    /// What the problem noted there, see [`PathProblem::note`].
+    /// What the judge noted there, see [`Judge::note`](crate::Judge::note).
     pub noted: Vec<f64>,
     /// `1 / ‖w‖`: the cosine between the direction and `t₀` if `r = (W t₀)ᵀ`, since then `⟨t₀, w⟩ = 1`.
     pub cosine: f64,
@@ -122,7 +123,7 @@ impl Candidate {
     /// `self.node.tangent` has `row · tangent > 0`.
     pub fn correct(
         &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         weights: &[f64],
         row: &[f64],
         limits: Limits,
@@ -156,7 +157,7 @@ impl Candidate {
     /// One evaluation: correction, direction, determinant at `self.point`.
     pub fn linearise(
         &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         weights: &[f64],
         row: &[f64],
         counters: &mut Counters,
@@ -172,7 +173,7 @@ impl Candidate {
     /// Correction, direction, determinant with this border at the point evaluated last.
     pub fn refactorise(
         &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         weights: &[f64],
         row: &[f64],
     ) -> Result<(), CorrectorError> {
@@ -223,18 +224,14 @@ impl Candidate {
         Ok(())
     }
 
-    fn finish(
-        &mut self,
-        problem: &(impl PathProblem + ?Sized),
-        limits: Limits,
-    ) -> Result<(), CorrectorError> {
+    fn finish(&mut self, problem: &mut dyn PathProblem, limits: Limits) -> Result<(), CorrectorError> {
         if self.residual_norm > limits.residual_tolerance {
             return Err(CorrectorError::Residual { residual_norm: self.residual_norm });
         }
         self.displacement += self.correction_norm;
         self.node.point.copy_from_slice(&self.point);
         add_scaled(&mut self.node.point, 1.0, &self.correction);
-        self.signature = problem.signature();
+        self.signature = problem.judge().signature();
         Ok(())
     }
 }

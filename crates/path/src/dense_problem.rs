@@ -2,6 +2,7 @@
 
 use crate::{
     dense_lu::DenseLu,
+    judge::Judge,
     problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue},
 };
 
@@ -97,11 +98,17 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> PathProblem for DenseProbl
         self.lu.solve(right_hand_side);
     }
 
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
         values.extend(self.tests.iter().map(|test| test(&self.point)));
     }
 
+    fn judge(&mut self) -> &mut dyn Judge {
+        self
+    }
+}
+
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> Judge for DenseProblem<F> {
     fn has_root_corners(&self) -> bool {
         self.has_root_corners
     }

@@ -29,7 +29,7 @@ pub enum PathError {
 
 /// Why a branch ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StopReason {
+pub enum PathStop {
     /// The last point lies exactly at an end of the range.
     RangeEnd,
     /// The path came back to its start with the same tangent; the last point is the start again.
@@ -45,7 +45,7 @@ pub enum StopReason {
         /// Largest residual `max |R_i|` of the last evaluation.
         residual: f64,
         /// What was wrong with it.
-        doubt: Doubt,
+        doubt: StepDoubt,
     },
     /// The path was followed, but in steps so short that it does not get anywhere.
     Crawls {
@@ -73,7 +73,7 @@ pub enum StopReason {
 }
 
 /// In words, without the place, which has a unit that its reader knows.
-impl std::fmt::Display for StopReason {
+impl std::fmt::Display for PathStop {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::RangeEnd => write!(f, "end of the range"),
@@ -92,7 +92,7 @@ impl std::fmt::Display for StopReason {
 /// What was wrong with a candidate for the next point; the step is then shortened.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Doubt {
+pub enum StepDoubt {
     /// The corrector failed.
     #[error(transparent)]
     Corrector(CorrectorError),
@@ -123,7 +123,8 @@ pub enum Doubt {
     /// The number of multipliers outside the unit circle changes by another number than the events of the
     /// step account for.
     #[error(
-        "{before} multipliers lie outside the unit circle before the step, {behind} behind it, and no event between accounts for it"
+        "{before} multipliers lie outside the unit circle before the step, {behind} behind it, \
+        and no event between accounts for it"
     )]
     Unaccounted {
         /// Before the step.
@@ -134,7 +135,7 @@ pub enum Doubt {
     /// The candidate lies on a path that this one meets at branch points only.
     #[error("the point lies on a simpler path, {distance:.1e} from it")]
     Simpler {
-        /// [`PathProblem::distance_to_simpler`](crate::PathProblem::distance_to_simpler).
+        /// [`Judge::distance_to_simpler`](crate::Judge::distance_to_simpler).
         distance: f64,
     },
     /// The candidate lies on a stretch that was already walked.

@@ -30,12 +30,12 @@
 //! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents are not those of one arc,
 //! - the signature of the solution changes and `h > signature_step`,
 //! - the Hermite polynomial of `λ` turns twice,
-//! - the point lies on a simpler path, which the problem knows and which is met at branch points only,
+//! - the point lies on a simpler path, which the judge knows and which is met at branch points only,
 //! - the point lies on a stretch that was already walked.
 //!
 //! The second look at a step in doubt is the step to about its middle, and from there on: what short steps
 //! find is kept. A doubt that remains at the shortest step is a corner, or ends the branch with its
-//! [`StopReason`].
+//! [`PathStop`].
 //!
 //! **Events** are points of their own. A *fold* is a zero of `t_λ`, located by regula falsi between accepted
 //! points. A *branch point* is a zero of `D` through which the tangent goes straight; a jump to a sheet that
@@ -50,7 +50,7 @@
 //! # Example
 //! The unit circle has two folds and closes.
 //! ```
-//! use hammerbeam_path::{DenseProblem, Direction, ParameterRange, Settings, StopReason, follow};
+//! use hammerbeam_path::{DenseProblem, StartDirection, ParameterRange, Settings, PathStop, follow};
 //!
 //! let mut circle = DenseProblem::new(1, |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
 //!     residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
@@ -58,8 +58,8 @@
 //!     0
 //! });
 //! let range = ParameterRange::new(-2.0, 2.0)?;
-//! let branch = follow(&mut circle, &[1.0, 0.0], Direction::Increasing, range, Settings::default())?;
-//! assert_eq!(branch.stop, StopReason::Closed);
+//! let branch = follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, Settings::default())?;
+//! assert_eq!(branch.stop, PathStop::Closed);
 //! assert_eq!(branch.folds().count(), 2);
 //! # Ok::<(), hammerbeam_path::PathError>(())
 //! ```
@@ -68,9 +68,9 @@
 //! - Branch points of even multiplicity, at which `D` does not change its sign, are walked through unnoticed.
 //! - Sheets closer than `sheet_distance` with the same direction, or folds closer than the steps that nothing
 //!   else makes short, can be missed.
-//! - Corners behind which `R` changes like a square root end the branch, unless the problem says that it has
-//!   such ([`PathProblem::has_root_corners`]); then they are passed, and known to lie within the step over
-//!   them, or exactly if the problem computes them ([`PathProblem::root_corner`]).
+//! - Corners behind which `R` changes like a square root end the branch, unless the judge says that there are
+//!   such ([`Judge::has_root_corners`]); then they are passed, and known to lie within the step over them, or
+//!   exactly if the judge computes them ([`Judge::root_corner`]).
 
 mod between;
 mod checkpoint;
@@ -79,26 +79,30 @@ mod dense_lu;
 mod dense_problem;
 mod error;
 mod follower;
+mod judge;
 mod memory;
 mod point;
 mod predictor;
 mod problem;
 mod product;
 mod settings;
+mod state;
+mod test_record;
 
 pub use between::solve_between;
 pub use checkpoint::Checkpoint;
 pub use corrector::CorrectorError;
 pub use dense_lu::DenseLu;
 pub use dense_problem::DenseProblem;
-pub use error::{Doubt, PathError, StopReason};
+pub use error::{PathError, PathStop, StepDoubt};
 pub use follower::{
-    Branch, Direction, Follower, MOST_SHORT_STEPS, PassedCorner, StepOutcome, TwoSidedBranch, follow,
+    Branch, Follower, MOST_SHORT_STEPS, PassedCorner, StartDirection, StepOutcome, TwoSidedBranch, follow,
     follow_both,
 };
-pub use point::{ContinuationPoint, Counters, Events};
+pub use judge::{Judge, Outside, RootCorner};
+pub use point::{ContinuationPoint, Counters, PathEvents};
 pub use predictor::{History, Node};
-pub use problem::{
-    Determinant, EvaluationError, Outside, PathProblem, RootCorner, SingularJacobian, TestValue,
-};
+pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestKind, TestValue};
 pub use settings::{ParameterRange, Settings};
+pub use state::PathState;
+pub use test_record::TestRecord;

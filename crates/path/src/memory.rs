@@ -3,7 +3,7 @@
 //! Every accepted point is kept as a *sketch*, a projection of `√w_i z_i` to eight numbers (all of them when
 //! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average),
 //! with its tangent: 170 bytes a point whatever `n`, and up to a hundred more of cells where steps are as
-//! long as they may be. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so
+//! long as they may be. Only the unknowns with [memory weights](crate::Judge::memory_weights) count, so
 //! points of the same path in other unknowns compare. Neighbouring points make a segment with its cubic
 //! Hermite interpolant. Segments are found through square cells in the plane of the first two sketch
 //! coordinates. Where the unknowns have outgrown the units of the start, steps are long in these: such a

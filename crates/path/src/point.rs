@@ -2,7 +2,7 @@
 
 /// Events at an accepted point; several may coincide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Events {
+pub struct PathEvents {
     /// The parameter is stationary and turns: a fold.
     pub fold: bool,
     /// Branches cross here: `[R_x R_λ]` loses rank, the sign of the determinant changes, the tangent does
@@ -17,7 +17,7 @@ pub struct Events {
     pub zeros: u32,
 }
 
-impl Events {
+impl PathEvents {
     /// Whether anything happened here.
     #[must_use]
     pub fn any(&self) -> bool {
@@ -45,7 +45,7 @@ pub struct ContinuationPoint {
     /// `max |R_i|`.
     pub residual_norm: f64,
     /// What happened here.
-    pub events: Events,
+    pub events: PathEvents,
     /// Arc length within which an event here was located; zero where nothing happened.
     pub uncertainty: f64,
     /// Evaluations spent since the point before.
@@ -65,7 +65,7 @@ impl ContinuationPoint {
             log_determinant: 0.0,
             correction_norm: 0.0,
             residual_norm: 0.0,
-            events: Events::default(),
+            events: PathEvents::default(),
             uncertainty: 0.0,
             evaluations: 0,
         }

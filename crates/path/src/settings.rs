@@ -1,6 +1,6 @@
 //! What the caller chooses: range, step lengths, tolerances.
 
-use crate::error::PathError;
+use crate::{corrector::Limits, error::PathError};
 
 /// The interval of the parameter; a path is cut exactly at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,6 +131,21 @@ impl Settings {
     /// Correction that may stay unapplied where corrections stop shrinking.
     pub(crate) fn loose_tolerance_at(&self, step: f64) -> f64 {
         self.correction_tolerance.min((0.1 * step).max(10.0 * self.correction_floor))
+    }
+
+    /// What the correction of a step of length `h` must keep to.
+    pub(crate) fn limits(&self, step: f64) -> Limits {
+        Limits {
+            tolerance: self.tolerance_at(step),
+            loose_tolerance: self.loose_tolerance_at(step),
+            singular_tolerance: self.loose_tolerance_at(step).max(0.01 * step),
+            residual_floor: self.residual_floor,
+            residual_tolerance: self.residual_tolerance,
+            residual_wanted: self.residual_wanted,
+            max_iterations: self.max_iterations,
+            max_displacement: self.allowed_displacement(step),
+            max_angle: Some(self.max_angle),
+        }
     }
 
     /// Longest step with this parameter component of the tangent.

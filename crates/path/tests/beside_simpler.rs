@@ -3,14 +3,16 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
 use crate::support::{folds, graph, steps_of, up};
-use hammerbeam_path::{PathProblem, Settings};
+use hammerbeam_path::{Judge, PathProblem, Settings};
 
 /// A path of one unknown that leaves a simpler one at `x = 0`.
 struct Leaving<P>(P);
 
 impl<P: PathProblem> PathProblem for Leaving<P> {
     left_to!(0);
+}
 
+impl<P: PathProblem> Judge for Leaving<P> {
     fn distance_to_simpler(&self, point: &[f64]) -> f64 {
         point[0].abs()
     }

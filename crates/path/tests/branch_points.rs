@@ -3,7 +3,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{Branch, Direction, Settings, StopReason, follow};
+use hammerbeam_path::{Branch, PathStop, Settings, StartDirection, follow};
 
 /// `λ x − x³ = 0`: the stem `x = 0` and the arms `λ = x²`.
 fn pitchfork(x: f64, l: f64) -> (f64, f64, f64, u64) {
@@ -23,7 +23,7 @@ fn assert_one_branch_point_at_origin(branch: &Branch) {
 
 #[test]
 fn stem_of_a_pitchfork_is_walked_through_both_ways() {
-    for (start, direction) in [(-0.537, Direction::Increasing), (0.611, Direction::Decreasing)] {
+    for (start, direction) in [(-0.537, StartDirection::Increasing), (0.611, StartDirection::Decreasing)] {
         let branch =
             follow(&mut plane(pitchfork), &[0.0, start], direction, range(-1.0, 1.0), Settings::default())
                 .unwrap();
@@ -87,7 +87,7 @@ fn a_branch_between_two_flips_closes_through_both_of_them() {
         (x * (x * x - arc), 3.0 * x * x - arc, x * (2.0 * l - 1.0), 0)
     };
     let branch = up(&mut plane(bubble), &[0.45, 0.28], -1.0, 2.0, Settings::default());
-    assert_eq!(branch.stop, StopReason::Closed);
+    assert_eq!(branch.stop, PathStop::Closed);
     assert_eq!(branch.branch_points().count(), 2);
     assert_eq!(folds(&branch).len(), 2);
 }

@@ -1,7 +1,8 @@
 //! Zeros of a test function that undo each other within a step, of which the problem knows.
 
 use hammerbeam_path::{
-    DenseProblem, Direction, EvaluationError, ParameterRange, PathProblem, Settings, TestValue, follow,
+    DenseProblem, EvaluationError, Judge, ParameterRange, PathProblem, Settings, StartDirection, TestValue,
+    follow,
 };
 
 /// The line `x = λ` with a point of the plane that moves along it, and two test functions: the parameter less
@@ -33,12 +34,14 @@ impl<P: PathProblem> PathProblem for Passing<P> {
         self.line.evaluate(point)
     }
 
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
-        let signed = |value: f64| TestValue::new(value, u32::from(value < 0.0));
+        let signed = |value: f64| TestValue::sign_change(value, u32::from(value < 0.0));
         values.extend([signed(self.at - OTHER), signed(beyond(place(self.at)))]);
     }
+}
 
+impl<P: PathProblem> Judge for Passing<P> {
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
         numbers.extend(place(self.at));
@@ -65,7 +68,7 @@ fn they_are_found_on_the_way_to_the_zero_of_another_function() {
     let mut problem = Passing { line: DenseProblem::new(1, equation), at: 0.0 };
     let settings = Settings { initial_step: 0.8, max_step_length: 0.8, ..Settings::default() };
     let range = ParameterRange::new(0.0, 1.0).expect("in order");
-    let branch = follow(&mut problem, &[0.1, 0.1], Direction::Increasing, range, settings);
+    let branch = follow(&mut problem, &[0.1, 0.1], StartDirection::Increasing, range, settings);
     let branch = branch.expect("the start lies on the line");
     let zeros = |index: u32| -> Vec<f64> {
         let at = |point: &&hammerbeam_path::ContinuationPoint| point.events.zeros >> index & 1 == 1;

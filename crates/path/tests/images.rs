@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::support::{range, steps_of};
-use hammerbeam_path::{DenseProblem, Direction, PathProblem, StopReason, follow};
+use hammerbeam_path::{DenseProblem, Judge, PathProblem, PathStop, StartDirection, follow};
 
 /// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`,
 /// half a turn later.
@@ -21,7 +21,9 @@ struct Twofold<P>(P);
 
 impl<P: PathProblem> PathProblem for Twofold<P> {
     left_to!(0);
+}
 
+impl<P: PathProblem> Judge for Twofold<P> {
     fn images(&self) -> usize {
         2
     }
@@ -32,9 +34,9 @@ impl<P: PathProblem> PathProblem for Twofold<P> {
 }
 
 /// Arc length, folds and end of the loop from the angle 0.2 rad.
-fn walked(problem: &mut impl PathProblem) -> (f64, usize, StopReason) {
+fn walked(problem: &mut impl PathProblem) -> (f64, usize, PathStop) {
     let start = [0.2_f64.cos(), 0.2_f64.sin(), 0.4_f64.sin()];
-    let branch = follow(problem, &start, Direction::Increasing, range(-2.0, 2.0), steps_of(0.01));
+    let branch = follow(problem, &start, StartDirection::Increasing, range(-2.0, 2.0), steps_of(0.01));
     let branch = branch.unwrap_or_else(|error| panic!("{error}"));
     let last = &branch.points[branch.points.len() - 1];
     (last.arc_length, branch.folds().count(), branch.stop)
@@ -43,9 +45,9 @@ fn walked(problem: &mut impl PathProblem) -> (f64, usize, StopReason) {
 #[test]
 fn a_loop_closes_where_it_comes_to_an_image_of_its_start() {
     let (whole, folds, stop) = walked(&mut circle());
-    assert_eq!((folds, stop), (4, StopReason::Closed));
+    assert_eq!((folds, stop), (4, PathStop::Closed));
     let (half, folds, stop) = walked(&mut Twofold(circle()));
-    assert_eq!((folds, stop), (2, StopReason::Closed));
+    assert_eq!((folds, stop), (2, PathStop::Closed));
     assert!((2.0 * half / whole - 1.0).abs() < 1e-6, "{half} of {whole}");
     // The curve is longer than the circle below it.
     assert!(whole > 2.0 * PI);

@@ -3,7 +3,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{Settings, StopReason, follow_both};
+use hammerbeam_path::{PathStop, Settings, follow_both};
 
 fn circle(x: f64, l: f64) -> (f64, f64, f64, u64) {
     (x * x + l * l - 1.0, 2.0 * x, 2.0 * l, 0)
@@ -17,7 +17,7 @@ fn s_curve(x: f64) -> (f64, f64, u64) {
 #[test]
 fn circle_closes_with_two_folds() {
     let branch = up(&mut plane(circle), &[0.8, 0.6], -2.0, 2.0, Settings::default());
-    assert_eq!(branch.stop, StopReason::Closed);
+    assert_eq!(branch.stop, PathStop::Closed);
     let found = folds(&branch);
     assert_eq!(found.len(), 2);
     assert_abs_diff_eq!(found[0], 1.0, epsilon = 1e-10);
@@ -30,7 +30,7 @@ fn circle_closes_with_two_folds() {
 #[test]
 fn circle_is_cut_exactly_at_both_ends() {
     let branch = follow_both(&mut plane(circle), &[1.0, 0.0], range(-0.3, 0.7), Settings::default()).unwrap();
-    assert_eq!((branch.backward, branch.forward), (StopReason::RangeEnd, StopReason::RangeEnd));
+    assert_eq!((branch.backward, branch.forward), (PathStop::RangeEnd, PathStop::RangeEnd));
     assert_eq!(branch.points[0].parameter(), -0.3);
     assert_eq!(branch.points.last().unwrap().parameter(), 0.7);
     assert_abs_diff_eq!(branch.points[0].point[0], 0.91_f64.sqrt(), epsilon = 1e-9);

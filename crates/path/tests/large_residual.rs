@@ -1,7 +1,7 @@
 //! A residual that is large where its correction is small: one more correction takes it away, and no step is
 //! shortened for it.
 
-use hammerbeam_path::{DenseProblem, Direction, ParameterRange, Settings, StopReason, follow};
+use hammerbeam_path::{DenseProblem, ParameterRange, PathStop, Settings, StartDirection, follow};
 
 /// `K (x - a l^2) = 0`. A step h of the tangent misses the path by `a h^2`, below the tolerance of
 /// corrections, and leaves `K a h^2` in the residual, above its own.
@@ -15,8 +15,9 @@ fn a_large_residual_of_a_small_correction_does_not_shorten_steps() {
     });
     let settings = Settings { max_step_length: 1.0, initial_step: 1.0, ..Settings::default() };
     let range = ParameterRange::new(-1.0, 50.0).unwrap();
-    let branch = follow(&mut problem, &[0.0, 0.0], Direction::Increasing, range, settings.clone()).unwrap();
-    assert_eq!(branch.stop, StopReason::RangeEnd);
+    let branch =
+        follow(&mut problem, &[0.0, 0.0], StartDirection::Increasing, range, settings.clone()).unwrap();
+    assert_eq!(branch.stop, PathStop::RangeEnd);
     assert!(branch.points.iter().all(|point| point.residual_norm <= settings.residual_tolerance));
     assert!(branch.points.len() < 60, "{} points", branch.points.len());
     assert_eq!(branch.counters.rejected, 0);

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
 use hammerbeam_path::{
-    Branch, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings, TestValue,
-    follow,
+    Branch, EvaluationError, Judge, Outside, ParameterRange, PathEvents, PathProblem, Settings,
+    StartDirection, TestValue, follow,
 };
 
 /// A path along which multipliers go that depend on the unknown alone, those of a pair one after the other.
@@ -66,16 +66,18 @@ impl<P: PathProblem> PathProblem for Multiplied<P> {
         self.path.evaluate(point)
     }
     /// Of the complex pair nearest to the circle.
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         let multipliers = (self.multipliers)(self.x);
         let pairs = multipliers.iter().filter(|(_, im)| *im > 0.0).map(|(re, im)| 1.0 - re * re - im * im);
         let count = pairs.clone().filter(|value| *value < 0.0).count() as u32;
         let least = pairs.fold(1.0, |least: f64, value| least.min(value.abs()));
         values.clear();
-        values.push(TestValue::new(if count.is_multiple_of(2) { least } else { -least }, count));
+        values.push(TestValue::sign_change(if count.is_multiple_of(2) { least } else { -least }, count));
     }
+}
 
-    fn outside(&mut self, events: Events) -> Option<Outside> {
+impl<P: PathProblem> Judge for Multiplied<P> {
+    fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         let mut left = (self.multipliers)(self.x);
         let all = left.len();
         if events.fold {
@@ -108,7 +110,7 @@ fn zeros<P: PathProblem>(
     settings: Settings,
 ) -> (Vec<f64>, Branch) {
     let range = ParameterRange::new(-1.0, 1.0).unwrap();
-    let branch = follow(&mut problem, &start, Direction::Increasing, range, settings).unwrap();
+    let branch = follow(&mut problem, &start, StartDirection::Increasing, range, settings).unwrap();
     let zeros = branch.points.iter().filter(|point| point.events.zeros == 1);
     (zeros.map(|point| point.point[0]).collect(), branch)
 }

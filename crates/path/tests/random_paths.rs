@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
-use hammerbeam_path::{DenseProblem, Settings, StopReason};
+use hammerbeam_path::{DenseProblem, PathStop, Settings};
 use proptest::prelude::*;
 
 /// `λ = x + Σ a_k sin(k x + φ_k)`.
@@ -104,7 +104,8 @@ proptest! {
             for (a, b) in found.iter().zip(&expected) {
                 prop_assert!((a - b).abs() < 1e-10, "{} {}", a, b);
             }
-            prop_assert!(branch.points.iter().any(|point| unmixed(5, seed, &point.point) >= high), "{} {:?}", end, branch.stop);
+            let arrives = branch.points.iter().any(|point| unmixed(5, seed, &point.point) >= high);
+            prop_assert!(arrives, "{} {:?}", end, branch.stop);
         }
     }
 
@@ -131,7 +132,8 @@ proptest! {
         assert_monotone(&branch, |z| z[0]);
         let last = polygon.knots[pieces.len() - 1];
         let reached = branch.points.last().unwrap().point[0] >= last;
-        prop_assert!(reached || branch.stop == StopReason::Budget, "{:?} {:?}", branch.stop, branch.points.last());
+        let last = branch.points.last();
+        prop_assert!(reached || branch.stop == PathStop::Budget, "{:?} {:?}", branch.stop, last);
         if marked && reached {
             let turns = pieces.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0).count();
             prop_assert_eq!(branch.folds().count(), turns);

@@ -3,14 +3,15 @@
 use std::cell::Cell;
 
 use hammerbeam_path::{
-    ContinuationPoint, DenseProblem, Direction, Follower, ParameterRange, Settings, StepOutcome, StopReason,
+    ContinuationPoint, DenseProblem, Follower, ParameterRange, PathStop, Settings, StartDirection,
+    StepOutcome,
 };
 
 const WIDTH: f64 = 1000.0;
 
 /// The ellipse `(x/1000)² + λ² = 1` from `x = 1` on, in units that stay within a factor of four of `x`;
 /// points in the first units.
-fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
+fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, PathStop) {
     let unit = Cell::new(1.0);
     let mut problem = DenseProblem::new(1, |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
         let x = z[0] * unit.get() / WIDTH;
@@ -21,7 +22,7 @@ fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
     let settings = Settings { max_step_length: 0.2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).expect("in order");
     let start = [1.0, (1.0_f64 - 1e-6).sqrt()];
-    let mut follower = Follower::start(&mut problem, &start, Direction::Decreasing, range, settings)
+    let mut follower = Follower::start(&mut problem, &start, StartDirection::Decreasing, range, settings)
         .expect("on the ellipse");
     let mut points = vec![follower.current().clone()];
     loop {
@@ -32,7 +33,7 @@ fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
             follower.rescale(factor);
         }
         match follower.step(&mut problem) {
-            StepOutcome::Accepted => points.push(follower.in_first_units(follower.current())),
+            StepOutcome::Accepted => points.push(follower.state().in_first_units(follower.current())),
             StepOutcome::Stopped(reason) => return (points, reason),
         }
     }
@@ -41,7 +42,7 @@ fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
 #[test]
 fn the_ellipse_closes_in_growing_units_with_both_folds_and_far_fewer_points() {
     let (points, reason) = follow_ellipse(true);
-    assert_eq!(reason, StopReason::Closed);
+    assert_eq!(reason, PathStop::Closed);
     let folds: Vec<_> = points.iter().filter(|point| point.events.fold).collect();
     assert_eq!(folds.len(), 2);
     for (fold, expected) in folds.iter().zip([-1.0, 1.0]) {

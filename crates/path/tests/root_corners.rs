@@ -5,7 +5,7 @@
 //! with `J w = -b`, `g . w = 0`, `J p = 0`, `g . p = 1`.
 
 use crate::support::{range, steps_of};
-use hammerbeam_path::{Branch, DenseProblem, Direction, PathProblem, Settings, StopReason, follow};
+use hammerbeam_path::{Branch, DenseProblem, PathProblem, PathStop, Settings, StartDirection, follow};
 
 type Vector = [f64; 3];
 
@@ -88,7 +88,7 @@ impl Graze {
 
     /// Follows the path from a point on it in this direction, between -20 and 20.
     fn from(self, start: Vector, along: Vector) -> Branch {
-        let direction = Direction::Along(&along);
+        let direction = StartDirection::Along(&along);
         let settings = Settings { max_points: 5000, ..steps_of(0.01) };
         follow(&mut self.problem(), &start, direction, range(-20.0, 20.0), settings).expect("it starts")
     }
@@ -114,11 +114,7 @@ fn the_path_goes_on_behind_a_corner_onto_the_root() {
         let line = graze.line();
         let start = combined(-0.5, line, 0.0, line);
         let branch = graze.from(start, line);
-        assert!(
-            matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget),
-            "{graze:?}: {:?}",
-            branch.stop
-        );
+        assert!(matches!(branch.stop, PathStop::RangeEnd | PathStop::Budget), "{graze:?}: {:?}", branch.stop);
         assert_on_path(graze, &branch);
         let deepest = branch.points.iter().map(|point| graze.depth(&point.point)).fold(0.0, f64::max);
         passed += u32::from(deepest > 1e-3);
@@ -139,11 +135,7 @@ fn the_path_goes_on_behind_a_corner_off_the_root() {
         let start = graze.root(0.3);
         let back = combined(1.0, graze.root(0.299), -1.0, start);
         let branch = graze.from(start, back);
-        assert!(
-            matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget),
-            "{graze:?}: {:?}",
-            branch.stop
-        );
+        assert!(matches!(branch.stop, PathStop::RangeEnd | PathStop::Budget), "{graze:?}: {:?}", branch.stop);
         assert_on_path(graze, &branch);
         let last = branch.points.last().map(|point| graze.depth(&point.point));
         assert!(last.is_some_and(|depth| depth < 0.0), "{graze:?}: {last:?}");

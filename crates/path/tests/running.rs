@@ -3,8 +3,8 @@
 
 use crate::support::*;
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, DenseProblem, Direction, EvaluationError, Events, Follower, PathError,
-    PathProblem, Settings, StepOutcome, StopReason, follow,
+    Checkpoint, ContinuationPoint, DenseProblem, EvaluationError, Follower, PathError, PathEvents,
+    PathProblem, PathStop, Settings, StartDirection, StepOutcome, follow,
 };
 
 fn wave(x: f64, l: f64) -> (f64, f64, f64, u64) {
@@ -60,16 +60,17 @@ fn walk(follower: &mut Follower, problem: &mut impl PathProblem, most: usize) ->
 fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
     let problem = mixed(7, 0.3, rough);
     let (start, limits) = (mixed_point(7, 0.3, 0.0, 0.0), range(-1.0, 1.0));
-    let begin =
-        || Follower::start(&mut problem.clone(), &start, Direction::Increasing, limits, Settings::default());
+    let begin = || {
+        Follower::start(&mut problem.clone(), &start, StartDirection::Increasing, limits, Settings::default())
+    };
     let first = begin().unwrap().current().clone();
     let whole = walk(&mut begin().unwrap(), &mut problem.clone(), usize::MAX);
     assert!(whole.len() > 60);
     for cut in (1..whole.len()).step_by(7) {
         let mut early = begin().unwrap();
         walk(&mut early, &mut problem.clone(), cut);
-        let checkpoint: Checkpoint = early.checkpoint().clone();
-        let mut late = Follower::resume(&problem, checkpoint, limits, Settings::default());
+        let checkpoint: Checkpoint = early.checkpoint();
+        let mut late = Follower::resume(&mut problem.clone(), checkpoint, limits, Settings::default());
         late.remember(&first);
         whole[..cut].iter().for_each(|point| late.remember(point));
         assert_eq!(
@@ -82,7 +83,7 @@ fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
 
 /// Follows `f` and checks at each point that the problem was evaluated last exactly there; returns the events
 /// seen.
-fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
+fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> PathEvents {
     let seen = std::cell::RefCell::new(vec![]);
     let mut problem = DenseProblem::new(1, |z: &[f64], r: &mut [f64], j: &mut [f64]| {
         seen.replace(z.to_vec());
@@ -93,9 +94,9 @@ fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
     });
     let limits = range(-1.0, 1.0);
     let mut follower =
-        Follower::start(&mut problem, &start, Direction::Increasing, limits, Settings::default())
+        Follower::start(&mut problem, &start, StartDirection::Increasing, limits, Settings::default())
             .expect("on the path");
-    let mut events = Events::default();
+    let mut events = PathEvents::default();
     while follower.step(&mut problem) == StepOutcome::Accepted {
         let point = follower.current();
         assert_eq!(*seen.borrow(), point.point, "{:?}", point.events);
@@ -104,7 +105,7 @@ fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
         events.signature_change |= point.events.signature_change;
         events.corner |= point.events.corner;
     }
-    assert!(matches!(follower.stop_reason(), Some(StopReason::RangeEnd | StopReason::Closed)));
+    assert!(matches!(follower.stop_reason(), Some(PathStop::RangeEnd | PathStop::Closed)));
     events
 }
 
@@ -124,13 +125,13 @@ fn the_problem_is_left_evaluated_at_every_accepted_point() {
 fn the_budget_ends_a_branch() {
     let settings = Settings { max_points: 5, ..Settings::default() };
     let branch = up(&mut plane(wave), &[0.0, 0.0], 0.0, 2.0, settings);
-    assert_eq!((branch.stop, branch.points.len()), (StopReason::Budget, 6));
+    assert_eq!((branch.stop, branch.points.len()), (PathStop::Budget, 6));
 }
 
 #[test]
 fn a_start_at_the_end_of_the_range_leads_nowhere_outwards() {
     let branch = up(&mut plane(wave), &[0.0, 0.0], -1.0, 0.0, Settings::default());
-    assert_eq!((branch.stop, branch.points.len()), (StopReason::RangeEnd, 1));
+    assert_eq!((branch.stop, branch.points.len()), (PathStop::RangeEnd, 1));
     let branch = down(&mut plane(wave), &[0.0, 0.0], -1.0, 0.0, Settings::default());
     assert_reached_end(&branch, -1.0);
 }
@@ -139,7 +140,7 @@ fn a_start_at_the_end_of_the_range_leads_nowhere_outwards() {
 fn a_path_that_ends_stops_with_its_place() {
     let ends = |x: f64, l: f64| (x - l, 1.0, if l > 0.5 { f64::NAN } else { -1.0 }, 0);
     let branch = up(&mut plane(ends), &[0.0, 0.0], 0.0, 1.0, Settings::default());
-    let StopReason::EvaluationFailed { parameter, step, error } = branch.stop else {
+    let PathStop::EvaluationFailed { parameter, step, error } = branch.stop else {
         panic!("{:?}", branch.stop)
     };
     assert!((parameter - 0.5).abs() < 1e-8 && step < 1e-8, "{parameter} {step}");
@@ -150,7 +151,7 @@ fn a_path_that_ends_stops_with_its_place() {
 fn unusable_input_is_refused() {
     let mut problem = plane(wave);
     let mut begin = |start: &[f64], settings: Settings| {
-        follow(&mut problem, start, Direction::Increasing, range(0.0, 1.0), settings).map(|_| ())
+        follow(&mut problem, start, StartDirection::Increasing, range(0.0, 1.0), settings).map(|_| ())
     };
     assert_eq!(begin(&[0.0], Settings::default()), Err(PathError::WrongLength { found: 1, expected: 2 }));
     let outside = begin(&[0.0, 3.0], Settings::default());
@@ -168,7 +169,7 @@ fn a_start_at_a_fold_goes_along_a_direction() {
     let branch = follow(
         &mut graph(fold),
         &[0.0, 0.001],
-        Direction::Along(&[-1.0, 0.0]),
+        StartDirection::Along(&[-1.0, 0.0]),
         range(-1.0, 1.0),
         Settings::default(),
     )

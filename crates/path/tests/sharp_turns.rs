@@ -4,9 +4,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{
-    DenseProblem, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, StopReason, follow_both,
-};
+use hammerbeam_path::{DenseProblem, MOST_SHORT_STEPS, PathStop, Settings, follow_both};
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 
@@ -221,56 +219,6 @@ fn weights_scale_the_problem() {
     }
 }
 
-/// A problem that sees the touches at `0.05 + 0.1 k` and `w` behind each of them coming.
-struct Foreseeing<P> {
-    problem: P,
-    place: f64,
-    width: f64,
-}
-
-impl<P: PathProblem> PathProblem for Foreseeing<P> {
-    left_to!(problem but evaluate);
-
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.place = point[0];
-        self.problem.evaluate(point)
-    }
-    fn signature(&self) -> u64 {
-        self.problem.signature()
-    }
-    fn distance_to_change(&self, tangent: &[f64]) -> f64 {
-        let touches =
-            (0..5).flat_map(|k| [0.1 * f64::from(k) + 0.05, 0.1 * f64::from(k) + 0.05 + self.width]);
-        touches
-            .map(|touch| (touch - self.place) / tangent[0])
-            .filter(|distance| *distance > 0.0)
-            .fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// Between touch and release, `w` apart, `λ = x + 2 w sin³(π p/w)`: a pair of folds, and the same signature
-/// behind them.
-#[test]
-fn pairs_of_folds_between_two_changes_in_one_step_are_found_if_the_problem_sees_them_coming() {
-    for width in [1e-5, 1e-3] {
-        for step in STEPS {
-            let blip = move |x: f64| {
-                let p = (x - 0.05).rem_euclid(0.1);
-                if p >= width || !(0.0..0.5).contains(&x) {
-                    return (x, 1.0, 0);
-                }
-                let (s, c) = (std::f64::consts::PI * p / width).sin_cos();
-                (x + 2.0 * width * s * s * s, 1.0 + 6.0 * std::f64::consts::PI * s * s * c, 1)
-            };
-            let mut problem = Foreseeing { problem: graph(blip), place: 0.0, width };
-            let branch = up(&mut problem, &[0.0, 0.0], -0.5, 0.5, steps_of(step));
-            assert_reached_end(&branch, 0.5);
-            assert_eq!(folds(&branch).len(), 10, "width {width}, step {step}");
-            assert_monotone(&branch, |z| z[0]);
-        }
-    }
-}
-
 #[test]
 fn hidden_pairs_are_found_through_noise() {
     for step in STEPS {
@@ -292,7 +240,7 @@ fn a_path_that_leads_nowhere_is_left() {
     let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);
     let settings = Settings { crawl_step: 1e-7, ..steps_of(0.01) };
     let branch = up(&mut mixed(3, 0.3, wriggle), &mixed_point(3, 0.3, 0.0, 0.0), -1.0, 1.0, settings);
-    let StopReason::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
+    let PathStop::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
     assert_eq!(steps, MOST_SHORT_STEPS);
     assert!(parameter < 1e-7 * MOST_SHORT_STEPS as f64, "{parameter}");
 }

@@ -3,7 +3,7 @@
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{DenseProblem, PathProblem, Settings, StopReason};
+use hammerbeam_path::{DenseProblem, PathProblem, PathStop, Settings};
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 
@@ -81,7 +81,7 @@ fn turns_of_a_spiral_1e_4_apart_are_walked_one_after_the_other() {
     for step in [0.05, 0.01] {
         let settings = Settings { max_points: 4000, ..steps_of(step) };
         let branch = up(&mut spiral(), &[0.5, 0.0, 0.0], -1.0, 1.0, settings);
-        assert_eq!(branch.stop, StopReason::Budget);
+        assert_eq!(branch.stop, PathStop::Budget);
         assert_monotone(&branch, |z| z[1]);
         let turns = branch.points.last().unwrap().point[1] / (2.0 * std::f64::consts::PI);
         assert!(turns > 3.0, "{turns}");
@@ -98,7 +98,7 @@ fn an_isola_closes_from_any_start() {
         };
         let start = [3.0 + 0.1 * angle.sin(), 50.0 + angle.cos()];
         let branch = up(&mut plane(isola), &start, 19.0, 110.0, steps_of(0.05));
-        assert_eq!(branch.stop, StopReason::Closed);
+        assert_eq!(branch.stop, PathStop::Closed);
         let mut found = folds(&branch);
         found.sort_by(f64::total_cmp);
         assert_eq!(found.len(), 2);
@@ -114,7 +114,7 @@ fn a_path_that_crosses_itself_is_not_taken_for_a_retrace() {
     let eight = |x: f64, l: f64| (x * x - l * l + l * l * l * l, 2.0 * x, -2.0 * l + 4.0 * l * l * l, 0);
     let l: f64 = 0.6;
     let branch = up(&mut plane(eight), &[(l * l - l.powi(4)).sqrt(), l], -2.0, 2.0, Settings::default());
-    assert_eq!(branch.stop, StopReason::Closed);
+    assert_eq!(branch.stop, PathStop::Closed);
     assert_eq!(branch.branch_points().count(), 2);
     assert_eq!(folds(&branch).len(), 2);
 }
@@ -133,7 +133,7 @@ fn a_stretch_that_would_be_walked_again_ends_the_branch() {
     };
     let branch =
         up(&mut plane(lollipop), &[0.0, -0.51], -2.0, 2.0, Settings { max_points: 2000, ..steps_of(0.02) });
-    let StopReason::RunsBack { parameter, met_arc_length } = branch.stop else { panic!("{:?}", branch.stop) };
+    let PathStop::RunsBack { parameter, met_arc_length } = branch.stop else { panic!("{:?}", branch.stop) };
     assert_abs_diff_eq!(parameter, 0.0, epsilon = 0.03);
     assert_abs_diff_eq!(met_arc_length, 0.51, epsilon = 0.03);
 }
@@ -156,7 +156,7 @@ fn a_pleat_of_sheets_is_walked_sheet_by_sheet_at_every_step() {
                     1.0,
                     Settings { max_points: if n == 1 { 3000 } else { 1000 }, ..settings.clone() },
                 );
-                assert_eq!(branch.stop, StopReason::Budget, "spacing {spacing}, step {step}");
+                assert_eq!(branch.stop, PathStop::Budget, "spacing {spacing}, step {step}");
                 assert_monotone(&branch, |z| unmixed(n, 0.4, z));
                 let last = unmixed(n, 0.4, &branch.points.last().unwrap().point);
                 println!(

@@ -1,7 +1,7 @@
 //! Zeros of test functions become points of their own.
 
 use hammerbeam_path::{
-    Branch, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason, TestValue, follow,
+    Branch, DenseProblem, ParameterRange, PathProblem, PathStop, Settings, StartDirection, TestValue, follow,
 };
 
 /// The unit circle `x² + λ² = 1`, with these test functions.
@@ -18,14 +18,14 @@ fn circle(tests: Vec<fn(&[f64]) -> TestValue>) -> impl PathProblem {
 fn round(tests: Vec<fn(&[f64]) -> TestValue>, step: f64) -> Branch {
     let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).expect("in order");
-    let branch = follow(&mut circle(tests), &[1.0, 0.0], Direction::Increasing, range, settings);
+    let branch = follow(&mut circle(tests), &[1.0, 0.0], StartDirection::Increasing, range, settings);
     let branch = branch.expect("the start lies on the circle");
-    assert_eq!(branch.stop, StopReason::Closed);
+    assert_eq!(branch.stop, PathStop::Closed);
     branch
 }
 
 fn signed(value: f64) -> TestValue {
-    TestValue::new(value, u32::from(value < 0.0))
+    TestValue::sign_change(value, u32::from(value < 0.0))
 }
 
 fn zeros(branch: &Branch, index: u32) -> Vec<(f64, f64)> {
@@ -104,7 +104,7 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
     // Zero at x = 0.300 and at x = 0.302: the value has the same sign on both sides, the count tells.
     let pair: fn(&[f64]) -> TestValue = |z| {
         let count = u32::from(z[0] < 0.302) + u32::from(z[0] < 0.300);
-        TestValue::new((z[0] - 0.300) * (z[0] - 0.302), count)
+        TestValue::sign_change((z[0] - 0.300) * (z[0] - 0.302), count)
     };
     let found = zeros(&round(vec![pair], 0.3), 0);
     let mut places: Vec<f64> = found.iter().map(|point| point.0).collect();
@@ -183,7 +183,7 @@ fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
             let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
             let range = ParameterRange::new(-2.0, 2.0).expect("in order");
             let mut problem = DenseProblem::new(1, equation).with_tests(tests.to_vec());
-            let branch = follow(&mut problem, &start, Direction::Increasing, range, settings);
+            let branch = follow(&mut problem, &start, StartDirection::Increasing, range, settings);
             let branch = branch.expect("the start lies on the circle");
             let changes = branch.points.iter().filter(|point| point.events.signature_change);
             assert_eq!(changes.count(), 4, "step {step}, angle {angle}");
@@ -193,7 +193,7 @@ fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
 
 #[test]
 fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function_has_a_value() {
-    changes_twice(&[|z| TestValue::new(beside(z), 0)]);
+    changes_twice(&[|z| TestValue::sign_change(beside(z), 0)]);
 }
 
 /// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and
@@ -202,7 +202,7 @@ fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function
 fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_begins_or_ends() {
     const ALWAYS: f64 = 0.2;
     changes_twice(&[
-        |z| TestValue::new(beside(z).min(ALWAYS), 0),
-        |z| TestValue::new(beside(z).max(ALWAYS), 0),
+        |z| TestValue::sign_change(beside(z).min(ALWAYS), 0),
+        |z| TestValue::sign_change(beside(z).max(ALWAYS), 0),
     ]);
 }

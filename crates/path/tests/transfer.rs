@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use hammerbeam_path::{
-    ContinuationPoint, DenseProblem, Direction, Follower, Node, ParameterRange, PathError, PathProblem,
-    Settings, StepOutcome, StopReason,
+    ContinuationPoint, DenseProblem, Follower, Judge, Node, ParameterRange, PathError, PathProblem, PathStop,
+    Settings, StartDirection, StepOutcome,
 };
 
 type Function = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64]) -> u64>;
@@ -36,9 +36,11 @@ impl Circle {
 
 impl PathProblem for Circle {
     left_to!(0);
+}
 
-    fn memory_weights(&self) -> Vec<f64> {
-        vec![1.0, 1.0]
+impl Judge for Circle {
+    fn memory_weights(&self) -> Option<Vec<f64>> {
+        Some(vec![1.0, 1.0])
     }
 }
 
@@ -50,7 +52,7 @@ fn copied(values: &[f64], copies: usize) -> Vec<f64> {
 
 fn transfer(follower: &mut Follower, copies: usize) -> Result<Circle, PathError> {
     let mut problem = Circle::new(copies);
-    let start = &follower.checkpoint().start;
+    let start = &follower.state().start;
     let [current, start] = [follower.current(), start]
         .map(|point| Node { point: copied(&point.point, copies), tangent: copied(&point.tangent, copies) });
     follower.transfer(&mut problem, &current, Some(&start))?;
@@ -59,7 +61,7 @@ fn transfer(follower: &mut Follower, copies: usize) -> Result<Circle, PathError>
 
 fn begun(problem: &mut Circle, start: &[f64]) -> Follower {
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
-    Follower::start(problem, start, Direction::Increasing, range, Settings::default()).unwrap()
+    Follower::start(problem, start, StartDirection::Increasing, range, Settings::default()).unwrap()
 }
 
 #[test]
@@ -71,7 +73,7 @@ fn a_circle_closes_at_its_start_whatever_happens_to_its_unknowns() {
         match follower.step(&mut problem) {
             StepOutcome::Accepted => folds += u32::from(follower.current().events.fold),
             StepOutcome::Stopped(reason) => {
-                assert_eq!(reason, StopReason::Closed);
+                assert_eq!(reason, PathStop::Closed);
                 assert_eq!(follower.counters().accepted, step - 1);
                 break;
             }
@@ -93,11 +95,14 @@ fn other_equations_on_the_way_are_refused_and_change_nothing() {
     let mut problem = Circle::new(1);
     let mut follower = begun(&mut problem, &[1.0, 0.0]);
     follower.step(&mut problem);
-    let before = follower.checkpoint().clone();
-    let node = Node { point: copied(&before.current.point, 2), tangent: copied(&before.current.tangent, 2) };
+    let before = follower.checkpoint();
+    let node = Node {
+        point: copied(&before.state.current.point, 2),
+        tangent: copied(&before.state.current.tangent, 2),
+    };
     let found = follower.transfer(&mut Circle::new(3), &node, Some(&node));
     assert_eq!(found, Err(PathError::WrongLength { found: 3, expected: 4 }));
-    assert_eq!(follower.checkpoint(), &before);
+    assert_eq!(follower.checkpoint(), before);
 }
 
 /// The unknowns are those of before, but nothing of them is said to stay: without its start the circle is
@@ -107,7 +112,7 @@ fn a_start_that_is_out_of_reach_can_be_brought_back() {
     for brought_back in [false, true] {
         let mut problem = Circle::new(1);
         let mut follower = begun(&mut problem, &[1.0, 0.0]);
-        let first = follower.checkpoint().start.clone();
+        let first = follower.state().start.clone();
         let node =
             |point: &ContinuationPoint| Node { point: point.point.clone(), tangent: point.tangent.clone() };
         let mut closed = false;
@@ -115,19 +120,19 @@ fn a_start_that_is_out_of_reach_can_be_brought_back() {
             match follower.step(&mut problem) {
                 StepOutcome::Accepted => {}
                 StepOutcome::Stopped(reason) => {
-                    assert_eq!(reason, StopReason::Closed);
+                    assert_eq!(reason, PathStop::Closed);
                     closed = true;
                 }
             }
             let current = node(follower.current());
             let length = follower.current().arc_length;
-            if follower.has_start() && (1.0..2.0).contains(&length) {
+            if follower.state().has_start() && (1.0..2.0).contains(&length) {
                 follower.transfer_afresh(&mut problem, &current, None).unwrap();
-                assert!(!follower.has_start());
-            } else if brought_back && !follower.has_start() && length > 5.0 {
+                assert!(!follower.state().has_start());
+            } else if brought_back && !follower.state().has_start() && length > 5.0 {
                 let start = node(&first);
                 follower.transfer_afresh(&mut problem, &current, Some((&start, &first))).unwrap();
-                assert!(follower.has_start());
+                assert!(follower.state().has_start());
             }
         }
         assert_eq!(closed, brought_back);

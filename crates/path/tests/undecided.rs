@@ -5,7 +5,8 @@
 //! sign of `(-1)^k`, k the number of negative `g_i`. A `g_i` below [`KNOWN`] is undecided.
 
 use hammerbeam_path::{
-    Branch, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason, TestValue, follow,
+    Branch, DenseProblem, Judge, ParameterRange, PathProblem, PathStop, Settings, StartDirection, TestValue,
+    follow,
 };
 
 /// What a part of the function is known to.
@@ -28,21 +29,20 @@ impl<P: PathProblem> PathProblem for Circle<P> {
         self.inner.evaluate(point)
     }
 
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
-        self.tests_without(&[0], values);
-    }
-
-    fn tests_without(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
+    fn tests(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
+        let left_out = left_out.first().copied().unwrap_or(0);
         let mut parts: Vec<f64> = self.parts.iter().map(|part| part(self.at[0], self.at[1])).collect();
         parts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         let undecided = parts.iter().filter(|part| part.abs() < KNOWN).count() as u32;
-        let kept = &parts[left_out[0] as usize..];
+        let kept = &parts[left_out as usize..];
         let count = kept.iter().filter(|part| **part < 0.0).count() as u32;
         let least = kept.first().map_or(1.0, |part| part.abs());
         let value = if count.is_multiple_of(2) { least } else { -least };
-        *values = vec![TestValue { undecided, left_out: left_out[0], ..TestValue::new(value, count) }];
+        *values = vec![TestValue { undecided, left_out, ..TestValue::sign_change(value, count) }];
     }
 }
+
+impl<P: PathProblem> Judge for Circle<P> {}
 
 /// Zeros of the function as `[x, l]`, once around the circle.
 fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
@@ -54,8 +54,9 @@ fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
     let mut circle = Circle { inner: DenseProblem::new(1, equation), parts: parts.to_vec(), at: [0.0, 0.0] };
     let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
-    let branch: Branch = follow(&mut circle, &[1.0, 0.0], Direction::Increasing, range, settings).unwrap();
-    assert_eq!(branch.stop, StopReason::Closed);
+    let branch: Branch =
+        follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, settings).unwrap();
+    assert_eq!(branch.stop, PathStop::Closed);
     let at = branch.points.iter().filter(|point| point.events.zeros & 1 == 1);
     at.map(|point| [point.point[0], point.point[1]]).collect()
 }

@@ -23,7 +23,7 @@
 //! 3. **The verification**, one file in `verification/tests`: the law against a closed form or a printed
 //!    number. The list is also gone through by tests that know no single law: `law/tests.rs` (derivatives
 //!    against differences), `exact` against the general integrator in `motion/tests/every_law.rs`, the
-//!    documentation in the study crate, which asks for a row in `docs/study-file.md`.
+//!    documentation in the study crate, which asks for a row in `docs/reference/study-file.md`.
 //!
 //! Nothing else names a law. The study file, its identity, the parameters of `[[vary]]` and `[[curve]]`,
 //! checkpoints, reports and sketches read the description; a constant that only this law has is

@@ -1,6 +1,6 @@
 //! Numbers and points of a path as bytes, and back.
 
-use hammerbeam_path::{ContinuationPoint, Events, TestValue};
+use hammerbeam_path::{ContinuationPoint, PathEvents, TestKind, TestValue};
 
 #[derive(Default)]
 pub(super) struct Writer {
@@ -21,6 +21,18 @@ impl Writer {
         values.iter().for_each(|&value| self.float(value));
     }
 
+    /// The kind stands above what is left out.
+    pub fn tests(&mut self, tests: &[TestValue]) {
+        self.word(tests.len() as u64);
+        for test in tests {
+            let &TestValue { kind, value, count, undecided, left_out } = test;
+            self.float(value);
+            self.word(u64::from(count));
+            self.word(u64::from(undecided));
+            self.word(u64::from(left_out) | u64::from(kind == TestKind::NearJump) << 32);
+        }
+    }
+
     pub fn point(&mut self, point: &ContinuationPoint) {
         self.floats(&point.point);
         self.floats(&point.tangent);
@@ -30,7 +42,7 @@ impl Writer {
         self.word(point.signature);
         self.float(point.correction_norm);
         self.float(point.residual_norm);
-        let Events { fold, branch_point, signature_change, corner, zeros } = point.events;
+        let PathEvents { fold, branch_point, signature_change, corner, zeros } = point.events;
         let bits = [fold, branch_point, signature_change, corner];
         let bits: u64 = bits.iter().enumerate().map(|(i, &set)| u64::from(set) << i).sum();
         self.word(bits | u64::from(zeros) << 32);
@@ -66,8 +78,15 @@ impl Reader<'_> {
         let count = self.word()?;
         let test = |_| {
             let value = self.float()?;
-            let mut number = || u32::try_from(self.word()?).ok();
-            Some(TestValue { value, count: number()?, undecided: number()?, left_out: number()? })
+            let [count, undecided, last] = [self.word()?, self.word()?, self.word()?];
+            let kind = match last >> 32 {
+                0 => TestKind::SignChange,
+                1 => TestKind::NearJump,
+                _ => return None,
+            };
+            let number = |word: u64| u32::try_from(word).ok();
+            let (count, undecided) = (number(count)?, number(undecided)?);
+            Some(TestValue { kind, value, count, undecided, left_out: number(last & 0xffff_ffff)? })
         };
         (0..count).map(test).collect()
     }
@@ -85,7 +104,7 @@ impl Reader<'_> {
             events: {
                 let bits = self.word()?;
                 let set = |bit: u64| bits >> bit & 1 == 1;
-                Events {
+                PathEvents {
                     fold: set(0),
                     branch_point: set(1),
                     signature_change: set(2),

@@ -62,43 +62,41 @@ const MAGNIFIED: f64 = 300.0;
 /// Largest distance from the corner to which a touch is known that the motion was looked at for.
 const LOOKED: f64 = 1e-5;
 
-impl ShootingProblem {
-    /// The grazing of a rigid stop that an orbit is near, and the orbits behind it.
-    ///
-    /// * `reach`: about how far from the orbit it is at most, relative to the orbit.
-    /// * `lies_ahead`: whether a point of the path at which one is found is wanted.
-    pub(crate) fn grazing_near(
-        &mut self,
-        point: &[f64],
-        reach: f64,
-        lies_ahead: &dyn Fn(&[f64]) -> bool,
-    ) -> Option<RootCorner> {
-        self.move_to(point).ok()?;
-        let touches = touch::near_grazing(self, point, reach)?;
-        let mut search = Search {
-            last: point[point.len() - 1],
-            farthest: MAGNIFIED * reach + LOOKED,
-            slow: SLOW,
-            evaluations: 0,
+/// The grazing of a rigid stop that an orbit is near, and the orbits behind it.
+///
+/// * `reach`: about how far from the orbit it is at most, relative to the orbit.
+/// * `lies_ahead`: whether a point of the path at which one is found is wanted.
+pub(crate) fn grazing_near(
+    problem: &mut ShootingProblem,
+    point: &[f64],
+    reach: f64,
+    lies_ahead: &dyn Fn(&[f64]) -> bool,
+) -> Option<RootCorner> {
+    problem.move_to(point).ok()?;
+    let touches = touch::near_grazing(problem, point, reach)?;
+    let mut search = Search {
+        last: point[point.len() - 1],
+        farthest: MAGNIFIED * reach + LOOKED,
+        slow: SLOW,
+        evaluations: 0,
+    };
+    for (place, first) in touches.iter().enumerate().take(MOST_TOUCHES) {
+        let at_once = |other: &&Touch| {
+            other.side == first.side && (other.speed - first.speed).abs() <= AT_ONCE * first.speed
         };
-        for (place, first) in touches.iter().enumerate().take(MOST_TOUCHES) {
-            let at_once = |other: &&Touch| {
-                other.side == first.side && (other.speed - first.speed).abs() <= AT_ONCE * first.speed
-            };
-            let together: Vec<Touch> = touches.iter().filter(at_once).cloned().collect();
-            let others = touches[place + 1..].iter().filter(|other| !at_once(other));
-            let next = others.map(|other| other.speed).fold(f64::INFINITY, f64::min);
-            search.slow = (PART * next).clamp(SLOWEST, SLOW);
-            let alone = std::slice::from_ref(first);
-            let tries = if together.len() > 1 { vec![together.as_slice(), alone] } else { vec![alone] };
-            for touches in tries {
-                if let Some(corner) = search.corner_of(self, touches, lies_ahead) {
-                    return Some(corner);
-                }
+        let together: Vec<Touch> = touches.iter().filter(at_once).cloned().collect();
+        let others = touches[place + 1..].iter().filter(|other| !at_once(other));
+        let next = others.map(|other| other.speed).fold(f64::INFINITY, f64::min);
+        search.slow = (PART * next).clamp(SLOWEST, SLOW);
+        let alone = std::slice::from_ref(first);
+        let tries = if together.len() > 1 { vec![together.as_slice(), alone] } else { vec![alone] };
+        for touches in tries {
+            if let Some(corner) = search.corner_of(problem, touches, lies_ahead) {
+                return Some(corner);
             }
         }
-        None
     }
+    None
 }
 
 /// A search for a corner.

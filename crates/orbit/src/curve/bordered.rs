@@ -8,7 +8,7 @@ use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::DenseLu;
 
 use super::{
-    condition::Linear,
+    linear::Linear,
     null::{null_space, transposed},
     shooting::{Place, Shooting, dot, times},
 };

@@ -4,20 +4,12 @@ use hammerbeam_motion::exact::MotionError;
 
 use super::{
     bordered::Bordered,
-    grazing::Touch,
+    linear::Linear,
     lyapunov, normal_form,
     pair::Pair,
     shooting::{Place, Shooting},
+    touched::Touch,
 };
-
-/// Values of a condition, their gradients by `[nodes; f; p]` (at grazing `[nodes; f; p; x]`), and what its
-/// test functions are made of.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Linear {
-    pub values: Vec<f64>,
-    pub rows: Vec<Vec<f64>>,
-    pub tests: Vec<f64>,
-}
 
 /// A condition.
 #[derive(Debug, Clone)]

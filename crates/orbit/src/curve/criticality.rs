@@ -39,7 +39,7 @@ impl Criticality {
             (Some(coefficient), None) => self.sign * coefficient.abs(),
             (None, _) => self.sign * f64::INFINITY,
         };
-        TestValue::new(value, u32::from(value < 0.0))
+        TestValue::sign_change(value, u32::from(value < 0.0))
     }
 
     /// Adapts it to an accepted point.

@@ -5,7 +5,7 @@
 //! the end, Newton's method solves `R = 0` together with `f = F`: the border of the matrix is the unit row of
 //! `f`.
 
-use hammerbeam_path::{Events, PathProblem};
+use hammerbeam_path::{PathEvents, PathProblem};
 
 use super::{
     row::{CurveEnd, CurveRow},
@@ -34,7 +34,7 @@ impl CurveWalk {
         self.end = Some(CurveEnd::FrequencyRangeEnd);
         let beyond = self.follower.current().point.clone();
         self.point_at_frequency_end(from, &beyond)
-            .and_then(|(point, error)| self.row_at(&point, Events::default(), error).ok())
+            .and_then(|(point, error)| self.row_at(&point, PathEvents::default(), error).ok())
             .filter(|row| row.solution.residual <= SOLVES)
             .ok_or(CurveEnd::FrequencyRangeEnd)
     }

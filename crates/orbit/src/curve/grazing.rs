@@ -13,8 +13,9 @@
 use hammerbeam_motion::{Parameter, Stretch, exact::MotionError};
 
 use super::{
-    condition::Linear,
+    linear::Linear,
     shooting::{Place, Shooting},
+    touched::Touch,
 };
 use crate::OrbitError;
 
@@ -26,15 +27,6 @@ const OPPOSITE: f64 = 1e-6;
 /// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the
 /// orbit.
 const FARTHEST: f64 = 1e-2;
-
-/// The contact that is touched.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
-    pub element: usize,
-    pub contact: usize,
-    /// Whether the contact is closed beside the touch.
-    pub from_inside: bool,
-}
 
 /// Where the clearance of a contact turns.
 #[derive(Debug, Clone)]

@@ -14,43 +14,10 @@
 
 use hammerbeam_motion::exact::MotionError;
 
-use super::shooting::{Place, Shooting};
-
-/// What of the orbit the segments of shooting are, and how the state comes back at their end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Closing {
-    /// The whole orbit, to the state as it was.
-    Periodic,
-    /// Half of it, to the state with its sign changed.
-    Mirrored,
-}
-
-impl Closing {
-    /// Which share of the orbit the segments are.
-    pub fn share(self) -> f64 {
-        match self {
-            Self::Periodic => 1.0,
-            Self::Mirrored => 0.5,
-        }
-    }
-
-    /// By what the state is multiplied at the end.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Periodic => 1.0,
-            Self::Mirrored => -1.0,
-        }
-    }
-}
-
-/// The period multiple and the closing of the map over half an orbit of N periods.
-pub(super) fn half_of(period_multiple: u32) -> (u32, Closing) {
-    if period_multiple.is_multiple_of(2) {
-        (period_multiple / 2, Closing::Periodic)
-    } else {
-        (period_multiple, Closing::Mirrored)
-    }
-}
+use super::{
+    closing::half_of,
+    shooting::{Place, Shooting},
+};
 
 /// The first node of an orbit beside its image, scaled.
 #[derive(Debug, Clone)]
@@ -61,62 +28,62 @@ pub(super) struct Apart {
     pub odd: Vec<f64>,
 }
 
-impl Shooting {
-    /// How far the orbit, which is a whole one, is from its image.
-    pub fn apart(&mut self, place: &Place) -> Result<Apart, MotionError> {
-        let scales = self.scale.values().to_vec();
-        let (size, between) = (scales.len(), self.count / 2);
-        let half = 0.5 * self.cycles();
-        let node: Vec<f64> = place.nodes[between * size..(between + 1) * size]
-            .iter()
-            .zip(&scales)
-            .map(|(x, s)| x * s)
-            .collect();
-        let mut stretch = self.stretch(between, place.frequency_hz, place.phase);
-        stretch.end = place.phase + half;
-        self.set_parameter(place.value)?;
+/// How far the orbit, which is a whole one, is from its image.
+pub(super) fn apart(shooting: &mut Shooting, place: &Place) -> Result<Apart, MotionError> {
+    let scales = shooting.scale.values().to_vec();
+    let (size, between) = (scales.len(), shooting.count / 2);
+    let half = 0.5 * shooting.cycles();
+    let node: Vec<f64> =
+        place.nodes[between * size..(between + 1) * size].iter().zip(&scales).map(|(x, s)| x * s).collect();
+    let mut stretch = shooting.stretch(between, place.frequency_hz, place.phase);
+    stretch.end = place.phase + half;
+    shooting.set_parameter(place.value)?;
+    let later =
+        if stretch.end > stretch.start { shooting.integrator.advance(&stretch, &node)? } else { node };
+    let sign = half_of(shooting.period_multiple).1.sign();
+    let pairs = place.nodes.iter().zip(later.iter().zip(&scales).map(|(z, s)| sign * z / s));
+    let (mean, odd) = pairs.map(|(z, image)| (0.5 * (z + image), 0.5 * (z - image))).unzip();
+    Ok(Apart { mean, odd })
+}
+
+/// All nodes of the orbit with the first one of a place, scaled.
+pub(super) fn nodes_from_first(shooting: &mut Shooting, place: &Place) -> Result<Vec<f64>, MotionError> {
+    let scales = shooting.scale.values().to_vec();
+    let mut node: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
+    let mut nodes = place.nodes.clone();
+    for k in 1..shooting.count {
+        let stretch = shooting.stretch(k - 1, place.frequency_hz, place.phase);
+        node = shooting.integrator.advance(&stretch, &node)?;
+        nodes.extend(node.iter().zip(&scales).map(|(z, s)| z / s));
+    }
+    Ok(nodes)
+}
+
+/// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those
+/// of `like` are when they begin at a phase.
+pub(super) fn unfolded(
+    shooting: &mut Shooting,
+    place: &Place,
+    like: &Shooting,
+    phase: f64,
+) -> Result<Place, MotionError> {
+    let scales = shooting.scale.values().to_vec();
+    let cycles = shooting.cycles();
+    let length = cycles / shooting.count as f64;
+    let mut nodes = Vec::with_capacity(like.count * scales.len());
+    for k in 0..like.count {
+        let wanted = like.stretch(k, place.frequency_hz, phase).start;
+        let halves = ((wanted - place.phase) / cycles).floor();
+        let behind = wanted - place.phase - halves * cycles;
+        let from = ((behind / length) as usize).min(shooting.count - 1);
+        let mut stretch = shooting.stretch(from, place.frequency_hz, place.phase);
+        stretch.end = place.phase + behind;
+        let range = from * scales.len()..(from + 1) * scales.len();
+        let node: Vec<f64> = place.nodes[range].iter().zip(&scales).map(|(x, s)| x * s).collect();
         let later =
-            if stretch.end > stretch.start { self.integrator.advance(&stretch, &node)? } else { node };
-        let sign = half_of(self.period_multiple).1.sign();
-        let pairs = place.nodes.iter().zip(later.iter().zip(&scales).map(|(z, s)| sign * z / s));
-        let (mean, odd) = pairs.map(|(z, image)| (0.5 * (z + image), 0.5 * (z - image))).unzip();
-        Ok(Apart { mean, odd })
+            if stretch.end > stretch.start { shooting.integrator.advance(&stretch, &node)? } else { node };
+        let sign = if halves.rem_euclid(2.0) == 1.0 { shooting.closing.sign() } else { 1.0 };
+        nodes.extend(later.iter().zip(like.scale.values()).map(|(z, s)| sign * z / s));
     }
-
-    /// All nodes of the orbit with the first one of a place, scaled.
-    pub fn nodes_from_first(&mut self, place: &Place) -> Result<Vec<f64>, MotionError> {
-        let scales = self.scale.values().to_vec();
-        let mut node: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
-        let mut nodes = place.nodes.clone();
-        for k in 1..self.count {
-            let stretch = self.stretch(k - 1, place.frequency_hz, place.phase);
-            node = self.integrator.advance(&stretch, &node)?;
-            nodes.extend(node.iter().zip(&scales).map(|(z, s)| z / s));
-        }
-        Ok(nodes)
-    }
-
-    /// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those
-    /// of `like` are when they begin at a phase.
-    pub fn unfolded(&mut self, place: &Place, like: &Self, phase: f64) -> Result<Place, MotionError> {
-        let scales = self.scale.values().to_vec();
-        let cycles = self.cycles();
-        let length = cycles / self.count as f64;
-        let mut nodes = Vec::with_capacity(like.count * scales.len());
-        for k in 0..like.count {
-            let wanted = like.stretch(k, place.frequency_hz, phase).start;
-            let halves = ((wanted - place.phase) / cycles).floor();
-            let behind = wanted - place.phase - halves * cycles;
-            let from = ((behind / length) as usize).min(self.count - 1);
-            let mut stretch = self.stretch(from, place.frequency_hz, place.phase);
-            stretch.end = place.phase + behind;
-            let range = from * scales.len()..(from + 1) * scales.len();
-            let node: Vec<f64> = place.nodes[range].iter().zip(&scales).map(|(x, s)| x * s).collect();
-            let later =
-                if stretch.end > stretch.start { self.integrator.advance(&stretch, &node)? } else { node };
-            let sign = if halves.rem_euclid(2.0) == 1.0 { self.closing.sign() } else { 1.0 };
-            nodes.extend(later.iter().zip(like.scale.values()).map(|(z, s)| sign * z / s));
-        }
-        Ok(Place { nodes, phase, ..place.clone() })
-    }
+    Ok(Place { nodes, phase, ..place.clone() })
 }

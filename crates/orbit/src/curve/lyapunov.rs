@@ -5,7 +5,7 @@ use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::DenseLu;
 
 use super::{
-    normal_form::{Bend, Coefficient, is_answer, settled},
+    normal_form::{Bend, Coefficient, answer, bends, is_answer, settled, summed},
     shooting::{Place, Shooting, dot, times},
 };
 
@@ -33,7 +33,7 @@ pub(super) fn of_pair(
     let lefts = left.each_ref().map(|part| shooting.carried_back(part));
     let vectors: Vec<Complex> = first.iter().zip(&second).map(|(a, b)| [a.clone(), b.clone()]).collect();
     settled(|step| {
-        let bends = [shooting.bends(place, &first, step)?, shooting.bends(place, &second, step)?];
+        let bends = [bends(shooting, place, &first, step)?, bends(shooting, place, &second, step)?];
         let terms: Vec<Terms> =
             (0..shooting.count).map(|k| Terms::new([&bends[0][k], &bends[1][k]], &vectors[k])).collect();
         Ok(combined(shooting, multiplier, &lefts, &terms))
@@ -87,10 +87,10 @@ fn combined(
     lefts: &[Vec<Vec<f64>>; 2],
     terms: &[Terms],
 ) -> Option<Coefficient> {
-    let part = |of: &dyn Fn(&Terms) -> Vec<f64>| shooting.summed(&terms.iter().map(of).collect::<Vec<_>>());
+    let part = |of: &dyn Fn(&Terms) -> Vec<f64>| summed(shooting, &terms.iter().map(of).collect::<Vec<_>>());
     let mean_of_all = part(&|terms| terms.mean.clone());
     let double_of_all = [part(&|terms| terms.double[0].clone()), part(&|terms| terms.double[1].clone())];
-    let (mut mean, sign) = shooting.answer(1.0, &mean_of_all)?;
+    let (mut mean, sign) = answer(shooting, 1.0, &mean_of_all)?;
     let mut double = complex_answer(shooting, multiplier * multiplier, &double_of_all)?;
     let mut sum = c64::new(0.0, 0.0);
     let mut scale = dot(&mean_of_all, &mean_of_all) + length(&double_of_all).powi(2);

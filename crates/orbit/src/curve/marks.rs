@@ -1,7 +1,7 @@
 //! Points of codimension two: the test functions of a curve in their order, and which of their zeros are
 //! marked.
 
-use hammerbeam_path::{Events, TestValue};
+use hammerbeam_path::{PathEvents, TestValue};
 
 use super::{
     condition::Condition,
@@ -42,7 +42,7 @@ pub(super) fn tests(
 
 /// A test function that counts nothing but its sign.
 pub(super) fn signed(value: f64) -> TestValue {
-    TestValue::new(value, u32::from(value < 0.0))
+    TestValue::sign_change(value, u32::from(value < 0.0))
 }
 
 /// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve
@@ -62,7 +62,7 @@ impl CurveEvents {
     /// What the zeros of [`tests`] are.
     ///
     /// * `others`: the multipliers that the condition does not hold, at the point.
-    pub(super) fn of(kind: CurveKind, events: Events, others: &[[f64; 2]]) -> Self {
+    pub(super) fn of(kind: CurveKind, events: PathEvents, others: &[[f64; 2]]) -> Self {
         let zero = |bit: u32| events.zeros >> bit & 1 == 1;
         let fold = |bit: u32| zero(bit) && is_at(others, 1.0);
         let flip = |bit: u32| zero(bit) && is_at(others, -1.0);
@@ -122,13 +122,13 @@ fn has_pair_on_circle(multipliers: &[[f64; 2]]) -> bool {
 mod tests {
     use super::*;
 
-    fn label(kind: CurveKind, events: Events, others: &[[f64; 2]]) -> String {
+    fn label(kind: CurveKind, events: PathEvents, others: &[[f64; 2]]) -> String {
         CurveEvents::of(kind, events, others).label()
     }
 
     #[test]
     fn a_sign_that_changes_without_a_multiplier_in_its_place_is_no_mark() {
-        let zero = |bit: u32| Events { zeros: 1 << bit, ..Events::default() };
+        let zero = |bit: u32| PathEvents { zeros: 1 << bit, ..PathEvents::default() };
         let on_circle = [[0.6, 0.8], [0.6, -0.8], [0.1, 0.0]];
         assert_eq!(label(CurveKind::Fold, zero(3), &on_circle), "fold-neimark-sacker");
         assert_eq!(
@@ -153,11 +153,11 @@ mod tests {
     /// The coefficient of a normal form jumps where contacts change.
     #[test]
     fn criticality_that_jumps_with_the_contacts_is_no_mark() {
-        let events = Events { zeros: 1 << 3, ..Events::default() };
+        let events = PathEvents { zeros: 1 << 3, ..PathEvents::default() };
         assert_eq!(label(CurveKind::Flip, events, &[[0.5, 0.0]]), "degenerate-flip");
-        let events = Events { signature_change: true, ..events };
+        let events = PathEvents { signature_change: true, ..events };
         assert_eq!(label(CurveKind::Flip, events, &[[0.5, 0.0]]), "grazing");
         let kind = CurveKind::Grazing { contact: None };
-        assert_eq!(label(kind, Events { zeros: 0, ..events }, &[]), "double-grazing");
+        assert_eq!(label(kind, PathEvents { zeros: 0, ..events }, &[]), "double-grazing");
     }
 }

@@ -19,14 +19,14 @@
 //! Golubitsky and Schaeffer, *Singularities and Groups in Bifurcation Theory* I (1985), chapter VI;
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), section 9.4 (generalised flip).
 
-use hammerbeam_path::Direction;
+use hammerbeam_path::StartDirection;
 
 use super::{
-    image::{Apart, half_of},
+    closing::half_of,
+    image::{Apart, apart, nodes_from_first, unfolded},
     problem::CurveProblem,
     row::CurveSettings,
     shooting::{Place, Shooting, dot},
-    walk::CurveWalk,
 };
 use crate::{OrbitError, OrbitSettings, Response, solve::integrator};
 
@@ -38,8 +38,6 @@ const OWN: f64 = 1e-6;
 const AGAIN: f64 = 0.5;
 /// How far before it the curve of flips begins, in hundredths of the range of the parameter.
 const AHEAD: f64 = 0.02;
-/// Rows in which the curve of flips comes to the place, if the curve leads there.
-const MOST_ROWS: usize = 12;
 /// Distance of the place from where the rows lead, relative to their own distance.
 const OFF: f64 = 0.5;
 /// Squares of asymmetries from whose ratio on a line is drawn through them.
@@ -81,6 +79,21 @@ pub(super) struct Approach {
     looked: f64,
 }
 
+/// A degenerate flip of the map over half the period.
+pub(super) struct DegenerateFlip {
+    /// The equations of the half.
+    pub shooting: Shooting,
+    pub place: Place,
+    /// How well it is known.
+    pub off: f64,
+}
+
+/// The first degenerate flip on the curve of flips of a map over half a period, from a place on in a
+/// direction;
+/// `None` if it has none within some rows, or no curve is found there.
+pub(super) type FollowHalf =
+    fn(Shooting, &Place, StartDirection<'_>, &CurveSettings) -> Result<Option<DegenerateFlip>, OrbitError>;
+
 /// Where rows seem to lead to.
 struct Aim {
     mean: Vec<f64>,
@@ -101,8 +114,9 @@ impl Approach {
         problem: &mut CurveProblem,
         place: &Place,
         settings: &CurveSettings,
+        follow: FollowHalf,
     ) -> Option<Met> {
-        let apart = problem.shooting.apart(place).ok()?;
+        let apart = apart(&mut problem.shooting, place).ok()?;
         let new = Beside { apart, phase: place.phase, at: [place.frequency_hz, place.value] };
         let last = self.last.replace(new.clone())?;
         let was_own_image = last.square().sqrt() < OWN;
@@ -110,7 +124,7 @@ impl Approach {
             return None;
         }
         // What cannot be followed there is no such end.
-        let (place, off) = self.find(problem, &aim(&last, &new), settings).ok().flatten()?;
+        let (place, off) = self.find(problem, &aim(&last, &new), settings, follow).ok().flatten()?;
         Some(Met { place, off, is_behind: dot(&last.apart.odd, &new.apart.odd) < 0.0 })
     }
 
@@ -132,22 +146,17 @@ impl Approach {
         problem: &mut CurveProblem,
         aim: &Aim,
         settings: &CurveSettings,
+        follow: FollowHalf,
     ) -> Result<Option<(Place, f64)>, OrbitError> {
-        for (direction, sign) in [(Direction::Increasing, 1.0), (Direction::Decreasing, -1.0)] {
+        for (direction, sign) in [(StartDirection::Increasing, 1.0), (StartDirection::Decreasing, -1.0)] {
             let (shooting, mut place) = self.half(&problem.shooting, aim)?;
             place.value -= sign * AHEAD * problem.units[1];
-            let Ok(mut walk) = CurveWalk::of_half(shooting, &place, direction, settings) else { continue };
-            walk.start_row()?;
-            for _ in 0..MOST_ROWS {
-                let Ok(row) = walk.step()? else { break };
-                if row.events.degenerate_flip {
-                    let place = walk.problem.place(&walk.follower.current().point);
-                    let units = problem.units;
-                    let at = [place.frequency_hz, place.value];
-                    let is_there = distance(at, aim.at, units) <= OFF * distance(at, aim.from, units);
-                    let whole = walk.problem.shooting.unfolded(&place, &problem.shooting, problem.begin)?;
-                    return Ok(is_there.then_some((whole, row.solution.error_estimate)));
-                }
+            if let Some(mut flip) = follow(shooting, &place, direction, settings)? {
+                let units = problem.units;
+                let at = [flip.place.frequency_hz, flip.place.value];
+                let is_there = distance(at, aim.at, units) <= OFF * distance(at, aim.from, units);
+                let whole = unfolded(&mut flip.shooting, &flip.place, &problem.shooting, problem.begin)?;
+                return Ok(is_there.then_some((whole, flip.off)));
             }
         }
         Ok(None)
@@ -174,7 +183,7 @@ impl Approach {
         let [frequency_hz, value] = aim.at;
         half.set_parameter(value)?;
         let one = Place { nodes: aim.mean.clone(), frequency_hz, phase: aim.phase, value };
-        let nodes = half.nodes_from_first(&one)?;
+        let nodes = nodes_from_first(&mut half, &one)?;
         Ok((half, Place { nodes, ..one }))
     }
 }

@@ -4,11 +4,11 @@
 //! To the shooting equations `R(z, f, p) = 0` comes a condition, and the path crate follows the solutions
 //! `[z; f]` over `p`:
 //!
-//! | curve | condition |
-//! |---|---|
-//! | fold, flip | `g = 0` from `[A - mu I, b; c^T, 0] [v; g] = [0; 1]`, `mu = +1` or `-1`, `A` the monodromy matrix |
-//! | Neimark-Sacker | `ln d = 0`, `d` the determinant of `A` on the invariant plane of the pair |
-//! | grazing | the orbit is cut at the phase `x` of the touch, a further unknown: `r = level`, `r' = 0` of the element there |
+//! - fold, flip: `g = 0` from `[A - mu I, b; c^T, 0] [v; g] = [0; 1]`, `mu = +1` or `-1`, `A` the
+//!   monodromy matrix
+//! - Neimark-Sacker: `ln d = 0`, `d` the determinant of `A` on the invariant plane of the pair
+//! - grazing: the orbit is cut at the phase `x` of the touch, a further unknown: `r = level`, `r' = 0` of
+//!   the element there
 //!
 //! `g` and `ln d` have gradients `-w^T (dA) v` and `tr(A_c^-1 L^T (dA) R)`, with left and right vectors.
 //! Second derivatives of the flow are symmetric, so `w^T (dA/dz_j) v` for all `j` at once is the derivative
@@ -25,12 +25,14 @@
 //! # Points of codimension two
 //! They are zeros of test functions, located by the path (`marks.rs`):
 //!
-//! | curve | test functions |
-//! |---|---|
-//! | fold | *cusp* (`w^T D^2 Z (v, v) = 0`), *1:1 resonance* (`w^T v = 0`: a second multiplier at +1), *fold-flip*, *fold-Neimark-Sacker* |
-//! | flip | *1:2 resonance* (`w^T v = 0`), *fold-flip*, *flip-Neimark-Sacker*, *degenerate flip* (its criticality changes) |
-//! | Neimark-Sacker | with `k = tr A_c / 2 = cos(angle)` the resonances 1:1 (`k = 1`), 1:2 (`-1`), 1:3 (`-1/2`) and 1:4 (`0`), at the first two of which the curve ends; *fold-*, *flip-* and *double Neimark-Sacker*; *degenerate Neimark-Sacker* (Chenciner) |
-//! | grazing | multipliers at +1 and -1, a pair on the circle, the touch without curvature (`r'' = 0`) |
+//! - fold: *cusp* (`w^T D^2 Z (v, v) = 0`), *1:1 resonance* (`w^T v = 0`: a second multiplier at +1),
+//!   *fold-flip*, *fold-Neimark-Sacker*
+//! - flip: *1:2 resonance* (`w^T v = 0`), *fold-flip*, *flip-Neimark-Sacker*, *degenerate flip* (its
+//!   criticality changes)
+//! - Neimark-Sacker: with `k = tr A_c / 2 = cos(angle)` the resonances 1:1 (`k = 1`), 1:2 (`-1`), 1:3
+//!   (`-1/2`) and 1:4 (`0`), at the first two of which the curve ends; *fold-*, *flip-* and *double
+//!   Neimark-Sacker*; *degenerate Neimark-Sacker* (Chenciner)
+//! - grazing: multipliers at +1 and -1, a pair on the circle, the touch without curvature (`r'' = 0`)
 //!
 //! What further multipliers do is told by the functions of `stability.rs`, of all but the critical ones,
 //! which are taken out by reflections that turn their vectors into axes (`deflated.rs`). A zero is marked
@@ -67,7 +69,10 @@
 //! than one way at once, as orbits of two periods that become symmetric ones of one, the end is not
 //! recognised either.
 
+mod along;
 mod bordered;
+mod clear;
+mod closing;
 mod condition;
 mod criticality;
 mod deflated;
@@ -75,6 +80,7 @@ mod differences;
 mod frequency_end;
 mod grazing;
 mod image;
+mod linear;
 mod lyapunov;
 mod marks;
 mod meeting;
@@ -90,6 +96,7 @@ mod rows;
 mod shooting;
 mod splits;
 mod start;
+mod touched;
 mod walk;
 
 #[cfg(test)]

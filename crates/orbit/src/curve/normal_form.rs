@@ -106,10 +106,10 @@ pub(super) fn of_flip(
     let [left, right] = [left, right].map(|vector| unit(vector));
     let (vectors, lefts) = (shooting.carried(&right), shooting.carried_back(&left));
     settled(|step| {
-        let bends = shooting.bends(place, &vectors, step)?;
+        let bends = bends(shooting, place, &vectors, step)?;
         let own: Vec<Vec<f64>> = bends.iter().zip(&vectors).map(|(bend, v)| times(&bend.first, v)).collect();
-        let second = shooting.summed(&own);
-        let Some((mut mean, sign)) = shooting.answer(1.0, &second) else { return Ok(None) };
+        let second = summed(shooting, &own);
+        let Some((mut mean, sign)) = answer(shooting, 1.0, &second) else { return Ok(None) };
         let bend = bends.iter().map(|bend| bend.ratio).fold(0.0, f64::max);
         let (mut sum, mut scale) = (0.0, dot(&second, &second));
         for (k, (bend, left)) in bends.iter().zip(&lefts).enumerate() {
@@ -122,55 +122,59 @@ pub(super) fn of_flip(
     })
 }
 
-impl Shooting {
-    /// Derivatives of the matrix of each segment along a vector at its node.
-    ///
-    /// * `step`: relative to the orbit.
-    pub fn bends(
-        &mut self,
-        place: &Place,
-        vectors: &[Vec<f64>],
-        step: f64,
-    ) -> Result<Vec<Bend>, MotionError> {
-        let each = vectors.iter().enumerate();
-        each.map(|(k, vector)| self.bend(k, place, vector, step)).collect()
-    }
+/// Derivatives of the matrix of each segment along a vector at its node.
+///
+/// * `step`: relative to the orbit.
+pub(super) fn bends(
+    shooting: &mut Shooting,
+    place: &Place,
+    vectors: &[Vec<f64>],
+    step: f64,
+) -> Result<Vec<Bend>, MotionError> {
+    let each = vectors.iter().enumerate();
+    each.map(|(k, vector)| bend(shooting, k, place, vector, step)).collect()
+}
 
-    fn bend(&mut self, k: usize, place: &Place, vector: &[f64], step: f64) -> Result<Bend, MotionError> {
-        let size = self.size();
-        let h = step / dot(vector, vector).sqrt().max(f64::MIN_POSITIVE);
-        let node = &place.nodes[k * size..(k + 1) * size];
-        let moved = |h: f64| -> Vec<f64> { node.iter().zip(vector).map(|(z, v)| z + h * v).collect() };
-        let above = self.flow(k, place, &moved(h))?.matrix;
-        let below = self.flow(k, place, &moved(-h))?.matrix;
-        let here = &self.segments[k].matrix;
-        let first: Vec<f64> = above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * h)).collect();
-        let ends = above.iter().zip(&below).zip(here);
-        let second: Vec<f64> = ends.map(|((a, b), at)| (a - 2.0 * at + b) / (h * h)).collect();
-        let largest = |values: &[f64]| values.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-        let ratio = 0.5 * h * largest(&second) / largest(&first);
-        Ok(Bend { first, second, ratio })
-    }
+fn bend(
+    shooting: &mut Shooting,
+    k: usize,
+    place: &Place,
+    vector: &[f64],
+    step: f64,
+) -> Result<Bend, MotionError> {
+    let size = shooting.size();
+    let h = step / dot(vector, vector).sqrt().max(f64::MIN_POSITIVE);
+    let node = &place.nodes[k * size..(k + 1) * size];
+    let moved = |h: f64| -> Vec<f64> { node.iter().zip(vector).map(|(z, v)| z + h * v).collect() };
+    let above = shooting.flow(k, place, &moved(h))?.matrix;
+    let below = shooting.flow(k, place, &moved(-h))?.matrix;
+    let here = &shooting.segments[k].matrix;
+    let first: Vec<f64> = above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * h)).collect();
+    let ends = above.iter().zip(&below).zip(here);
+    let second: Vec<f64> = ends.map(|((a, b), at)| (a - 2.0 * at + b) / (h * h)).collect();
+    let largest = |values: &[f64]| values.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let ratio = 0.5 * h * largest(&second) / largest(&first);
+    Ok(Bend { first, second, ratio })
+}
 
-    /// What is added in each segment, carried to the end of the orbit.
-    pub fn summed(&self, own: &[Vec<f64>]) -> Vec<f64> {
-        let zero = vec![0.0; self.size()];
-        let each = self.segments.iter().zip(own);
-        each.fold(zero, |sum, (segment, own)| add(&times(&segment.matrix, &sum), own))
-    }
+/// What is added in each segment, carried to the end of the orbit.
+pub(super) fn summed(shooting: &Shooting, own: &[Vec<f64>]) -> Vec<f64> {
+    let zero = vec![0.0; shooting.size()];
+    let each = shooting.segments.iter().zip(own);
+    each.fold(zero, |sum, (segment, own)| add(&times(&segment.matrix, &sum), own))
+}
 
-    /// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as
-    /// can be told.
-    pub fn answer(&self, by: f64, vector: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let size = self.size();
-        let mut matrix: Vec<f64> = self.monodromy().iter().map(|entry| -entry).collect();
-        (0..size).for_each(|i| matrix[i * size + i] += by);
-        let mut lu = DenseLu::new();
-        let sign = lu.factorise(size, &matrix).ok()?.sign;
-        let mut answer = vector.to_vec();
-        lu.solve(&mut answer);
-        is_answer(&answer, vector).then_some((answer, sign))
-    }
+/// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as
+/// can be told.
+pub(super) fn answer(shooting: &Shooting, by: f64, vector: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let size = shooting.size();
+    let mut matrix: Vec<f64> = shooting.monodromy().iter().map(|entry| -entry).collect();
+    (0..size).for_each(|i| matrix[i * size + i] += by);
+    let mut lu = DenseLu::new();
+    let sign = lu.factorise(size, &matrix).ok()?.sign;
+    let mut answer = vector.to_vec();
+    lu.solve(&mut answer);
+    is_answer(&answer, vector).then_some((answer, sign))
 }
 
 /// Whether an inverse is known well enough: a further multiplier is not at its pole as far as can be told.

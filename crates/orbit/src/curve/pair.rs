@@ -9,7 +9,7 @@ use faer::c64;
 use hammerbeam_motion::exact::MotionError;
 
 use super::{
-    condition::Linear,
+    linear::Linear,
     lyapunov,
     null::{null_space, transposed},
     shooting::{Place, Shooting, dot, times},

@@ -2,13 +2,17 @@
 //! `[nodes; f; x]`, and the parameter `p`.
 
 use hammerbeam_motion::exact::MotionError;
-use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+use hammerbeam_path::{
+    DenseLu, Determinant, EvaluationError, Judge, PathProblem, SingularJacobian, TestValue,
+};
 
 use super::{
-    condition::{Condition, Linear},
+    condition::Condition,
     criticality::Criticality,
     deflated::other_eigenvalues,
+    linear::Linear,
     marks,
+    opposite::opposite_clearance,
     shooting::{Place, Shooting, times},
 };
 
@@ -226,17 +230,23 @@ impl PathProblem for CurveProblem {
     }
 
     /// In the order of `marks.rs`.
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
+    fn tests(&mut self, _: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
         let criticality = self.coefficient();
         let criticality = self.criticality.test(criticality);
         values.extend(marks::tests(&self.condition, &self.tests, &self.other_multipliers(), criticality));
         // Where it cannot be followed there it has no value.
         let place = self.place(&self.evaluated);
-        let opposite = self.shooting.opposite_clearance(&place).unwrap_or(Some(f64::INFINITY));
+        let opposite = opposite_clearance(&mut self.shooting, &place).unwrap_or(Some(f64::INFINITY));
         values.extend(opposite.map(marks::signed));
     }
 
+    fn judge(&mut self) -> &mut dyn Judge {
+        self
+    }
+}
+
+impl Judge for CurveProblem {
     /// Without the contact that a grazing orbit touches, unless it passes it: whether that touch is counted
     /// is rounding.
     fn signature(&self) -> u64 {

@@ -16,14 +16,11 @@
 //! The start of the curve is carried along, so that a closed curve is seen to close; where it cannot be
 //! followed there, it is out of reach. Grazing curves are cut where the contact is touched, wherever that is.
 
-use hammerbeam_motion::{
-    Stretch,
-    exact::{ExactIntegrator, MotionError},
-};
+use hammerbeam_motion::{Stretch, exact::MotionError};
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{problem::CurveProblem, walk::CurveWalk};
-use crate::{OrbitError, PeriodicSolution, cut::offset_to_clear};
+use crate::{OrbitError, cut::offset_to_clear};
 
 impl CurveWalk {
     /// Keeps the ends of segments away from contacts; where that does not go, the curve stays as it was.
@@ -51,7 +48,7 @@ impl CurveWalk {
 
     fn move_phase(&mut self, offset: f64) -> Result<(), OrbitError> {
         let current = self.follower.current().clone();
-        let begun = self.follower.has_start().then(|| self.follower.checkpoint().start.clone());
+        let begun = self.follower.state().has_start().then(|| self.follower.state().start.clone());
         let start = begun.and_then(|begun| Some((carried(&mut self.problem, &begun, offset).ok()?.0, begun)));
         let (node, matrix) = carried(&mut self.problem, &current, offset)?;
         let cycles = f64::from(self.problem.shooting.period_multiple);
@@ -100,24 +97,4 @@ fn carried(
         }
     }
     Ok((Node { point, tangent }, first))
-}
-
-/// An orbit whose segments end away from contacts at which fundamental matrices jump, as far as there is
-/// room.
-pub(super) fn cut_clear(
-    integrator: &mut ExactIntegrator,
-    orbit: &PeriodicSolution,
-) -> Result<PeriodicSolution, OrbitError> {
-    let (cycles, frequency_hz) = (f64::from(orbit.period_multiple), orbit.frequency_hz);
-    let length = cycles / orbit.nodes.len() as f64;
-    let phases = (orbit.phase, cycles, length);
-    let mut cut = orbit.clone();
-    if let Some(offset) = offset_to_clear(integrator, phases, &orbit.nodes[0], frequency_hz)? {
-        cut.phase = (orbit.phase + offset).rem_euclid(cycles);
-        for (k, node) in cut.nodes.iter_mut().enumerate() {
-            let start = orbit.phase + k as f64 * length;
-            *node = integrator.advance(&Stretch { frequency_hz, start, end: start + offset }, node)?;
-        }
-    }
-    Ok(cut)
 }

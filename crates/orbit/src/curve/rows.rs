@@ -1,7 +1,7 @@
 //! A row of a curve: what is stored of the orbit at a point of the path, and what happens there.
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{Events, PathProblem};
+use hammerbeam_path::{PathEvents, PathProblem};
 
 use super::{
     row::{CurveEvents, CurveKind, CurveRow},
@@ -29,7 +29,7 @@ impl CurveWalk {
     pub(super) fn row_at(
         &mut self,
         point: &[f64],
-        events: Events,
+        events: PathEvents,
         error: f64,
     ) -> Result<CurveRow, OrbitError> {
         let place = self.problem.place(point);

@@ -9,7 +9,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError, complete_touches},
 };
 
-use super::{image::Closing, passing::Passing};
+use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
     spectrum::{Spectrum, monodromy_error},

@@ -13,10 +13,12 @@
 //! - that no step leads on from an orbit in which a contact splits, or that derivatives of matrices could not
 //!   be had there at several rows in a row, as at a grazing.
 
+use hammerbeam_path::Follower;
+
 use super::{
+    problem::CurveProblem,
     row::CurveEnd,
     shooting::{Place, Shooting},
-    walk::CurveWalk,
 };
 use crate::splitting::{self, SHORT_STEPS, Splitting};
 
@@ -32,59 +34,69 @@ pub(super) struct Passed {
     touches: Vec<u32>,
 }
 
-impl CurveWalk {
-    /// The present orbit, at which the equations were evaluated last, if a contact of it may split.
-    pub(super) fn may_split(&self) -> Option<Passed> {
-        let shooting = &self.problem.shooting;
-        let remembers = shooting.integrator.system().remembers_impacts();
-        let place = || self.problem.place(&self.follower.current().point);
-        remembers.then(|| Passed { place: place(), touches: shooting.touches.clone() })
-    }
+/// Counts how far a curve gets in its rows.
+#[derive(Debug, Default)]
+pub(super) struct SplitWatch {
+    /// Arc length at which it was last asked whether the curve comes to a splitting.
+    asked_at: f64,
+}
 
+impl SplitWatch {
     /// The end, if the last step, which led away from `before`, has passed a splitting or is the last of many
     /// short ones towards one.
-    pub(super) fn comes_to_splitting(&mut self, before: &Passed) -> Option<CurveEnd> {
-        let shooting = &self.problem.shooting;
+    pub fn comes_to_splitting(
+        &mut self,
+        problem: &mut CurveProblem,
+        follower: &Follower,
+        before: &Passed,
+    ) -> Option<CurveEnd> {
+        let shooting = &problem.shooting;
         let system = shooting.integrator.system();
         let changed = splitting::elements_with_other_touches(system, &before.touches, &shooting.touches);
         if !changed.is_empty() {
-            let current = self.problem.place(&self.follower.current().point);
+            let current = problem.place(&follower.current().point);
             for place in [&before.place, &current] {
-                let found = self.problem.shooting.splitting(place);
+                let found = splitting_of(&mut problem.shooting, place);
                 if let Some(found) = found.filter(|found| changed.contains(&found.element)) {
                     return Some(splits_at(before.place.value, found));
                 }
             }
         }
-        if self.takes_short_steps() { self.splits_here() } else { None }
-    }
-
-    /// The end, if a contact of the present orbit splits.
-    pub(super) fn splits_here(&mut self) -> Option<CurveEnd> {
-        let Passed { place, .. } = self.may_split()?;
-        self.problem.shooting.splitting(&place).map(|found| splits_at(place.value, found))
+        if self.takes_short_steps(follower) { splits_here(problem, follower) } else { None }
     }
 
     /// Whether the last [`SHORT_STEPS`] rows were short of one another, asked once in so many.
-    fn takes_short_steps(&mut self) -> bool {
-        let accepted = self.follower.counters().accepted;
+    fn takes_short_steps(&mut self, follower: &Follower) -> bool {
+        let accepted = follower.counters().accepted;
         if !accepted.is_multiple_of(SHORT_STEPS) {
             return false;
         }
-        let arc_length = self.follower.current().arc_length;
+        let arc_length = follower.current().arc_length;
         let way = arc_length - std::mem::replace(&mut self.asked_at, arc_length);
         way < SHORT * SHORT_STEPS as f64
     }
 }
 
-impl Shooting {
-    /// Where a contact of an orbit splits.
-    fn splitting(&mut self, place: &Place) -> Option<Splitting> {
-        self.set_parameter(place.value).ok()?;
-        let state = place.nodes.iter().zip(self.scale.values()).map(|(x, s)| x * s).collect();
-        let span = (place.frequency_hz, f64::from(self.period_multiple));
-        splitting::find(&mut self.integrator, (place.phase, state), span).ok()?
-    }
+/// The present orbit, at which the equations were evaluated last, if a contact of it may split.
+pub(super) fn may_split(problem: &CurveProblem, follower: &Follower) -> Option<Passed> {
+    let shooting = &problem.shooting;
+    let remembers = shooting.integrator.system().remembers_impacts();
+    let place = || problem.place(&follower.current().point);
+    remembers.then(|| Passed { place: place(), touches: shooting.touches.clone() })
+}
+
+/// The end, if a contact of the present orbit splits.
+pub(super) fn splits_here(problem: &mut CurveProblem, follower: &Follower) -> Option<CurveEnd> {
+    let Passed { place, .. } = may_split(problem, follower)?;
+    splitting_of(&mut problem.shooting, &place).map(|found| splits_at(place.value, found))
+}
+
+/// Where a contact of an orbit splits.
+fn splitting_of(shooting: &mut Shooting, place: &Place) -> Option<Splitting> {
+    shooting.set_parameter(place.value).ok()?;
+    let state = place.nodes.iter().zip(shooting.scale.values()).map(|(x, s)| x * s).collect();
+    let span = (place.frequency_hz, f64::from(shooting.period_multiple));
+    splitting::find(&mut shooting.integrator, (place.phase, state), span).ok()?
 }
 
 fn splits_at(parameter: f64, Splitting { element, phase }: Splitting) -> CurveEnd {

@@ -5,10 +5,11 @@ use hammerbeam_path::Settings;
 use super::{
     bordered::Bordered,
     condition::Condition,
-    grazing::{Touch, Turn},
+    grazing::Turn,
     pair::Pair,
     row::{CurveKind, CurveSettings},
     shooting::{Place, Shooting},
+    touched::Touch,
 };
 use crate::{OrbitError, PeriodicSolution};
 

@@ -12,14 +12,14 @@ use hammerbeam_structure::{PointOutput, ReducedModel};
 
 use super::{
     bordered::{Bordered, Vectors},
+    closing::Closing,
     condition::Condition,
-    grazing::Touch,
-    image::Closing,
     lyapunov::{self, PairVectors},
-    normal_form,
+    normal_form::{self, answer},
     pair::Pair,
     problem::CurveProblem,
     shooting::{Place, Shooting, dot},
+    touched::Touch,
 };
 use crate::{OrbitSettings, Response, solve::integrator, state_scale::StateScale};
 
@@ -106,7 +106,7 @@ fn coefficients_do_not_depend_on_segments_and_are_third_derivatives_of_the_flow(
             extrapolated(4e-3, |h| (at(h, &zero)[i] - 2.0 * at(0.0, &zero)[i] + at(-h, &zero)[i]) / (h * h))
         })
         .collect();
-    let (s, _) = cut(&state, 1).0.answer(1.0, &second).unwrap();
+    let (s, _) = answer(&cut(&state, 1).0, 1.0, &second).unwrap();
     let third = extrapolated(8e-3, |h| {
         let ends = [2.0, 1.0, -1.0, -2.0].map(|k| dot(&vectors.left, &at(k * h, &s)));
         (ends[0] - 2.0 * ends[1] + 2.0 * ends[2] - ends[3]) / (2.0 * h * h * h)

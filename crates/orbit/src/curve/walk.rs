@@ -7,21 +7,25 @@
 //! across a change of contacts tells of it.
 
 use hammerbeam_motion::{System, exact::MotionError};
-use hammerbeam_path::{Direction, Events, Follower, ParameterRange, PathProblem, StepOutcome};
+use hammerbeam_path::{
+    Follower, Judge, ParameterRange, PathEvents, PathProblem, StartDirection, StepOutcome,
+};
 
 use super::{
     bordered::Bordered,
+    clear::cut_clear,
+    closing::{Closing, half_of},
     condition::Condition,
-    grazing::Touch,
-    image::{Closing, half_of},
     marks::OPPOSITE_BIT,
-    meeting::Approach,
+    meeting::{Approach, DegenerateFlip},
+    opposite::opposite_name,
     passing::Passing,
     problem::CurveProblem,
-    recut::cut_clear,
     row::{CurveEnd, CurveKind, CurveRow, CurveSettings},
     shooting::{Place, Shooting},
+    splits::{SplitWatch, may_split, splits_here},
     start::{first_condition, path_settings},
+    touched::Touch,
 };
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side, size::orbit_scale, solve::integrator,
@@ -40,6 +44,8 @@ const SHORT_AT_GRAZING: u64 = 50;
 const MANY_ROWS: u32 = 2000;
 /// A way of next to nothing, in hundredths of the ranges.
 const CRAWLING: f64 = 0.5;
+/// Rows in which a curve of flips over half a period comes to a degenerate one, if it leads there.
+const ROWS_OF_HALF: usize = 12;
 /// Largest residual of an orbit that was found as its own image.
 const SOLVES: f64 = 1e-7;
 
@@ -62,8 +68,7 @@ pub struct CurveWalk {
     last_row: Option<CurveRow>,
     /// Whether the last row lies behind it.
     is_behind: bool,
-    /// Arc length at which the walk was last asked whether it comes to a splitting (`splits.rs`).
-    pub(super) asked_at: f64,
+    splits: SplitWatch,
     pub(super) end: Option<CurveEnd>,
 }
 
@@ -111,14 +116,20 @@ impl CurveWalk {
             if !found.from_inside {
                 let opposite = found.opposite(&mut shooting, orbit, start.frequency_hz, &turn)?;
                 let range = (start, settings.range);
-                shooting.passing = Passing::new(&shooting, (found, opposite), response, range, orbits)?;
+                shooting.passing = Passing::new(
+                    (shooting.integrator.system(), settings.parameter),
+                    (found, opposite),
+                    response,
+                    range,
+                    orbits,
+                )?;
             }
             touch = Some((found, turn));
         }
         let (condition, place) = first_condition(&mut shooting, start, (kind, value), touch)?.ok_or(none)?;
         let direction = match side {
-            Side::Up => Direction::Increasing,
-            Side::Down => Direction::Decreasing,
+            Side::Up => StartDirection::Increasing,
+            Side::Down => StartDirection::Decreasing,
         };
         let mut walk = Self::begin((shooting, condition), (place, start.phase), (kind, direction), settings)?;
         walk.approach = (kind == CurveKind::Fold).then(|| Approach::new(response, orbits));
@@ -126,10 +137,10 @@ impl CurveWalk {
     }
 
     /// Begins on the curve of flips of the map over half a period (`image.rs`).
-    pub(super) fn of_half(
+    fn of_half(
         mut shooting: Shooting,
         place: &Place,
-        direction: Direction<'_>,
+        direction: StartDirection<'_>,
         settings: &CurveSettings,
     ) -> Result<Self, OrbitError> {
         shooting.evaluate(place)?;
@@ -146,7 +157,7 @@ impl CurveWalk {
     fn begin(
         (shooting, condition): (Shooting, Condition),
         (place, phase): (Place, f64),
-        (kind, direction): (CurveKind, Direction<'_>),
+        (kind, direction): (CurveKind, StartDirection<'_>),
         settings: &CurveSettings,
     ) -> Result<Self, OrbitError> {
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
@@ -168,7 +179,7 @@ impl CurveWalk {
             approach: None,
             last_row: None,
             is_behind: false,
-            asked_at: 0.0,
+            splits: SplitWatch::default(),
             end: None,
         })
     }
@@ -194,12 +205,14 @@ impl CurveWalk {
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
-        let before = self.may_split();
+        let before = may_split(&self.problem, &self.follower);
         self.keep_phase_clear();
         let from = self.follower.current().point.clone();
         let reason = match self.follower.step(&mut self.problem) {
             StepOutcome::Accepted => {
-                self.end = before.and_then(|before| self.comes_to_splitting(&before));
+                self.end = before.and_then(|before| {
+                    self.splits.comes_to_splitting(&mut self.problem, &self.follower, &before)
+                });
                 return match &self.end {
                     Some(end) => Ok(Err(end.clone())),
                     None if self.has_left_frequencies() => Ok(self.end_at_frequency(&from)),
@@ -212,20 +225,20 @@ impl CurveWalk {
     }
 
     /// Why the curve has ended, in terms of orbits.
-    fn end_of(&mut self, reason: hammerbeam_path::StopReason) -> CurveEnd {
-        use hammerbeam_path::StopReason;
+    fn end_of(&mut self, reason: hammerbeam_path::PathStop) -> CurveEnd {
+        use hammerbeam_path::PathStop;
         match reason {
-            StopReason::RangeEnd => CurveEnd::RangeEnd,
-            StopReason::Closed => CurveEnd::Closed,
-            StopReason::Budget => CurveEnd::Budget,
+            PathStop::RangeEnd => CurveEnd::RangeEnd,
+            PathStop::Closed => CurveEnd::Closed,
+            PathStop::Budget => CurveEnd::Budget,
             other => {
                 let parameter = self.follower.current().parameter();
                 let message = match self.problem.failure() {
                     Some(failure) => format!("{other}: {failure}"),
                     None => other.to_string(),
                 };
-                let no_step = matches!(other, StopReason::StepTooShort { .. });
-                if let Some(splits) = self.splits_here() {
+                let no_step = matches!(other, PathStop::StepTooShort { .. });
+                if let Some(splits) = splits_here(&mut self.problem, &self.follower) {
                     return splits;
                 }
                 if no_step && (self.grazing_distance < AT_GRAZING || self.contacts_change_ahead()) {
@@ -240,7 +253,7 @@ impl CurveWalk {
     fn accepted(&mut self) -> Result<CurveRow, OrbitError> {
         let row = self.row()?;
         let parameter = row.parameter;
-        let opposite = if self.strikes_opposite() { self.problem.shooting.opposite_name() } else { None };
+        let opposite = if self.strikes_opposite() { opposite_name(&self.problem.shooting) } else { None };
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
         let crawls = self.crawls();
         self.end = if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
@@ -251,7 +264,10 @@ impl CurveWalk {
             // The next step tells it.
             None
         } else if self.rows_at_grazing >= ROWS_AT_GRAZING || self.is_short_at_grazing() {
-            Some(self.splits_here().unwrap_or(CurveEnd::Grazing { parameter, cause: None }))
+            Some(
+                splits_here(&mut self.problem, &self.follower)
+                    .unwrap_or(CurveEnd::Grazing { parameter, cause: None }),
+            )
         } else if crawls {
             Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
         } else {
@@ -302,11 +318,14 @@ impl CurveWalk {
         let Some(approach) = &mut self.approach else { return Ok(None) };
         let current = self.follower.current().clone();
         let place = self.problem.place(&current.point);
-        let Some(met) = approach.meets(&mut self.problem, &place, &self.settings) else { return Ok(None) };
+        let Some(met) = approach.meets(&mut self.problem, &place, &self.settings, degenerate_flip_of_half)
+        else {
+            return Ok(None);
+        };
         let point = self.problem.point(&met.place);
         let (low, high) = self.settings.range_hz;
         let is_inside = (low..=high).contains(&met.place.frequency_hz);
-        let row = if is_inside { self.row_at(&point, Events::default(), met.off).ok() } else { None };
+        let row = if is_inside { self.row_at(&point, PathEvents::default(), met.off).ok() } else { None };
         let Some(mut row) = row.filter(|row| row.solution.residual <= SOLVES) else {
             // The path goes on from where it was evaluated.
             self.row()?;
@@ -323,4 +342,24 @@ impl CurveWalk {
         self.is_behind = met.is_behind;
         Ok(Some(CurveEnd::OwnImage { parameter, mirrored }))
     }
+}
+
+/// The first degenerate flip on the curve of flips of a map over half a period, for [`Approach`].
+fn degenerate_flip_of_half(
+    shooting: Shooting,
+    place: &Place,
+    direction: StartDirection<'_>,
+    settings: &CurveSettings,
+) -> Result<Option<DegenerateFlip>, OrbitError> {
+    let Ok(mut walk) = CurveWalk::of_half(shooting, place, direction, settings) else { return Ok(None) };
+    walk.start_row()?;
+    for _ in 0..ROWS_OF_HALF {
+        let Ok(row) = walk.step()? else { break };
+        if row.events.degenerate_flip {
+            let place = walk.problem.place(&walk.follower.current().point);
+            let (shooting, off) = (walk.problem.shooting, row.solution.error_estimate);
+            return Ok(Some(DegenerateFlip { shooting, place, off }));
+        }
+    }
+    Ok(None)
 }

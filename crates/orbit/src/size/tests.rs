@@ -13,7 +13,7 @@ use hammerbeam_structure::{PointOutput, ReducedModel};
 use super::*;
 use crate::{
     OrbitSettings, Response, find_start,
-    solve::{integrator, nodes_from, state_scale},
+    solve::{integrator, nodes_from},
 };
 
 /// Below the resonance of the free mass, with the force of one cycle slow enough for the mass to come to rest

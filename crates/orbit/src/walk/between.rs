@@ -6,9 +6,12 @@
 //! although nothing happens at either that accounts for it, the place between is found by halving. Where the
 //! contacts change, multipliers may jump, and nothing is asked.
 
-use hammerbeam_path::{ContinuationPoint, Events, solve_between};
+use hammerbeam_path::{ContinuationPoint, PathEvents, solve_between};
 
-use super::{BranchWalk, path_settings, settings::hertz_per_norm};
+use super::{
+    orbit_path::OrbitPath,
+    row::{RowRecord, row_at},
+};
 use crate::{
     BranchRow, OrbitError, PeriodicSolution, located, solve::evaluate, spectrum::Spectrum, stability,
 };
@@ -19,132 +22,134 @@ const HALVINGS: u32 = 50;
 const JUMPS: f64 = 1e-4;
 
 /// A row between two points of the path.
-pub(crate) struct Between {
+pub(super) struct Between {
     pub point: ContinuationPoint,
     pub row: BranchRow,
 }
 
-impl BranchWalk {
-    /// Puts the rows of hidden events among those between `from` and `to`, the row of which is `last`.
-    pub(crate) fn show_hidden_events(
-        &mut self,
-        from: &ContinuationPoint,
-        (to, last): (&ContinuationPoint, &BranchRow),
-        rows: Vec<Between>,
-    ) -> Result<Vec<Between>, OrbitError> {
-        let behind = outside(&spectrum_of(&last.solution), to.events);
-        let first = match self.outside.replace(behind) {
-            Some(outside) => outside,
-            None => match self.spectrum_at(from) {
-                Ok(spectrum) => outside(&spectrum, from.events),
-                Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(rows),
+/// Puts the rows of hidden events among those between `from` and `to`, the row of which is `last`.
+pub(super) fn show_hidden_events(
+    record: &mut RowRecord,
+    path: &mut OrbitPath,
+    from: &ContinuationPoint,
+    (to, last): (&ContinuationPoint, &BranchRow),
+    rows: Vec<Between>,
+) -> Result<Vec<Between>, OrbitError> {
+    let behind = outside(&spectrum_of(&last.solution), to.events);
+    let first = match record.outside.replace(behind) {
+        Some(outside) => outside,
+        None => match spectrum_at(path, from) {
+            Ok(spectrum) => outside(&spectrum, from.events),
+            Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(rows),
+            Err(error) => return Err(error),
+        },
+    };
+    let of_rows =
+        rows.iter().map(|between| outside(&spectrum_of(&between.row.solution), PathEvents::default()));
+    let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
+    let corner = from.events.corner || to.events.corner;
+    let changes = corner || rows.iter().any(|between| between.point.signature != from.signature);
+    if changes || to.signature != from.signature || may_be_equal(&numbers) {
+        return Ok(rows);
+    }
+    let mut shown: Vec<Between> = Vec::with_capacity(rows.len() + 2);
+    let mut before = from.clone();
+    let ends = rows.into_iter().map(Some).chain([None]);
+    for (pair, between) in numbers.windows(2).zip(ends) {
+        let behind = between.as_ref().map_or(to, |between| &between.point).clone();
+        if !may_be_equal(pair) {
+            match hidden_event(record, path, [&before, &behind]) {
+                Ok(event) => shown.extend(event),
+                // As in `density.rs`: what cannot be computed is no row, and the walk goes on.
+                Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => {}
                 Err(error) => return Err(error),
-            },
-        };
-        let of_rows =
-            rows.iter().map(|between| outside(&spectrum_of(&between.row.solution), Events::default()));
-        let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
-        let corner = from.events.corner || to.events.corner;
-        let changes = corner || rows.iter().any(|between| between.point.signature != from.signature);
-        if changes || to.signature != from.signature || may_be_equal(&numbers) {
-            return Ok(rows);
-        }
-        let mut shown: Vec<Between> = Vec::with_capacity(rows.len() + 2);
-        let mut before = from.clone();
-        let ends = rows.into_iter().map(Some).chain([None]);
-        for (pair, between) in numbers.windows(2).zip(ends) {
-            let behind = between.as_ref().map_or(to, |between| &between.point).clone();
-            if !may_be_equal(pair) {
-                match self.hidden_event([&before, &behind]) {
-                    Ok(event) => shown.extend(event),
-                    // As in `density.rs`: what cannot be computed is no row, and the walk goes on.
-                    Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => {}
-                    Err(error) => return Err(error),
-                }
             }
-            before = behind;
-            shown.extend(between);
         }
-        Ok(shown)
+        before = behind;
+        shown.extend(between);
     }
+    Ok(shown)
+}
 
-    /// The event between two neighbours; `None` if there is none, or the orbits there are not found.
-    fn hidden_event(&mut self, ends: [&ContinuationPoint; 2]) -> Result<Option<Between>, OrbitError> {
-        let [mut near, mut far] = ends.map(ContinuationPoint::clone);
-        let settings = path_settings(&self.settings, self.problem.system(), hertz_per_norm(self.range_hz));
-        // At an event the number is that of either side by rounding.
-        let is_far_known = !far.events.any();
-        let known = if is_far_known { &far } else { &near };
-        if known.events.any() {
-            return Ok(None);
-        }
-        let staying = self.pairs_that_stay(ends)?;
-        let number = beyond(&self.spectrum_at(known)?, staying);
-        let (mut other_number, mut known_moved) = (None, false);
-        for _ in 0..HALVINGS {
-            let Ok(middle) = solve_between(&mut self.problem, [&near, &far], 0.5, &settings) else { break };
-            self.evaluations_between += middle.evaluations;
-            let here = beyond(self.problem.spectrum()?, staying);
-            let is_known = here == number;
-            if is_known {
-                known_moved = true;
-            } else {
-                other_number = Some(here);
-            }
-            if is_known == is_far_known { far = middle } else { near = middle }
-        }
-        let uncertainty = far.arc_length - near.arc_length;
-        let place = if is_far_known { far } else { near };
-        match other_number {
-            Some(other) if known_moved => {
-                self.event_row(ContinuationPoint { uncertainty, ..place }, (number.abs_diff(other), staying))
-            }
-            // It lies at one of the ends, as well as that is known.
-            _ => Ok(None),
-        }
+/// The event between two neighbours; `None` if there is none, or the orbits there are not found.
+fn hidden_event(
+    record: &mut RowRecord,
+    path: &mut OrbitPath,
+    ends: [&ContinuationPoint; 2],
+) -> Result<Option<Between>, OrbitError> {
+    let [mut near, mut far] = ends.map(ContinuationPoint::clone);
+    let settings = path.settings_between();
+    // At an event the number is that of either side by rounding.
+    let is_far_known = !far.events.any();
+    let known = if is_far_known { &far } else { &near };
+    if known.events.any() {
+        return Ok(None);
     }
-
-    fn spectrum_at(&mut self, point: &ContinuationPoint) -> Result<Spectrum, OrbitError> {
-        evaluate(&mut self.problem, &point.point)?;
-        Ok(self.problem.spectrum()?.clone())
-    }
-
-    /// How many multipliers are on the circle, as well as they are known, at both points.
-    fn pairs_that_stay(&mut self, ends: [&ContinuationPoint; 2]) -> Result<usize, OrbitError> {
-        let [one, other] = [self.spectrum_at(ends[0])?, self.spectrum_at(ends[1])?].map(|at| on_circle(&at));
-        Ok(one.min(other))
-    }
-
-    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what
-    /// so many more or fewer outside tell.
-    fn event_row(
-        &mut self,
-        mut point: ContinuationPoint,
-        (change, staying): (usize, usize),
-    ) -> Result<Option<Between>, OrbitError> {
-        let spectrum = self.spectrum_at(&point)?;
-        let off =
-            |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
-        let Some(critical) = moving(&spectrum, staying).min_by(|a, b| off(a).total_cmp(&off(b))) else {
-            return Ok(None);
-        };
-        let is_pair = critical[1] != 0.0;
-        if off(critical) > JUMPS || change != 1 + usize::from(is_pair) {
-            return Ok(None);
+    let staying = pairs_that_stay(path, ends)?;
+    let number = beyond(&spectrum_at(path, known)?, staying);
+    let (mut other_number, mut known_moved) = (None, false);
+    for _ in 0..HALVINGS {
+        let Ok(middle) = solve_between(&mut path.problem, [&near, &far], 0.5, &settings) else { break };
+        record.evaluations_between += middle.evaluations;
+        let here = beyond(path.problem.spectrum()?, staying);
+        let is_known = here == number;
+        if is_known {
+            known_moved = true;
+        } else {
+            other_number = Some(here);
         }
-        point.events = Events { zeros: if is_pair { 2 } else { 1 }, ..Events::default() };
-        let at_corners = self.follower.settings().min_step;
-        let contacts = Vec::new();
-        let place =
-            located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, before: None };
-        let located = located::describe(&mut self.problem, place);
-        let row = BranchRow { located, ..self.row_at(&point)? };
-        Ok(Some(Between { point, row }))
+        if is_known == is_far_known { far = middle } else { near = middle }
+    }
+    let uncertainty = far.arc_length - near.arc_length;
+    let place = if is_far_known { far } else { near };
+    match other_number {
+        Some(other) if known_moved => {
+            event_row(path, ContinuationPoint { uncertainty, ..place }, (number.abs_diff(other), staying))
+        }
+        // It lies at one of the ends, as well as that is known.
+        _ => Ok(None),
     }
 }
 
+fn spectrum_at(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<Spectrum, OrbitError> {
+    evaluate(&mut path.problem, &point.point)?;
+    Ok(path.problem.spectrum()?.clone())
+}
+
+/// How many multipliers are on the circle, as well as they are known, at both points.
+fn pairs_that_stay(path: &mut OrbitPath, ends: [&ContinuationPoint; 2]) -> Result<usize, OrbitError> {
+    let [one, other] = [spectrum_at(path, ends[0])?, spectrum_at(path, ends[1])?].map(|at| on_circle(&at));
+    Ok(one.min(other))
+}
+
+/// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what
+/// so many more or fewer outside tell.
+fn event_row(
+    path: &mut OrbitPath,
+    mut point: ContinuationPoint,
+    (change, staying): (usize, usize),
+) -> Result<Option<Between>, OrbitError> {
+    let spectrum = spectrum_at(path, &point)?;
+    let off = |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
+    let Some(critical) = moving(&spectrum, staying).min_by(|a, b| off(a).total_cmp(&off(b))) else {
+        return Ok(None);
+    };
+    let is_pair = critical[1] != 0.0;
+    if off(critical) > JUMPS || change != 1 + usize::from(is_pair) {
+        return Ok(None);
+    }
+    point.events = PathEvents { zeros: if is_pair { 2 } else { 1 }, ..PathEvents::default() };
+    let at_corners = path.follower.settings().min_step;
+    let contacts = Vec::new();
+    let place =
+        located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, before: None };
+    let located = located::describe(&mut path.problem, place);
+    let row = BranchRow { located, ..row_at(path, &point)? };
+    Ok(Some(Between { point, row }))
+}
+
 /// Least and most number of multipliers outside the circle.
-pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> (u32, u32) {
+pub(super) fn outside(spectrum: &Spectrum, events: PathEvents) -> (u32, u32) {
     let outside = stability::outside(spectrum, events);
     (outside.least, outside.most)
 }
@@ -169,7 +174,7 @@ fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]
     moves.map(|(multiplier, _)| multiplier)
 }
 
-pub(crate) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
+pub(super) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
     let multipliers = solution.floquet_multipliers.clone();
     let at_minus_one = vec![false; multipliers.len()];
     Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one }
@@ -188,6 +193,7 @@ mod tests {
 
     use hammerbeam_motion::{Law, System, law::LinearStop};
 
+    use super::show_hidden_events;
     use crate::{BranchWalk, OrbitSettings, Response, Side, find_start, test_oscillator::oscillator};
 
     /// `x'' + 0.1 x' + k x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`: harmonic orbits flip
@@ -206,18 +212,20 @@ mod tests {
         let mut walk =
             BranchWalk::new(&system, &response, &start, Side::Down, (0.2, 0.6), &settings).unwrap();
         let (mut rows, mut points, mut found) = (vec![walk.start_row().unwrap()], Vec::new(), 0);
-        points.push(walk.follower.current().clone());
+        points.push(walk.path.current().clone());
         while walk.step(&mut rows).unwrap().is_none() {
-            points.push(walk.follower.current().clone());
+            points.push(walk.path.current().clone());
             let [.., before, flip, _] = points.as_slice() else { continue };
             if flip.events.zeros != 1 {
                 continue;
             }
             let (expected, behind) = (flip.parameter(), points[points.len() - 1].clone());
-            walk.outside = None;
+            walk.record.outside = None;
             let last = rows[rows.len() - 1].clone();
             let before = before.clone();
-            let shown = walk.show_hidden_events(&before, (&behind, &last), Vec::new()).unwrap();
+            let shown =
+                show_hidden_events(&mut walk.record, &mut walk.path, &before, (&behind, &last), Vec::new())
+                    .unwrap();
             assert_eq!(shown.len(), 1, "at {expected} Hz");
             let event = &shown[0].row;
             assert!(event.events.flip && event.located.is_some());

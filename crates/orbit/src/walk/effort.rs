@@ -7,7 +7,7 @@
 //! [`MOST`]; and it is left before where [`MOST`]`/`[`PARTS`] of them did not move it by [`PROGRESS`] of the
 //! range in arc length: where it chatters, say, and every orbit has ten thousand impacts.
 
-use super::BranchWalk;
+use super::orbit_path::OrbitPath;
 use crate::StopReason;
 
 /// Operations of one side of a branch.
@@ -29,33 +29,36 @@ pub(crate) struct Effort {
     pub counted: u64,
 }
 
-impl BranchWalk {
-    /// What the counters of the walk say now: operations since it was begun or taken up. Differences depend
-    /// on the path only.
-    pub(crate) fn counted_operations(&self) -> u64 {
-        let cube = (self.problem.node_size() as u64).pow(3);
-        let rows = self.follower.counters().accepted;
-        self.problem.counts().operations + cube * (2 * self.evaluations() + 10 * rows)
-    }
+/// What the counters of a walk say: operations since it was started or taken up. Differences depend on the
+/// path only.
+///
+/// * `evaluations`: of the shooting equations since the start of the walk.
+pub(crate) fn counted_operations(path: &OrbitPath, evaluations: u64) -> u64 {
+    let cube = (path.problem.node_size() as u64).pow(3);
+    let rows = path.follower.counters().accepted;
+    path.problem.counts().operations + cube * (2 * evaluations + 10 * rows)
+}
 
-    /// Operations since the start of the walk.
-    pub(crate) fn operations(&self) -> u64 {
-        self.effort.spent + (self.counted_operations() - self.effort.counted)
+impl Effort {
+    /// Operations since the start of the walk, by what the counters say now.
+    pub fn operations(&self, counted: u64) -> u64 {
+        self.spent + (counted - self.counted)
     }
 
     /// Why the walk ends, if it has taken too much work, or too much for how far it got.
-    pub(super) fn is_too_laborious(&mut self) -> Option<StopReason> {
-        self.effort.spent = self.operations();
-        self.effort.counted = self.counted_operations();
-        let arc_length = self.follower.current().arc_length;
-        let (low, high) = self.range_hz;
-        if (arc_length - self.effort.mark.1).abs() >= PROGRESS * (high - low) {
-            self.effort.mark = (self.effort.spent, arc_length);
+    pub fn end_of(&mut self, path: &OrbitPath, evaluations: u64) -> Option<StopReason> {
+        let counted = counted_operations(path, evaluations);
+        self.spent = self.operations(counted);
+        self.counted = counted;
+        let arc_length = path.current().arc_length;
+        let (low, high) = path.range_hz;
+        if (arc_length - self.mark.1).abs() >= PROGRESS * (high - low) {
+            self.mark = (self.spent, arc_length);
         }
-        let gets_on = self.effort.spent - self.effort.mark.0 <= MOST / PARTS;
-        (!gets_on || self.effort.spent > MOST).then(|| StopReason::TooLaborious {
-            frequency_hz: self.follower.current().parameter(),
-            solutions: self.follower.counters().accepted,
+        let gets_on = self.spent - self.mark.0 <= MOST / PARTS;
+        (!gets_on || self.spent > MOST).then(|| StopReason::TooLaborious {
+            frequency_hz: path.parameter(),
+            solutions: path.follower.counters().accepted,
             gets_on,
         })
     }

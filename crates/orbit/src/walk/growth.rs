@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 use hammerbeam_motion::LocalElement;
 
-use super::BranchWalk;
+use super::orbit_path::OrbitPath;
 use crate::{ResonantMode, StopReason};
 
 /// Growth of the amplitude at a parameter that stands still.
@@ -52,68 +52,69 @@ impl Growth {
         }
         amplitude / self.amplitude
     }
-}
 
-impl BranchWalk {
     /// Why the walk ends, if its present orbit, of this size in the present units, belongs to a branch that
     /// goes to infinity.
-    pub(super) fn grows_without_bound(&mut self, size: f64) -> Option<StopReason> {
-        let parameter = self.follower.current().parameter();
-        let (low, high) = self.range_hz;
-        let of_itself = STILL * self.problem.parameter_size(&self.follower.current().point);
+    ///
+    /// * `touches`: of each contact at the row before.
+    pub fn end_of(&mut self, path: &mut OrbitPath, size: f64, touches: &[u32]) -> Option<StopReason> {
+        let parameter = path.parameter();
+        let (low, high) = path.range_hz;
+        let of_itself = STILL * path.problem.parameter_size(&path.current().point);
         let still = of_itself.min(OF_RANGE * (high - low));
-        let unit = self.problem.scale().values().last().copied().unwrap_or(1.0);
-        let growth = self.growth.note(size * unit, parameter, still);
-        let unbounded = growth >= FOR_ANY || (growth >= GROWTH && self.is_beyond_all_levels());
-        unbounded.then(|| StopReason::Unbounded { frequency_hz: parameter, mode: self.resonant_mode() })
+        let unit = path.problem.scale().values().last().copied().unwrap_or(1.0);
+        let growth = self.note(size * unit, parameter, still);
+        let unbounded = growth >= FOR_ANY || (growth >= GROWTH && is_beyond_all_levels(path));
+        unbounded
+            .then(|| StopReason::Unbounded { frequency_hz: parameter, mode: resonant_mode(path, touches) })
     }
+}
 
-    /// Whether every element is linear for all that follows.
-    fn is_beyond_all_levels(&mut self) -> bool {
-        let elements = self.problem.system().elements();
-        let level = |element: &LocalElement| Some((element.shape.clone(), element.law.linear_beyond()?));
-        let Some(levels) = elements.iter().map(level).collect::<Option<Vec<(Vec<f64>, f64)>>>() else {
-            return false;
-        };
-        let least = self.of_present(|orbit, integrator, _| {
-            let mut least = f64::INFINITY;
-            // Supports move as before, and do not count beside motion that grows.
-            for (shape, level) in levels.iter().filter(|(_, level)| *level > 0.0) {
-                least = least.min(orbit.largest_along(integrator, shape)? / level);
-            }
-            Ok(least)
-        });
-        least.is_some_and(|least| least >= BEYOND)
-    }
+/// Whether every element is linear for all that follows.
+fn is_beyond_all_levels(path: &mut OrbitPath) -> bool {
+    let elements = path.problem.system().elements();
+    let level = |element: &LocalElement| Some((element.shape.clone(), element.law.linear_beyond()?));
+    let Some(levels) = elements.iter().map(level).collect::<Option<Vec<(Vec<f64>, f64)>>>() else {
+        return false;
+    };
+    let least = path.of_present(|orbit, integrator, _| {
+        let mut least = f64::INFINITY;
+        // Supports move as before, and do not count beside motion that grows.
+        for (shape, level) in levels.iter().filter(|(_, level)| *level > 0.0) {
+            least = least.min(orbit.largest_along(integrator, shape)? / level);
+        }
+        Ok(least)
+    });
+    least.is_some_and(|least| least >= BEYOND)
+}
 
-    /// The undamped mode that resonates, where no element acts.
-    fn resonant_mode(&mut self) -> Option<ResonantMode> {
-        let acts = self.touches.iter().any(|&touches| touches > 0);
-        let point = &self.follower.current().point;
-        let base_hz = self.problem.frequency(point) / f64::from(self.problem.period_multiple());
-        let model = self.problem.system().model();
-        let ratio = |i: usize| model.damping[(i, i)] / (2.0 * model.natural_frequencies[i]);
-        let resonates = |w: f64| {
-            let harmonic = w / TAU / base_hz;
-            w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
-        };
-        let found = model.natural_frequencies.iter().position(|&w| resonates(w));
-        found.filter(|&i| !acts && ratio(i) <= UNDAMPED).map(|i| ResonantMode {
-            number: i + 1,
-            frequency_hz: model.natural_frequencies[i] / TAU,
-            damping_ratio: ratio(i),
-        })
-    }
+/// The undamped mode that resonates, where no element acts.
+fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
+    let acts = touches.iter().any(|&touches| touches > 0);
+    let point = &path.follower.current().point;
+    let base_hz = path.problem.frequency(point) / f64::from(path.problem.period_multiple());
+    let model = path.problem.system().model();
+    let ratio = |i: usize| model.damping[(i, i)] / (2.0 * model.natural_frequencies[i]);
+    let resonates = |w: f64| {
+        let harmonic = w / TAU / base_hz;
+        w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
+    };
+    let found = model.natural_frequencies.iter().position(|&w| resonates(w));
+    found.filter(|&i| !acts && ratio(i) <= UNDAMPED).map(|i| ResonantMode {
+        number: i + 1,
+        frequency_hz: model.natural_frequencies[i] / TAU,
+        damping_ratio: ratio(i),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Growth that is told at the end of a course of amplitudes and parameters.
-    fn growth(course: impl Iterator<Item = (f64, f64)>) -> f64 {
+    /// Growth at the end of a history of amplitudes and parameters.
+    fn growth(history: impl Iterator<Item = (f64, f64)>) -> f64 {
         let mut growth = Growth::default();
-        course.map(|(amplitude, parameter)| growth.note(amplitude, parameter, 1e-7)).last().unwrap()
+        history.map(|(amplitude, parameter)| growth.note(amplitude, parameter, 1e-7)).last().unwrap()
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Whether a walk has come to the flip of an orbit of shorter period.
 
-use hammerbeam_path::{Node, PathProblem};
+use hammerbeam_path::{Judge, Node};
 
-use super::{BranchWalk, settings::hertz_per_norm};
+use super::orbit_path::OrbitPath;
 use crate::StopReason;
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of
@@ -22,53 +22,51 @@ const STILL: f64 = 2e-9;
 /// Far shorter: this part of the distance.
 const CRAWLS: f64 = 0.02;
 
-impl BranchWalk {
-    /// Where the walk ends since the present point is one of a branch of shorter period: where that flips, or
-    /// so near to it that its place is known while steps are held up by rounding; or where the contacts
-    /// changed and left an orbit of shorter period, as where the impacts of an orbit that touches a rigid
-    /// stop in every second period vanish.
-    pub(super) fn meets_shorter_period(&mut self) -> Option<StopReason> {
-        let (events, frequency_hz) = {
-            let current = self.follower.current();
-            (current.events, current.parameter())
-        };
-        let flips = events.branch_point && self.is_near_shorter_period() || self.crawls_to_shorter_period();
-        let grazes = !flips && events.signature_change && self.distance_to_shorter_period() < SAME;
-        (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
-    }
+/// Where the walk ends since the present point is one of a branch of shorter period: where that flips, or
+/// so near to it that its place is known while steps are held up by rounding; or where the contacts
+/// changed and left an orbit of shorter period, as where the impacts of an orbit that touches a rigid
+/// stop in every second period vanish.
+pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
+    let (events, frequency_hz) = {
+        let current = path.follower.current();
+        (current.events, current.parameter())
+    };
+    let flips = events.branch_point && is_near_shorter_period(path) || crawls_to_shorter_period(path);
+    let grazes = !flips && events.signature_change && distance_to_shorter_period(path) < SAME;
+    (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
+}
 
-    /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the
-    /// orbit, in a small part of the way that is left each.
-    fn crawls_to_shorter_period(&self) -> bool {
-        let history = &self.follower.checkpoint().history;
-        let nodes = &history.nodes[..history.used];
-        let left = |node: &Node| self.problem.distance_to_simpler(&node.point);
-        let near = CRAWLS_NEAR * hertz_per_norm(self.range_hz);
-        let still = |node: &Node| {
-            let slope = node.tangent[node.tangent.len() - 1].abs();
-            slope * left(node) < STILL * self.problem.parameter_size(&node.point)
-        };
-        nodes.len() > 1
-            && left(&nodes[0]) < near
-            && nodes.iter().all(still)
-            && nodes.windows(2).all(|pair| {
-                let step = left(&pair[1]) - left(&pair[0]);
-                (0.0..CRAWLS * left(&pair[0])).contains(&step)
-            })
-    }
+/// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the
+/// orbit, in a small part of the way that is left each.
+fn crawls_to_shorter_period(path: &OrbitPath) -> bool {
+    let history = &path.follower.state().history;
+    let nodes = &history.nodes[..history.used];
+    let left = |node: &Node| path.problem.distance_to_simpler(&node.point);
+    let near = CRAWLS_NEAR * path.hertz_per_norm();
+    let still = |node: &Node| {
+        let slope = node.tangent[node.tangent.len() - 1].abs();
+        slope * left(node) < STILL * path.problem.parameter_size(&node.point)
+    };
+    nodes.len() > 1
+        && left(&nodes[0]) < near
+        && nodes.iter().all(still)
+        && nodes.windows(2).all(|pair| {
+            let step = left(&pair[1]) - left(&pair[0]);
+            (0.0..CRAWLS * left(&pair[0])).contains(&step)
+        })
+}
 
-    /// Whether the present orbit is, within [`MERGED`], one of shorter period.
-    pub(super) fn is_near_shorter_period(&mut self) -> bool {
-        self.distance_to_shorter_period() < MERGED
-    }
+/// Whether the present orbit is, within [`MERGED`], one of shorter period.
+pub(super) fn is_near_shorter_period(path: &mut OrbitPath) -> bool {
+    distance_to_shorter_period(path) < MERGED
+}
 
-    /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period
-    /// of its own or the motion cannot be computed.
-    fn distance_to_shorter_period(&mut self) -> f64 {
-        if self.problem.period_multiple() == 1 {
-            return f64::INFINITY;
-        }
-        self.of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
-            .unwrap_or(f64::INFINITY)
+/// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period
+/// of its own or the motion cannot be computed.
+fn distance_to_shorter_period(path: &mut OrbitPath) -> f64 {
+    if path.problem.period_multiple() == 1 {
+        return f64::INFINITY;
     }
+    path.of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
+        .unwrap_or(f64::INFINITY)
 }

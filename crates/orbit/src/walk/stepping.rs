@@ -1,8 +1,15 @@
 //! From one solution of a walk to the next.
 
-use hammerbeam_path::{ContinuationPoint, StepOutcome, StopReason as PathStop};
+use hammerbeam_path::{ContinuationPoint, PathStop, StepOutcome};
 
-use super::{BranchWalk, Walked, splits::Departure};
+use super::{
+    BranchWalk, Walked,
+    end::{end_of_path, stop_reason},
+    recut::{flee_phase, keep_phase_clear},
+    resegment::resegment,
+    shorter_period::meets_shorter_period,
+    splits::{Departure, comes_to_splitting, crawls_to_splitting, is_lost_at_splitting, may_split, work},
+};
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new
@@ -29,37 +36,38 @@ impl BranchWalk {
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
         if std::mem::take(&mut self.begins_with_present) {
-            evaluate(&mut self.problem, &self.follower.current().point)?;
-            rows.push(self.row()?);
+            evaluate(&mut self.path.problem, &self.path.follower.current().point)?;
+            rows.push(self.record.row(&mut self.path)?);
             return Ok(None);
         }
         let departure = match self.depart() {
             Ok(departure) => departure,
             Err(end) => return Ok(Some(end)),
         };
-        let mut from = self.follower.current().clone();
+        let mut from = self.path.current().clone();
         if let Some(reason) = self.advance(&mut from)? {
-            return Ok(Some(self.end_of_path(reason)));
+            return Ok(Some(end_of_path(&mut self.path, reason)));
         }
-        if let Some(splits) = self.comes_to_splitting(&departure)? {
+        let Self { path, record, .. } = self;
+        if let Some(splits) = comes_to_splitting(path, &record.touches, &departure)? {
             return Ok(Some(splits));
         }
-        let (at_corner, row) = match self.rows_here() {
+        let (at_corner, row) = match record.rows_here(path) {
             Ok(rows) => rows,
             Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
-                let frequency_hz = self.follower.current().parameter();
+                let frequency_hz = path.parameter();
                 return Ok(Some(StopReason::Motion { frequency_hz, message: error.to_string() }));
             }
             Err(error) => return Err(error),
         };
         let largest = row.solution.largest_multiplier();
-        if let Some(splits) = self.is_lost_at_splitting(&departure, largest)? {
+        if let Some(splits) = is_lost_at_splitting(path, &departure, largest)? {
             return Ok(Some(splits));
         }
-        self.journal.push(self.follower.in_first_units(self.follower.current()));
+        path.note_in_journal();
         match at_corner {
-            Some(at_corner) => self.append_behind_corner(at_corner, row, rows),
-            None => self.append_densely(&from, row, rows)?,
+            Some(at_corner) => record.append_behind_corner(path, at_corner, row, rows),
+            None => record.append_densely(path, &from, row, rows)?,
         }
         self.keep_segments_short(largest)?;
         Ok(None)
@@ -74,33 +82,36 @@ impl BranchWalk {
             Ok(departure) => departure,
             Err(end) => return Ok(Some(end)),
         };
-        let mut from = self.follower.current().clone();
+        let mut from = self.path.current().clone();
         if let Some(reason) = self.advance(&mut from)? {
-            return Ok(Some(self.stop_reason(reason)));
+            return Ok(Some(stop_reason(&mut self.path, reason)));
         }
-        if let Some(splits) = self.comes_to_splitting(&departure)? {
+        let Self { path, record, .. } = self;
+        if let Some(splits) = comes_to_splitting(path, &record.touches, &departure)? {
             return Ok(Some(splits));
         }
-        self.touches.clear();
-        self.touches.extend_from_slice(self.problem.touches());
-        let current = self.follower.current();
-        let nodes = self.problem.nodes(&current.point);
-        let phase = self.problem.phase().fract();
-        states.push(Walked { frequency_hz: current.parameter(), phase, nodes });
+        record.note_touches(path);
+        let nodes = path.problem.nodes(&path.current().point);
+        let phase = path.problem.phase().fract();
+        states.push(Walked { frequency_hz: path.parameter(), phase, nodes });
         Ok(None)
     }
 
     /// Makes ready to leave the present point; or why the walk ends there.
     fn depart(&mut self) -> Result<Departure, StopReason> {
-        if let Some(end) = self.meets_shorter_period().or_else(|| self.crawls_to_splitting()) {
+        let path = &mut self.path;
+        if let Some(end) = meets_shorter_period(path).or_else(|| crawls_to_splitting(path)) {
             return Err(end);
         }
-        let place = self.may_split();
-        if let Some(end) = self.is_too_laborious().or_else(|| self.keep_to_scale()) {
+        let place = may_split(path);
+        let evaluations = self.evaluations();
+        let used_up = self.effort.end_of(&self.path, evaluations);
+        if let Some(end) = used_up.or_else(|| self.keep_to_scale()) {
             return Err(end);
         }
-        self.keep_phase_clear();
-        Ok(Departure { place, work: self.work() })
+        keep_phase_clear(&mut self.path);
+        self.renew_record();
+        Ok(Departure { place, work: work(&mut self.path) })
     }
 
     /// Goes to the next point of the path, with more segments or at another phase if it does not go on with
@@ -109,18 +120,22 @@ impl BranchWalk {
         use PathStop::{EvaluationFailed, StepTooShort};
         let mut flights = 0;
         loop {
-            from.clone_from(self.follower.current());
-            match self.follower.step(&mut self.problem) {
+            let path = &mut self.path;
+            from.clone_from(path.follower.current());
+            match path.follower.step(&mut path.problem) {
                 StepOutcome::Accepted => return Ok(None),
                 StepOutcome::Stopped(StepTooShort { .. } | EvaluationFailed { .. })
-                    if flights < MOST_FLIGHTS && self.flee_phase() =>
+                    if flights < MOST_FLIGHTS && flee_phase(path) =>
                 {
                     flights += 1;
+                    self.renew_record();
                 }
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
-                    if self.settings.segments == Segments::Automatic =>
+                    if path.settings.segments == Segments::Automatic =>
                 {
-                    match self.resegment() {
+                    let goes_on = resegment(path);
+                    self.renew_record();
+                    match goes_on {
                         Ok(true) => {}
                         Ok(false) | Err(OrbitError::Motion(_)) => return Ok(Some(reason)),
                         Err(error) => return Err(error),
@@ -128,16 +143,6 @@ impl BranchWalk {
                 }
                 StepOutcome::Stopped(reason) => return Ok(Some(reason)),
             }
-        }
-    }
-
-    /// Why the walk ends whose path does; where a flip is too sharp to be passed, it is the end all the same.
-    fn end_of_path(&mut self, reason: PathStop) -> StopReason {
-        match reason {
-            PathStop::StepTooShort { parameter, .. } if self.is_near_shorter_period() => {
-                StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
-            }
-            reason => self.stop_reason(reason),
         }
     }
 
@@ -150,35 +155,46 @@ impl BranchWalk {
     /// # Returns
     /// Why the walk ends, if the orbit grows without bound.
     fn keep_to_scale(&mut self) -> Option<StopReason> {
-        let due = self.follower.counters().accepted.is_multiple_of(LOOK);
-        if !due && self.problem.size(&self.follower.current().point) <= OUTGROWN {
+        let path = &mut self.path;
+        let due = path.follower.counters().accepted.is_multiple_of(LOOK);
+        if !due && path.problem.size(&path.follower.current().point) <= OUTGROWN {
             return None;
         }
-        let size = self.of_present(|orbit, integrator, scale| orbit.size(integrator, scale));
+        let size = path.of_present(|orbit, integrator, scale| orbit.size(integrator, scale));
         let size = size.filter(|size| size.is_normal())?;
-        let end = self.grows_without_bound(size);
+        let end = self.growth.end_of(path, size, &self.record.touches);
         if end.is_some() || (1.0 / OUTGROWN..=OUTGROWN).contains(&size) {
             return end;
         }
         // Powers of two change no digit.
         let factor = 2f64.powi(size.log2().round() as i32);
-        self.problem.rescale(factor);
-        self.follower.rescale(factor);
-        self.last_rows.keep_newest();
+        path.problem.rescale(factor);
+        path.follower.rescale(factor);
+        path.measures_anew = true;
         None
     }
 
     /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so
-    /// short that the walk crawls.
+    /// short that the walk does not get anywhere.
     fn keep_segments_short(&mut self, largest: f64) -> Result<(), OrbitError> {
-        let outgrown = largest.ln() > self.problem.segments() as f64 * MOST_GROWTH.ln();
-        if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none()
+        let path = &mut self.path;
+        let outgrown = largest.ln() > path.problem.segments() as f64 * MOST_GROWTH.ln();
+        if path.settings.segments != Segments::Automatic || !outgrown || path.follower.stop_reason().is_some()
         {
-            match self.resegment() {
-                Ok(_) | Err(OrbitError::Motion(_)) => {}
-                Err(error) => return Err(error),
-            }
+            return Ok(());
         }
-        Ok(())
+        let cut = resegment(path);
+        self.renew_record();
+        match cut {
+            Ok(_) | Err(OrbitError::Motion(_)) => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Rows before a change of how lengths are measured say nothing of the next ones.
+    fn renew_record(&mut self) {
+        if std::mem::take(&mut self.path.measures_anew) {
+            self.record.last_rows.keep_newest();
+        }
     }
 }

@@ -1,83 +1,168 @@
-//! One attempt at a step: predict, correct, judge, and locate what lies on the way.
+//! One try at a step: a candidate ahead of the point accepted last, and what it is corrected and compared
+//! with.
 
-use super::{Arrival, Follower, judge::Finding};
-use crate::{corrector::Limits, error::Doubt, problem::PathProblem, product::weigh};
+use crate::{
+    corrector::{Candidate, CorrectorError, Limits},
+    error::StepDoubt,
+    memory::PathMemory,
+    point::{ContinuationPoint, Counters},
+    predictor::Node,
+    problem::PathProblem,
+    product::{add_scaled, progress, weigh},
+    settings::{ParameterRange, Settings},
+    state::PathState,
+    test_record::TestRecord,
+};
 
-impl Follower {
-    /// Tries a step of this length; on success the trial is the next point, and the problem evaluated there.
-    pub(super) fn attempt(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-        most_earlier: usize,
-    ) -> Result<Arrival, Doubt> {
-        weigh(&self.weights, &self.state.history.base().tangent, &mut self.row);
-        let earlier = self.state.history.predict(&self.weights, step, most_earlier, &mut self.trial.point);
-        if !self.range.contains(self.trial.parameter()) {
-            return self.arrive_at_end(problem, step, most_earlier);
-        }
-        let limits = self.limits(step);
-        self.trial
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)?;
-        if !self.range.contains(self.trial.parameter()) {
-            return self.arrive_at_end(problem, step, most_earlier);
-        }
-        let mut finding = self.judge(problem, step)?;
-        if finding == Finding::Regular && self.turns_for_good(problem)? {
-            finding = Finding::Fold;
-        }
-        match finding {
-            Finding::Regular if self.changes_signature() => self.arrive_at_change(problem, step, earlier),
-            Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
-            Finding::Closing(image) => self.arrive_at_start(problem, image),
-            Finding::Fold => self.arrive_at_fold(problem, step),
-            Finding::Reversed => self.arrive_at_branch_point(problem, step),
-        }
-    }
+/// What does not change along the path, unless its unknowns do.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    pub settings: Settings,
+    pub range: ParameterRange,
+    pub weights: Vec<f64>,
+    /// The border that keeps the parameter.
+    pub parameter_row: Vec<f64>,
+}
 
+impl Frame {
     /// How far the corrector may move a prediction: what the settings say, but ten times what rounding left
     /// of the last correction, too. At the shortest steps that is more than a tenth of the step; without it
     /// they could not grow any more where a solution is known less well.
-    pub(super) fn allowed_displacement(&self, step: f64) -> f64 {
-        let rounding = self.state.current.correction_norm.min(self.settings.correction_tolerance);
+    pub fn allowed_displacement(&self, current: &ContinuationPoint, step: f64) -> f64 {
+        let rounding = current.correction_norm.min(self.settings.correction_tolerance);
         self.settings.allowed_displacement(step).max((10.0 * rounding).min(self.settings.sheet_distance))
     }
+}
 
-    pub(super) fn limits(&self, step: f64) -> Limits {
-        Limits {
-            tolerance: self.settings.tolerance_at(step),
-            loose_tolerance: self.settings.loose_tolerance_at(step),
-            singular_tolerance: self.settings.loose_tolerance_at(step).max(0.01 * step),
-            residual_floor: self.settings.residual_floor,
-            residual_tolerance: self.settings.residual_tolerance,
-            residual_wanted: self.settings.residual_wanted,
-            max_iterations: self.settings.max_iterations,
-            max_displacement: self.allowed_displacement(step),
-            max_angle: Some(self.settings.max_angle),
-        }
+/// A try at one step from where the follower is, which stays as it is.
+pub(super) struct Attempt<'a> {
+    pub frame: &'a Frame,
+    pub state: &'a PathState,
+    pub memory: &'a PathMemory,
+    /// The test functions of the last point change where they are compared with fewer parts.
+    pub tests: &'a mut TestRecord,
+    pub counters: &'a mut Counters,
+    pub problem: &'a mut dyn PathProblem,
+    /// The candidate for the next point.
+    pub trial: &'a mut Candidate,
+    /// The border of the trial: `W t₀`, unless it was put behind a corner.
+    pub row: &'a mut [f64],
+    /// Length of the step.
+    pub step: f64,
+}
+
+impl Attempt<'_> {
+    pub fn settings(&self) -> &Settings {
+        &self.frame.settings
     }
 
-    /// Corrects the probe at `σ` of the step, predicted by the interpolant through both ends of the step.
-    pub(super) fn probe_between(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-        sigma: f64,
-    ) -> Result<(), Doubt> {
-        self.predict_probe(sigma, false);
-        self.correct_probe(problem, self.probing_limits(step))
+    /// Predicts the trial with at most so many earlier nodes; how many were used.
+    pub fn predict(&mut self, most_earlier: usize) -> usize {
+        weigh(&self.frame.weights, &self.state.base().tangent, self.row);
+        let history = &self.state.history;
+        history.predict(&self.frame.weights, self.step, most_earlier, &mut self.trial.point)
     }
 
-    /// [`locating_limits`](Self::locating_limits) for a place within a step whose ends are known.
-    pub(super) fn probing_limits(&self, step: f64) -> Limits {
-        Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.locating_limits(step) }
+    /// Puts the trial on the tangent, this far ahead of the last point.
+    pub fn put_ahead(&mut self, distance: f64) {
+        let base = self.state.history.base();
+        self.trial.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.trial.point, distance, &base.tangent);
+    }
+
+    /// Makes the tangent at the last point the border.
+    pub fn border_across(&mut self, tangent: &[f64]) {
+        weigh(&self.frame.weights, tangent, self.row);
+    }
+
+    /// Corrects the trial with the present border.
+    pub fn correct(&mut self, limits: Limits) -> Result<(), StepDoubt> {
+        let corrected =
+            self.trial.correct(self.problem, &self.frame.weights, self.row, limits, self.counters);
+        corrected.map_err(StepDoubt::Corrector)
+    }
+
+    /// Corrects the trial at fixed parameter.
+    pub fn correct_at_parameter(&mut self, limits: Limits) -> Result<(), StepDoubt> {
+        let Frame { weights, parameter_row, .. } = self.frame;
+        let corrected = self.trial.correct(self.problem, weights, parameter_row, limits, self.counters);
+        corrected.map_err(StepDoubt::Corrector)
+    }
+
+    /// Evaluates the trial, with correction and direction for the present border.
+    pub fn linearise(&mut self) -> Result<(), CorrectorError> {
+        self.trial.linearise(self.problem, &self.frame.weights, self.row, self.counters)
+    }
+
+    /// Correction and direction for the present border at the trial, evaluated last.
+    pub fn refactorise(&mut self) -> Result<(), CorrectorError> {
+        self.trial.refactorise(self.problem, &self.frame.weights, self.row)
+    }
+
+    /// The same for the border that keeps the parameter.
+    pub fn refactorise_at_parameter(&mut self) -> Result<(), CorrectorError> {
+        self.trial.refactorise(self.problem, &self.frame.weights, &self.frame.parameter_row)
+    }
+
+    /// Evaluates the problem at a point, to no other end.
+    pub fn evaluate(&mut self, point: &[f64]) -> Result<(), StepDoubt> {
+        self.counters.evaluations += 1;
+        self.problem.evaluate(point).map_err(|error| StepDoubt::Corrector(error.into()))
+    }
+
+    /// Evaluates the trial again, so that the problem holds the point that is accepted. Its test functions
+    /// stay as they are noted: of one whose zero was located there before, the sign at the trial is rounding.
+    pub fn return_to_trial(&mut self) -> Result<(), StepDoubt> {
+        self.counters.evaluations += 1;
+        self.problem.evaluate(&self.trial.point).map_err(|error| StepDoubt::Corrector(error.into()))
+    }
+
+    /// Length of the trial's step along the tangent of its base.
+    pub fn progress(&self) -> f64 {
+        self.progress_of(&self.trial.node)
+    }
+
+    /// That of another node.
+    pub fn progress_of(&self, node: &Node) -> f64 {
+        let base = self.state.base();
+        progress(&self.frame.weights, &base.tangent, &node.point, &base.point)
+    }
+
+    /// Whether the signature of the trial differs from that of the point before.
+    pub fn changes_signature(&self) -> bool {
+        self.trial.signature != self.state.current.signature
+    }
+
+    /// Whether the parameter of the trial lies in the range.
+    pub fn is_in_range(&self) -> bool {
+        self.frame.range.contains(self.trial.parameter())
+    }
+
+    /// Arc length of an earlier stretch that runs through the oriented trial, if there is one.
+    pub fn meets_earlier_stretch(&self) -> Option<f64> {
+        self.memory.meets(self.trial, self.state.orientation, self.state.unit)
+    }
+
+    /// See [`Frame::allowed_displacement`].
+    pub fn allowed_displacement(&self, step: f64) -> f64 {
+        self.frame.allowed_displacement(&self.state.current, step)
+    }
+
+    /// What a correction over this length must keep to.
+    pub fn limits(&self, length: f64) -> Limits {
+        Limits { max_displacement: self.allowed_displacement(length), ..self.settings().limits(length) }
     }
 
     /// Events are located to a hundredth of the tolerance, as far as rounding allows.
-    pub(super) fn locating_limits(&self, step: f64) -> Limits {
-        let limits = self.limits(step);
-        let sharp = (0.01 * self.settings.correction_tolerance).max(self.settings.correction_floor);
+    pub fn locating_limits(&self, length: f64) -> Limits {
+        let limits = self.limits(length);
+        let settings = self.settings();
+        let sharp = (0.01 * settings.correction_tolerance).max(settings.correction_floor);
         Limits { tolerance: limits.tolerance.min(sharp), max_angle: None, ..limits }
+    }
+
+    /// [`locating_limits`](Self::locating_limits) for a place within a step whose ends are known.
+    pub fn probing_limits(&self, length: f64) -> Limits {
+        Limits { max_angle: Some(2.0 * self.settings().max_angle), ..self.locating_limits(length) }
     }
 }

@@ -8,25 +8,8 @@
 //! Dowell and Jarratt, BIT 11 (1971), 168-174; inverse interpolation: Brent, *Algorithms for Minimization
 //! without Derivatives* (1973), chapter 4.
 
-use super::Follower;
-use crate::{
-    corrector::{Candidate, Limits},
-    error::Doubt,
-    predictor,
-    problem::PathProblem,
-    product::progress,
-};
-
 /// Values that the inverse polynomial goes through.
 const MOST_KNOWN: usize = 4;
-/// A probe may be as far off the path as this share of the bracket, as long as the sign of its value is
-/// beyond doubt.
-const LOOSE: f64 = 1e-4;
-/// The sign is beyond doubt if the value is so many times what the correction still due may change of it.
-const BEYOND_DOUBT: f64 = 20.0;
-/// A probe this near an end of the step, as a share of it, does not sharpen the prediction of the next one.
-const NEAR_END: f64 = 1e-3;
-
 /// Bracket of a zero.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bracket {
@@ -50,7 +33,7 @@ impl Bracket {
     }
 
     /// Secant slope, in magnitude.
-    fn slope(&self) -> f64 {
+    pub fn slope(&self) -> f64 {
         (self.high.1 - self.low.1).abs() / self.width().max(f64::MIN_POSITIVE)
     }
 
@@ -104,65 +87,6 @@ pub(super) fn at_zero(known: &[(f64, f64)]) -> f64 {
         others.map(|(_, (_, value))| -value / (known[i].1 - value)).product()
     };
     known.iter().enumerate().map(|(i, (place, _))| weight(i) * place).sum()
-}
-
-impl Follower {
-    /// Puts the probe on the path at this place of the step to the trial, as sharply as the sign of its value
-    /// needs; `None` from `value` is a zero that cannot be looked for.
-    ///
-    /// * `reached`: magnitude of the value at which the zero counts as reached; such a probe is sharp.
-    /// * `goes_on`: the probe before was one for the same zero; it sharpens the prediction.
-    pub(super) fn probe_toward_zero<P: PathProblem + ?Sized>(
-        &mut self,
-        problem: &mut P,
-        step: f64,
-        (bracket, reached): (&Bracket, f64),
-        (place, goes_on): (f64, bool),
-        mut value: impl FnMut(&mut Candidate, &mut P) -> Option<f64>,
-    ) -> Result<f64, Doubt> {
-        self.predict_probe(place, goes_on);
-        let sharp = self.probing_limits(step);
-        let loose = Limits { tolerance: sharp.tolerance.max(LOOSE * bracket.width()), ..sharp };
-        self.correct_probe(problem, loose)?;
-        let mut found = value(&mut self.probe, problem).ok_or(Doubt::NotLocated)?;
-        let due = self.probe.correction_norm;
-        let in_doubt = bracket.slope() * (BEYOND_DOUBT * due).max(self.settings.correction_floor);
-        if due > sharp.tolerance && found.abs() <= in_doubt.max(reached) {
-            let (moved, iterations) = (self.probe.displacement + due, self.probe.iterations);
-            self.probe.point.copy_from_slice(&self.probe.node.point);
-            self.correct_probe(problem, sharp)?;
-            self.probe.displacement += moved;
-            self.probe.iterations += iterations;
-            found = value(&mut self.probe, problem).ok_or(Doubt::NotLocated)?;
-        }
-        self.best.node.copy_from(&self.probe.node);
-        Ok(found)
-    }
-
-    /// Predicts the probe at `σ` of the step by the polynomial through both ends, and through the best probe
-    /// so far if there is one (`goes_on`).
-    pub(super) fn predict_probe(&mut self, place: f64, goes_on: bool) {
-        let (weights, base, trial) = (&self.weights, self.state.history.base(), &self.trial.node);
-        let of = |point: &[f64]| progress(weights, &base.tangent, point, &base.point);
-        let (length, last) = (of(&trial.point), of(&self.best.node.point));
-        let out = &mut self.probe.point;
-        if goes_on && last > NEAR_END * length && length - last > NEAR_END * length {
-            predictor::hermite(weights, base, [trial, &self.best.node], place, out);
-        } else {
-            predictor::hermite(weights, base, [trial], place, out);
-        }
-    }
-
-    /// Corrects the probe in the plane across the tangent at the start of the step.
-    pub(super) fn correct_probe(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        limits: Limits,
-    ) -> Result<(), Doubt> {
-        self.probe
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)
-    }
 }
 
 #[cfg(test)]

@@ -7,14 +7,14 @@
 //! old tangent, linearised, moved onto the new piece and along its tangent, and corrected in the plane normal
 //! to the new tangent. The corner is where both straight lines meet.
 
-use super::{Arrival, Follower};
+use super::{arrival::Arrival, attempt::Attempt, finding::turned, locator::Locator};
 use crate::{
     corrector::{CorrectorError, Limits},
-    error::Doubt,
-    point::Events,
+    error::StepDoubt,
+    point::PathEvents,
     predictor::Node,
-    problem::PathProblem,
-    product::{add_scaled, product, progress, weigh},
+    product::{add_scaled, product, progress},
+    settings::Settings,
 };
 
 /// Distances of the probe ahead of the last point, in steps: the first that works is taken. The longer ones
@@ -24,164 +24,143 @@ const REACHES: [f64; 5] = [2.0, 8.0, 32.0, 128.0, 512.0];
 /// they gain little distance from the corner.
 const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 
-impl Follower {
-    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also
-    /// returns the length over which it was turned.
-    ///
-    /// # Errors
-    /// There is no corner that leads on.
-    pub(super) fn turn_corner(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-    ) -> Result<(Arrival, f64), Doubt> {
-        for advance in ADVANCES {
-            for length in REACHES.map(|reach| reach * step) {
-                if advance * length > self.settings.sheet_distance
-                    || self.step_behind_corner(problem, length, advance * length).is_err()
-                {
-                    continue;
-                }
-                if let Ok(arrival) = self.arrive_at_corner(problem, advance * length) {
-                    return Ok((arrival, length));
-                }
+/// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also
+/// returns the length over which it was turned.
+///
+/// # Errors
+/// There is no corner that leads on.
+pub(super) fn turn_corner(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+) -> Result<(Arrival, f64), StepDoubt> {
+    for advance in ADVANCES {
+        for length in REACHES.map(|reach| reach * attempt.step) {
+            if advance * length > attempt.settings().sheet_distance
+                || step_behind_corner(attempt, length, advance * length).is_err()
+            {
+                continue;
+            }
+            if let Ok(arrival) = arrive_at_corner(attempt, locator, advance * length) {
+                return Ok((arrival, length));
             }
         }
-        Err(Doubt::NotLocated)
     }
+    Err(StepDoubt::NotLocated)
+}
 
-    /// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind
-    /// the corner.
-    fn step_behind_corner(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        length: f64,
-        advance: f64,
-    ) -> Result<(), Doubt> {
-        self.probe_ahead(problem, length)?;
-        let direction = self.trial.node.tangent.clone();
-        weigh(&self.weights, &direction, &mut self.row);
-        self.trial.refactorise(problem, &self.weights, &self.row).map_err(Doubt::Corrector)?;
-        self.trial.apply_correction();
-        add_scaled(&mut self.trial.point, advance, &direction);
-        self.correct_behind_corner(problem, &direction, self.corner_limits(advance))
+/// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind the
+/// corner.
+fn step_behind_corner(attempt: &mut Attempt<'_>, length: f64, advance: f64) -> Result<(), StepDoubt> {
+    // Linearises on the old tangent, this far ahead.
+    attempt.border_across(&attempt.state.base().tangent);
+    attempt.put_ahead(length);
+    linearise(attempt)?;
+    let direction = attempt.trial.node.tangent.clone();
+    attempt.border_across(&direction);
+    attempt.refactorise().map_err(StepDoubt::Corrector)?;
+    attempt.trial.apply_correction();
+    add_scaled(&mut attempt.trial.point, advance, &direction);
+    let limits = limits(attempt.settings(), advance);
+    correct_behind_corner(attempt, &direction, limits)
+}
+
+/// Corrects the trial with the present border; its tangent must be about that of the probe.
+pub(super) fn correct_behind_corner(
+    attempt: &mut Attempt<'_>,
+    direction: &[f64],
+    limits: Limits,
+) -> Result<(), StepDoubt> {
+    attempt.correct(limits)?;
+    attempt.trial.orient(attempt.state.orientation);
+    let agrees = product(&attempt.frame.weights, &attempt.trial.node.tangent, direction) > 0.9;
+    if agrees { Ok(()) } else { Err(StepDoubt::NotLocated) }
+}
+
+/// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old
+/// tangent.
+pub(super) fn linearise(attempt: &mut Attempt<'_>) -> Result<(), StepDoubt> {
+    let first = attempt.linearise();
+    if first == Err(CorrectorError::SingularJacobian) {
+        attempt.refactorise_at_parameter().map_err(StepDoubt::Corrector)?;
+    } else {
+        first.map_err(StepDoubt::Corrector)?;
     }
+    attempt.trial.orient(attempt.state.orientation);
+    Ok(())
+}
 
-    /// Linearises on the old tangent, this far ahead.
-    fn probe_ahead(&mut self, problem: &mut (impl PathProblem + ?Sized), length: f64) -> Result<(), Doubt> {
-        let base = self.state.history.base();
-        weigh(&self.weights, &base.tangent, &mut self.row);
-        self.trial.point.copy_from_slice(&base.point);
-        add_scaled(&mut self.trial.point, length, &base.tangent);
-        self.linearise_trial(problem)
+fn limits(settings: &Settings, length: f64) -> Limits {
+    let loose = settings.correction_floor.max(0.01 * length);
+    Limits {
+        loose_tolerance: loose,
+        singular_tolerance: loose,
+        max_displacement: length,
+        ..settings.limits(length)
     }
+}
 
-    /// Corrects the trial with the present border; its tangent must be about that of the probe.
-    pub(super) fn correct_behind_corner(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        direction: &[f64],
-        limits: Limits,
-    ) -> Result<(), Doubt> {
-        self.trial
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)?;
-        self.trial.orient(self.state.orientation);
-        let agrees = product(&self.weights, &self.trial.node.tangent, direction) > 0.9;
-        if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
+/// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead, the
+/// trial itself, behind the turn, is the next point.
+fn arrive_at_corner(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    length: f64,
+) -> Result<Arrival, StepDoubt> {
+    let base = attempt.state.base();
+    let met = meeting(&attempt.frame.weights, base, &attempt.trial.node, length);
+    if let Some(back) = met.filter(|_| turns(attempt)) {
+        evaluate_corner(attempt, locator, back, length)?;
     }
+    arrive_behind_corner(attempt)
+}
 
-    /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old
-    /// tangent.
-    pub(super) fn linearise_trial(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), Doubt> {
-        let first = self.trial.linearise(problem, &self.weights, &self.row, &mut self.state.counters);
-        if first == Err(CorrectorError::SingularJacobian) {
-            self.trial.refactorise(problem, &self.weights, &self.parameter_row).map_err(Doubt::Corrector)?;
-        } else {
-            first.map_err(Doubt::Corrector)?;
-        }
-        self.trial.orient(self.state.orientation);
-        Ok(())
+/// The trial, with the tangent behind the corner, is the next point.
+pub(super) fn arrive_behind_corner(attempt: &mut Attempt<'_>) -> Result<Arrival, StepDoubt> {
+    if !attempt.is_in_range() {
+        return Err(StepDoubt::NotLocated);
     }
+    let after = attempt.trial.tangent_parameter();
+    let fold = turned(attempt, after);
+    let events = PathEvents { corner: turns(attempt), fold, ..PathEvents::default() };
+    Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+}
 
-    fn corner_limits(&self, length: f64) -> Limits {
-        Limits {
-            tolerance: self.settings.tolerance_at(length),
-            loose_tolerance: self.settings.correction_floor.max(0.01 * length),
-            singular_tolerance: self.settings.correction_floor.max(0.01 * length),
-            residual_floor: self.settings.residual_floor,
-            residual_tolerance: self.settings.residual_tolerance,
-            residual_wanted: self.settings.residual_wanted,
-            max_iterations: self.settings.max_iterations,
-            max_displacement: length,
-            max_angle: Some(self.settings.max_angle),
-        }
+/// Whether the tangent of the trial differs from that of its base by more than a step may turn.
+fn turns(attempt: &Attempt<'_>) -> bool {
+    let (base, trial) = (attempt.state.base(), &attempt.trial.node);
+    let cosine = product(&attempt.frame.weights, &base.tangent, &trial.tangent);
+    cosine < attempt.settings().max_angle.cos()
+}
+
+/// Evaluates the corner, this far back from the trial, and makes it the trial.
+fn evaluate_corner(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    back: f64,
+    length: f64,
+) -> Result<(), StepDoubt> {
+    locator.probe.point.copy_from_slice(&attempt.trial.node.point);
+    add_scaled(&mut locator.probe.point, -back, &attempt.trial.node.tangent);
+    border_both_sides(attempt);
+    let limits = Limits { max_angle: None, ..limits(attempt.settings(), length) };
+    locator.correct(attempt, limits).map_err(StepDoubt::Corrector)?;
+    locator.arrive(attempt);
+    let behind = &locator.probe;
+    attempt.trial.node.tangent.copy_from_slice(&behind.node.tangent);
+    attempt.trial.signature = behind.signature;
+    attempt.trial.log_determinant = behind.log_determinant;
+    Ok(())
+}
+
+/// On the corner the matrix may be that of either side: a border for both is the sum of their tangents,
+/// unless they are nearly opposite; then either serves.
+fn border_both_sides(attempt: &mut Attempt<'_>) {
+    let (weights, base) = (&attempt.frame.weights, attempt.state.base());
+    if product(weights, &base.tangent, &attempt.trial.node.tangent) < -0.5 {
+        return;
     }
-
-    /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead,
-    /// the trial itself, behind the turn, is the next point.
-    fn arrive_at_corner(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        length: f64,
-    ) -> Result<Arrival, Doubt> {
-        let base = self.state.history.base();
-        if let Some(back) = meeting(&self.weights, base, &self.trial.node, length).filter(|_| self.turns()) {
-            self.evaluate_corner(problem, back, length)?;
-        }
-        self.arrive_behind_corner(problem)
-    }
-
-    /// The trial, with the tangent behind the corner, is the next point.
-    pub(super) fn arrive_behind_corner(
-        &self,
-        problem: &(impl PathProblem + ?Sized),
-    ) -> Result<Arrival, Doubt> {
-        if !self.range.contains(self.trial.parameter()) {
-            return Err(Doubt::NotLocated);
-        }
-        let after = self.trial.tangent_parameter();
-        let fold = self.turned(problem, after);
-        let events = Events { corner: self.turns(), fold, ..Events::default() };
-        Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
-    }
-
-    /// Whether the tangent of the trial differs from that of its base by more than a step may turn.
-    fn turns(&self) -> bool {
-        let cosine = product(&self.weights, &self.state.history.base().tangent, &self.trial.node.tangent);
-        cosine < self.settings.max_angle.cos()
-    }
-
-    /// Evaluates the corner, this far back from the trial, and makes it the trial.
-    fn evaluate_corner(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        back: f64,
-        length: f64,
-    ) -> Result<(), Doubt> {
-        self.probe.point.copy_from_slice(&self.trial.node.point);
-        add_scaled(&mut self.probe.point, -back, &self.trial.node.tangent);
-        self.border_both_sides();
-        let limits = Limits { max_angle: None, ..self.corner_limits(length) };
-        let counters = &mut self.state.counters;
-        self.probe.correct(problem, &self.weights, &self.row, limits, counters).map_err(Doubt::Corrector)?;
-        std::mem::swap(&mut self.trial, &mut self.probe);
-        self.trial.node.tangent.copy_from_slice(&self.probe.node.tangent);
-        self.trial.signature = self.probe.signature;
-        self.trial.log_determinant = self.probe.log_determinant;
-        Ok(())
-    }
-
-    /// On the corner the matrix may be that of either side: a border for both is the sum of their tangents,
-    /// unless they are nearly opposite; then either serves.
-    fn border_both_sides(&mut self) {
-        let base = self.state.history.base();
-        if product(&self.weights, &base.tangent, &self.trial.node.tangent) < -0.5 {
-            return;
-        }
-        for (i, r) in self.row.iter_mut().enumerate() {
-            *r = self.weights[i] * (base.tangent[i] + self.trial.node.tangent[i]);
-        }
+    for (i, r) in attempt.row.iter_mut().enumerate() {
+        *r = weights[i] * (base.tangent[i] + attempt.trial.node.tangent[i]);
     }
 }
 

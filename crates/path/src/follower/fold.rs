@@ -1,62 +1,55 @@
 //! Locating a fold: the zero of `t_λ` on the way to the trial.
 
-use super::{Arrival, Follower, bracket::Bracket};
-use crate::{error::Doubt, problem::PathProblem, product::progress};
+use super::{
+    arrival::Arrival,
+    attempt::Attempt,
+    bracket::Bracket,
+    finding::parameter_slope,
+    locator::{Locator, Probing},
+};
+use crate::error::StepDoubt;
 
 /// Enough for bisection to reach rounding, were it needed.
 const MOST_PROBES: u32 = 60;
 
-impl Follower {
-    /// Ends the step at the fold before the trial: `|t_λ| ≤ fold_tolerance`, or a bracket of rounding.
-    pub(super) fn arrive_at_fold(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-    ) -> Result<Arrival, Doubt> {
-        let before = self.state.parameter_sign;
-        let slope = self.parameter_slope();
-        let start = before * (before * slope.start).max(f64::MIN_POSITIVE);
-        let mut bracket = Bracket::new((0.0, start), (self.trial_progress(), slope.end));
-        let mut sigma = bracket.width() * slope.root();
-        for probes in 0..MOST_PROBES {
-            self.probe_toward_zero(
-                problem,
-                step,
-                (&bracket, self.settings.fold_tolerance),
-                (sigma, probes > 0),
-                |probe, _| Some(probe.tangent_parameter()),
-            )?;
-            self.check_fold_probe(step)?;
-            let value = self.probe.tangent_parameter();
-            bracket.narrow(sigma, value);
-            if value.abs() <= self.settings.fold_tolerance
-                || bracket.uncertainty(value) <= self.settings.correction_floor
-            {
-                break;
-            }
-            sigma = bracket.next();
+/// Ends the step at the fold before the trial: `|t_λ| ≤ fold_tolerance`, or a bracket of rounding.
+pub(super) fn arrive_at_fold(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Arrival, StepDoubt> {
+    let frame = attempt.frame;
+    let (reached, floor) = (frame.settings.fold_tolerance, frame.settings.correction_floor);
+    let before = attempt.state.parameter_sign;
+    let slope = parameter_slope(attempt);
+    let start = before * (before * slope.start).max(f64::MIN_POSITIVE);
+    let mut bracket = Bracket::new((0.0, start), (attempt.progress(), slope.end));
+    let mut place = bracket.width() * slope.root();
+    for probes in 0..MOST_PROBES {
+        let probing = Probing { bracket: &bracket, reached, place, goes_on: probes > 0 };
+        let value =
+            locator.probe_toward_zero(attempt, &probing, |probe, _| Some(probe.tangent_parameter()))?;
+        check_probe(attempt, locator)?;
+        bracket.narrow(place, value);
+        if value.abs() <= reached || bracket.uncertainty(value) <= floor {
+            break;
         }
-        let uncertainty = bracket.uncertainty(self.probe.tangent_parameter());
-        std::mem::swap(&mut self.trial, &mut self.probe);
-        if !self.range.contains(self.trial.parameter()) {
-            return Err(Doubt::NotLocated);
-        }
-        let mut arrival = Arrival { parameter_sign: Some(-before), uncertainty, ..Arrival::default() };
-        arrival.events.fold = true;
-        Ok(arrival)
+        place = bracket.next();
     }
-
-    /// Length of the trial's step along the tangent of its base.
-    pub(super) fn trial_progress(&self) -> f64 {
-        let base = self.state.history.base();
-        progress(&self.weights, &base.tangent, &self.trial.node.point, &base.point)
+    let uncertainty = bracket.uncertainty(locator.probe.tangent_parameter());
+    locator.arrive(attempt);
+    if !attempt.is_in_range() {
+        return Err(StepDoubt::NotLocated);
     }
+    let mut arrival = Arrival { parameter_sign: Some(-before), uncertainty, ..Arrival::default() };
+    arrival.events.fold = true;
+    Ok(arrival)
+}
 
-    fn check_fold_probe(&mut self, step: f64) -> Result<(), Doubt> {
-        if self.probe.sign * self.state.orientation < 0.0 {
-            return Err(Doubt::Reversed);
-        }
-        let changed = self.probe.signature != self.state.current.signature;
-        if changed && step > self.settings.signature_step { Err(Doubt::Signature) } else { Ok(()) }
+fn check_probe(attempt: &Attempt<'_>, locator: &Locator) -> Result<(), StepDoubt> {
+    if locator.probe.sign * attempt.state.orientation < 0.0 {
+        return Err(StepDoubt::Reversed);
+    }
+    let changed = locator.probe.signature != attempt.state.current.signature;
+    if changed && attempt.step > attempt.settings().signature_step {
+        Err(StepDoubt::Signature)
+    } else {
+        Ok(())
     }
 }

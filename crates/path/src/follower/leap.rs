@@ -5,69 +5,55 @@
 //! A longer step, straight on, may be beyond doubt where no short one is. If the sign of the determinant is
 //! another one there, a branch point was passed, which is known to lie within the step.
 
-use super::{Arrival, Follower};
-use crate::{
-    error::Doubt,
-    point::Events,
-    problem::PathProblem,
-    product::{add_scaled, weigh},
+use super::{
+    arrival::Arrival,
+    attempt::Attempt,
+    finding::{check_defect, turned},
+    simpler::check_simpler,
 };
+use crate::{error::StepDoubt, point::PathEvents};
 
 /// Lengths that are tried, in shortest steps.
 const REACHES: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 
-impl Follower {
-    /// Passes a place at which short steps fail, in a longer one.
-    ///
-    /// # Errors
-    /// No such step goes straight on along the same arc.
-    pub(super) fn leap(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-    ) -> Result<(Arrival, f64), Doubt> {
-        for reach in REACHES {
-            let length = reach * self.settings.min_step;
-            if 0.1 * length > self.settings.sheet_distance {
-                break;
-            }
-            let arrival = self.leap_over(problem, length);
-            if let Ok(arrival) = arrival.and_then(|arrival| self.heed_simpler(problem, arrival)) {
-                return Ok((arrival, length));
-            }
+/// Passes a place at which short steps fail, in a longer one.
+///
+/// # Errors
+/// No such step goes straight on along the same arc.
+pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
+    for reach in REACHES {
+        let length = reach * attempt.settings().min_step;
+        if 0.1 * length > attempt.settings().sheet_distance {
+            break;
         }
-        Err(Doubt::NotLocated)
+        let arrival = leap_over(attempt, length);
+        if let Ok(arrival) = arrival.and_then(|arrival| check_simpler(attempt, arrival)) {
+            return Ok((arrival, length));
+        }
     }
+    Err(StepDoubt::NotLocated)
+}
 
-    fn leap_over(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        length: f64,
-    ) -> Result<Arrival, Doubt> {
-        let base = self.state.history.base();
-        weigh(&self.weights, &base.tangent, &mut self.row);
-        self.trial.point.copy_from_slice(&base.point);
-        add_scaled(&mut self.trial.point, length, &base.tangent);
-        let limits = self.limits(length);
-        self.trial
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)?;
-        if self.trial.signature != self.state.current.signature {
-            return Err(Doubt::Signature);
-        }
-        if !self.range.contains(self.trial.parameter()) {
-            return Err(Doubt::NotLocated);
-        }
-        // Without orienting it, the tangent goes on in the direction of the last one.
-        self.check_defect(length)?;
-        let branch_point = self.trial.sign * self.state.orientation < 0.0;
-        let slope = self.trial.tangent_parameter();
-        let fold = self.turned(problem, slope);
-        Ok(Arrival {
-            events: Events { branch_point, fold, ..Events::default() },
-            parameter_sign: fold.then(|| slope.signum()),
-            anchors_anew: branch_point,
-            uncertainty: length,
-            ..Arrival::default()
-        })
+fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoubt> {
+    attempt.border_across(&attempt.state.base().tangent);
+    attempt.put_ahead(length);
+    attempt.correct(attempt.limits(length))?;
+    if attempt.changes_signature() {
+        return Err(StepDoubt::Signature);
     }
+    if !attempt.is_in_range() {
+        return Err(StepDoubt::NotLocated);
+    }
+    // Without orienting it, the tangent goes on in the direction of the last one.
+    check_defect(attempt, length)?;
+    let branch_point = attempt.trial.sign * attempt.state.orientation < 0.0;
+    let slope = attempt.trial.tangent_parameter();
+    let fold = turned(attempt, slope);
+    Ok(Arrival {
+        events: PathEvents { branch_point, fold, ..PathEvents::default() },
+        parameter_sign: fold.then(|| slope.signum()),
+        anchors_anew: branch_point,
+        uncertainty: length,
+        ..Arrival::default()
+    })
 }

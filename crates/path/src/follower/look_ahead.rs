@@ -1,13 +1,13 @@
 //! Folds beside a simpler path, at which the sign of the slope says nothing yet.
 //!
-//! There a slope that has changed its sign may be rounding ([`Follower::turned`]), and where it no longer can
-//! be, some points later, the fold is passed. So a step at whose end the sign is another one but not beyond
-//! doubt is decided by what comes: the path is followed on, without its memory, until the parameter has
-//! turned beyond doubt, and then the first change of the sign was the fold; or until the old sign comes back,
-//! and then it was none.
+//! There a slope that has changed its sign may be rounding (`turned` in `finding.rs`), and where it no
+//! longer can be, some points later, the fold is passed. So a step at whose end the sign is another one
+//! but not beyond doubt is decided by what comes: the path is followed on, without its memory, until the
+//! parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old
+//! sign comes back, and then it was none.
 
 use super::{Follower, StepOutcome};
-use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem, settings::Settings};
+use crate::{corrector::CorrectorError, error::StepDoubt, problem::PathProblem, settings::Settings};
 
 /// Points after which a change of sign is still not beyond doubt that is none.
 const FARTHEST: usize = 200;
@@ -15,29 +15,26 @@ const FARTHEST: usize = 200;
 impl Follower {
     /// Whether the slope of the trial, which says nothing yet, is that behind a fold. The problem is
     /// evaluated at the trial again.
-    pub(super) fn turns_for_good(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-    ) -> Result<bool, Doubt> {
+    pub(super) fn turns_for_good(&mut self, problem: &mut dyn PathProblem) -> Result<bool, StepDoubt> {
         let sign = self.state.parameter_sign;
-        let before = self.state.history.base().tangent.last().map_or(0.0, |slope| slope * sign);
+        let before = self.state.base().tangent.last().map_or(0.0, |slope| slope * sign);
         if self.looks_ahead || before < 0.0 || self.trial.tangent_parameter() * sign >= 0.0 {
             return Ok(false);
         }
         // How many points a branch may have does not decide where its folds are.
-        let settings = Settings { max_points: u64::MAX, ..self.settings.clone() };
-        let mut ahead = Self::resume(problem, self.state.clone(), self.range, settings);
+        let settings = Settings { max_points: u64::MAX, ..self.frame.settings.clone() };
+        let mut ahead = Self::resume(problem, self.checkpoint(), self.frame.range, settings);
         ahead.looks_ahead = true;
         let turns = ahead.comes_to_turn(problem);
-        self.state.counters.evaluations = ahead.state.counters.evaluations + 1;
-        self.state.counters.factorisations = ahead.state.counters.factorisations;
+        self.counters.evaluations = ahead.counters.evaluations + 1;
+        self.counters.factorisations = ahead.counters.factorisations;
         let evaluated = problem.evaluate(&self.trial.point);
-        evaluated.map_err(|error| Doubt::Corrector(CorrectorError::Evaluation(error)))?;
+        evaluated.map_err(|error| StepDoubt::Corrector(CorrectorError::Evaluation(error)))?;
         Ok(turns)
     }
 
     /// Whether the path turns beyond doubt before its slope has the old sign again.
-    fn comes_to_turn(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> bool {
+    fn comes_to_turn(&mut self, problem: &mut dyn PathProblem) -> bool {
         for point in 0..FARTHEST {
             if self.step(problem) != StepOutcome::Accepted {
                 return false;

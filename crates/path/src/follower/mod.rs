@@ -1,20 +1,36 @@
 //! The follower: from one accepted point to the next.
+//!
+//! Its loop is short, and goes over three owners: where it is ([`PathState`]), a try (`Attempt`: the
+//! candidate for the next point), and the search for a place between the two (`Locator`).
+//!
+//! | a try | in |
+//! |---|---|
+//! | predicted, corrected | `attempt.rs` |
+//! | judged: what lies between, or in doubt | `finding.rs`, `simpler.rs`, `outside.rs`, `hidden_zeros.rs` |
+//! | ends at an event on its way | `fold.rs`, `branch_point.rs` with `beside.rs`, `zero.rs`, `change.rs` |
+//! | ends at an end of the branch | `range_end.rs`, `closing.rs` |
+//! | turns a corner, where no step is short enough | `corner.rs`, `known_corner.rs`, `root_corner.rs` |
+//! | passes another such place | `recut.rs`, `leap.rs` |
 
+mod arrival;
 mod attempt;
 mod beside;
 mod bracket;
 mod branch_point;
+mod change;
 mod closing;
 mod corner;
+mod direction;
+mod finding;
 mod fold;
-mod judge;
+mod hidden_zeros;
 mod known_corner;
 mod leap;
+mod locator;
 mod look_ahead;
 mod outside;
 mod range_end;
 mod recut;
-mod rescale;
 mod root_corner;
 mod simpler;
 mod start;
@@ -24,21 +40,41 @@ mod undecided;
 mod whole;
 mod zero;
 
+pub use direction::StartDirection;
 pub use known_corner::PassedCorner;
-pub use start::Direction;
 pub use whole::{Branch, TwoSidedBranch, follow, follow_both};
 
 use crate::{
     checkpoint::Checkpoint,
-    corrector::Candidate,
-    error::{Doubt, StopReason},
+    corrector::{Candidate, CorrectorError},
+    error::{PathStop, StepDoubt},
     memory::PathMemory,
-    point::{ContinuationPoint, Counters, Events},
+    point::{ContinuationPoint, Counters},
     predictor::best_predictor,
     problem::PathProblem,
     product::{distance, product},
     settings::{ParameterRange, Settings},
+    state::PathState,
+    test_record::TestRecord,
 };
+use arrival::Arrival;
+use attempt::{Attempt, Frame};
+use branch_point::arrive_at_branch_point;
+use change::arrive_at_change;
+use closing::arrive_at_start;
+use corner::turn_corner;
+use finding::Finding;
+use fold::arrive_at_fold;
+use known_corner::{Looks, turn_known_corner};
+use leap::leap;
+use locator::Locator;
+use outside::check_outside;
+use range_end::arrive_at_end;
+use recut::pass_recut;
+use root_corner::turn_root_corner;
+use simpler::check_simpler;
+use step_control::{Accepted, Attempts, next_step};
+use zero::{stop_at_zeros, zeros_at_once};
 
 /// What one call of [`Follower::step`] did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +82,7 @@ pub enum StepOutcome {
     /// [`Follower::current`] is a new point, and the problem was evaluated last exactly there.
     Accepted,
     /// The branch ended with the point accepted last. The problem may have been evaluated elsewhere.
-    Stopped(StopReason),
+    Stopped(PathStop),
 }
 
 /// Follows one path in one direction, one accepted point per call.
@@ -54,54 +90,19 @@ pub enum StepOutcome {
 /// Events are points of their own: the step ends at a fold or branch point that lies on its way.
 #[derive(Debug, Clone)]
 pub struct Follower {
-    settings: Settings,
-    range: ParameterRange,
-    weights: Vec<f64>,
-    state: Checkpoint,
+    frame: Frame,
+    state: PathState,
+    tests: TestRecord,
+    counters: Counters,
     memory: PathMemory,
-    /// The candidate for the next point.
+    /// The candidate for the next point, and its border.
     trial: Candidate,
-    /// Candidates between, while something is located.
-    probe: Candidate,
-    best: Candidate,
-    /// `W t₀`.
     row: Vec<f64>,
-    /// The border that keeps the parameter.
-    parameter_row: Vec<f64>,
-    /// The corner that the last step passed, where the problem computed it.
+    locator: Locator,
+    /// The corner that the last step passed, where the judge computed it.
     passed: Option<PassedCorner>,
     /// It is a copy that only looks where the path goes (`look_ahead.rs`).
     looks_ahead: bool,
-}
-
-/// A candidate that is to be accepted.
-#[derive(Debug, Clone, Copy, Default)]
-struct Arrival {
-    events: Events,
-    /// The branch ends here for this reason.
-    end: Option<StopReason>,
-    /// Earlier nodes of the predictor, for the order in the step control.
-    earlier: usize,
-    /// Sign of `t_λ` from here on, if it differs from that before.
-    parameter_sign: Option<f64>,
-    /// The sign of the determinant changes here while the direction of travel does not.
-    anchors_anew: bool,
-    /// Arc length within which an event was located.
-    uncertainty: f64,
-    /// Test functions that have not left their last zero yet.
-    zeros_near: u32,
-    /// Least and most number of multipliers outside the unit circle behind the candidate, if known.
-    outside: Option<(u32, u32)>,
-    /// Multipliers outside beside the zero that the candidate is, if it was looked for and they are known.
-    counted: Option<outside::Counted>,
-}
-
-/// What happened to the attempts at one step.
-#[derive(Debug, Clone, Copy)]
-struct Attempts {
-    rejected: u32,
-    retraced: u32,
-    most_earlier: usize,
 }
 
 /// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn,
@@ -111,9 +112,6 @@ pub const MOST_SHORT_STEPS: u64 = 5000;
 /// Share of the tolerance up to which the error of a predictor does not matter.
 const HARMLESS: f64 = 0.1;
 
-/// So many halvings of a step that meets an old stretch are enough to know that the jump was made earlier.
-const MOST_RETRACED: u32 = 8;
-
 impl Follower {
     /// The point accepted last; the start before the first step.
     #[must_use]
@@ -121,26 +119,38 @@ impl Follower {
         &self.state.current
     }
 
+    /// Where it is.
+    #[must_use]
+    pub fn state(&self) -> &PathState {
+        &self.state
+    }
+
+    /// The test functions at the last points.
+    #[must_use]
+    pub fn tests(&self) -> &TestRecord {
+        &self.tests
+    }
+
     /// Why the branch ended, if it did.
     #[must_use]
-    pub fn stop_reason(&self) -> Option<StopReason> {
+    pub fn stop_reason(&self) -> Option<PathStop> {
         self.state.stop
     }
 
     /// Work done since the start.
     #[must_use]
     pub fn counters(&self) -> Counters {
-        self.state.counters
+        self.counters
     }
 
     /// The settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
-        &self.settings
+        &self.frame.settings
     }
 
-    /// The corner between the point accepted last and the one before, if the problem computed it; not known
-    /// any more after a [`resume`](Self::resume).
+    /// The corner between the point accepted last and the one before, if the judge computed it; not known any
+    /// more after a [`resume`](Self::resume).
     #[must_use]
     pub fn passed_corner(&self) -> Option<&PassedCorner> {
         self.passed.as_ref()
@@ -148,64 +158,61 @@ impl Follower {
 
     /// All that is needed to continue later, but for the memory of the points.
     #[must_use]
-    pub fn checkpoint(&self) -> &Checkpoint {
-        &self.state
+    pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint { state: self.state.clone(), tests: self.tests.clone(), counters: self.counters }
     }
 
     /// Continues from a checkpoint; then [`remember`](Self::remember) all accepted points in order.
     #[must_use]
     pub fn resume(
-        problem: &(impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         checkpoint: Checkpoint,
         range: ParameterRange,
         settings: Settings,
     ) -> Self {
+        let Checkpoint { state, tests, counters } = checkpoint;
         let weights = problem.weights().to_vec();
         let length = weights.len();
-        let memory = PathMemory::new(&problem.memory_weights(), &settings);
+        let memory_weights = problem.judge().memory_weights();
+        let memory = PathMemory::new(memory_weights.as_ref().unwrap_or(&weights), &settings);
         let mut parameter_row = vec![0.0; length];
         parameter_row[length - 1] = 1.0;
-        let candidate = Candidate::new(length);
         Self {
-            settings,
-            range,
-            weights,
-            state: checkpoint,
+            frame: Frame { settings, range, weights, parameter_row },
+            state,
+            tests,
+            counters,
             memory,
-            trial: candidate.clone(),
-            probe: candidate.clone(),
-            best: candidate,
+            trial: Candidate::new(length),
             row: vec![0.0; length],
-            parameter_row,
+            locator: Locator::new(length),
             passed: None,
             looks_ahead: false,
         }
     }
 
     /// Adds a point that was accepted before the checkpoint, in the units of the start
-    /// ([`in_first_units`](Self::in_first_units)), to the memory; the start comes first. It may be one of
-    /// before a [`transfer`](Self::transfer).
+    /// ([`PathState::in_first_units`]), to the memory; the start comes first. It may be one of before a
+    /// [`transfer`](Self::transfer).
     pub fn remember(&mut self, point: &ContinuationPoint) {
         self.memory.remember(point, 1.0);
     }
 
+    /// The problem has made the units of its unknowns `factor` times as large.
+    pub fn rescale(&mut self, factor: f64) {
+        self.state.rescale(factor, &self.frame.weights, self.frame.settings.min_step);
+    }
+
     /// Goes to the next point of the path.
-    pub fn step(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> StepOutcome {
-        if self.state.stop.is_none() && self.state.counters.accepted >= self.settings.max_points {
-            self.state.stop = Some(StopReason::Budget);
-        }
-        let Counters { short_in_a_row: steps, .. } = self.state.counters;
-        if self.state.stop.is_none() && steps >= MOST_SHORT_STEPS {
-            self.state.stop = Some(StopReason::Crawls { parameter: self.state.current.parameter(), steps });
-        }
+    pub fn step(&mut self, problem: &mut dyn PathProblem) -> StepOutcome {
+        self.state.stop = self.state.stop.or_else(|| self.used_up());
         if let Some(reason) = self.state.stop {
             return StepOutcome::Stopped(reason);
         }
-        let evaluations = self.state.counters.evaluations;
+        let evaluations = self.counters.evaluations;
         match self.next_point(problem) {
             Ok(()) => {
-                self.heed_change_ahead(problem);
-                self.state.current.evaluations = self.state.counters.evaluations - evaluations;
+                self.state.current.evaluations = self.counters.evaluations - evaluations;
                 StepOutcome::Accepted
             }
             Err(reason) => {
@@ -215,137 +222,187 @@ impl Follower {
         }
     }
 
+    /// Why the branch ends here, if it has too many points, or does not get anywhere.
+    fn used_up(&self) -> Option<PathStop> {
+        let Counters { accepted, short_in_a_row: steps, .. } = self.counters;
+        if accepted >= self.frame.settings.max_points {
+            return Some(PathStop::Budget);
+        }
+        let parameter = self.state.current.parameter();
+        (steps >= MOST_SHORT_STEPS).then_some(PathStop::Crawls { parameter, steps })
+    }
+
     /// Attempts shorter and shorter steps until one is beyond doubt.
-    fn next_point(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), StopReason> {
-        let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: self.state.most_earlier };
-        let mut step = self.first_step();
-        let mut look = self.first_look_for_corner();
+    fn next_point(&mut self, problem: &mut dyn PathProblem) -> Result<(), PathStop> {
+        let mut attempts = Attempts::at(&self.frame, &self.state);
+        let mut looks = Looks::at(&self.frame, &self.state);
         self.passed = None;
         loop {
-            let attempt = self.attempt(problem, step, attempts.most_earlier);
-            let checked = attempt.and_then(|arrival| self.heed_simpler(problem, arrival));
-            let checked = checked.and_then(|arrival| self.heed_zeros(problem, step, arrival));
-            let doubt = match checked.and_then(|arrival| self.heed_outside(problem, step, arrival)) {
+            let doubt = match self.try_step(problem, attempts) {
                 Ok(arrival) => {
-                    self.accept(arrival, step, attempts);
+                    self.accept(arrival, attempts.step, attempts.rejected);
                     return Ok(());
                 }
                 Err(doubt) => doubt,
             };
-            self.state.counters.rejected += 1;
-            let shorter = self.shortened(step, doubt, &mut attempts);
-            if shorter < look {
-                look = self.next_look_for_corner(look);
-                if let Ok((arrival, length)) = self.turn_known_corner(problem, step) {
-                    let arrival = self.zeros_at_once(problem, arrival);
-                    self.accept(arrival, length, attempts);
-                    return Ok(());
-                }
-            }
-            self.give_up_if_retraced(doubt, shorter, attempts)?;
-            if shorter < self.settings.min_step {
-                let (arrival, length) =
-                    self.pass_by_force(problem, step).ok_or_else(|| self.too_short(step, doubt))?;
-                let arrival = self.zeros_at_once(problem, arrival);
-                self.accept(arrival, length, attempts);
+            let shorter = self.reject(doubt, &mut attempts);
+            if looks.is_due(shorter)
+                && let Ok((arrival, length)) = self.pass_known_corner(problem, attempts.step)
+            {
+                self.accept(arrival, length, attempts.rejected);
                 return Ok(());
             }
-            step = shorter;
+            if let Some(end) = attempts.retraces(&self.frame, &self.state, doubt, shorter) {
+                return Err(end);
+            }
+            if shorter < self.frame.settings.min_step {
+                let passed = self.pass_by_force(problem, attempts.step);
+                let (arrival, length) = passed.ok_or_else(|| self.too_short(attempts.step, doubt))?;
+                self.accept(arrival, length, attempts.rejected);
+                return Ok(());
+            }
+            attempts.step = shorter;
         }
+    }
+
+    /// A try at a step of this length, and the search for places on its way.
+    fn attempt<'a>(
+        &'a mut self,
+        problem: &'a mut dyn PathProblem,
+        step: f64,
+    ) -> (Attempt<'a>, &'a mut Locator) {
+        let attempt = Attempt {
+            frame: &self.frame,
+            state: &self.state,
+            memory: &self.memory,
+            tests: &mut self.tests,
+            counters: &mut self.counters,
+            problem,
+            trial: &mut self.trial,
+            row: &mut self.row,
+            step,
+        };
+        (attempt, &mut self.locator)
+    }
+
+    /// One try; on success the trial is the next point, and the problem evaluated there.
+    fn try_step(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, StepDoubt> {
+        let arrival = self.arrive(problem, attempts)?;
+        let (mut attempt, locator) = self.attempt(problem, attempts.step);
+        let arrival = check_simpler(&mut attempt, arrival)?;
+        let arrival = stop_at_zeros(&mut attempt, locator, arrival)?;
+        check_outside(&mut attempt, arrival)
+    }
+
+    /// Predicts, corrects, judges, and locates what the path itself shows on the way.
+    fn arrive(&mut self, problem: &mut dyn PathProblem, attempts: Attempts) -> Result<Arrival, StepDoubt> {
+        let (mut attempt, locator) = self.attempt(problem, attempts.step);
+        let earlier = attempt.predict(attempts.most_earlier);
+        if !attempt.is_in_range() {
+            return arrive_at_end(&mut attempt, attempts.most_earlier);
+        }
+        attempt.correct(attempt.limits(attempts.step))?;
+        if !attempt.is_in_range() {
+            return arrive_at_end(&mut attempt, attempts.most_earlier);
+        }
+        let mut finding = finding::find(&mut attempt, locator)?;
+        if finding == Finding::Regular && self.turns_for_good(problem)? {
+            finding = Finding::Fold;
+        }
+        let (mut attempt, locator) = self.attempt(problem, attempts.step);
+        match finding {
+            Finding::Regular if attempt.changes_signature() => {
+                arrive_at_change(&mut attempt, locator, earlier)
+            }
+            Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
+            Finding::Closing(image) => arrive_at_start(&mut attempt, locator, image),
+            Finding::Fold => arrive_at_fold(&mut attempt, locator),
+            Finding::Reversed => arrive_at_branch_point(&mut attempt, locator),
+        }
+    }
+
+    /// Gives up an attempt; length of the next one.
+    fn reject(&mut self, doubt: StepDoubt, attempts: &mut Attempts) -> f64 {
+        self.counters.rejected += 1;
+        if doubt == StepDoubt::Signature {
+            self.state.change_ahead = attempts.step;
+        }
+        attempts.reject(doubt, self.frame.settings.max_angle)
+    }
+
+    /// Turns a corner that the judge computes.
+    fn pass_known_corner(
+        &mut self,
+        problem: &mut dyn PathProblem,
+        step: f64,
+    ) -> Result<(Arrival, f64), StepDoubt> {
+        let (mut attempt, _) = self.attempt(problem, step);
+        let turned = turn_known_corner(&mut attempt)?;
+        let arrival = zeros_at_once(&mut attempt, turned.arrival);
+        self.passed = Some(turned.corner);
+        Ok((arrival, turned.length))
     }
 
     /// What is left when the shortest step is still in doubt: a corner, other equations on the same path, or
     /// a place that is known less well.
-    fn pass_by_force(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-    ) -> Option<(Arrival, f64)> {
-        self.turn_root_corner(problem, step)
-            .or_else(|_| self.turn_corner(problem, step))
-            .and_then(|(arrival, length)| Ok((self.heed_simpler(problem, arrival)?, length)))
-            .or_else(|_| self.pass_recut(problem, step))
-            .or_else(|_| self.leap(problem))
-            .ok()
+    fn pass_by_force(&mut self, problem: &mut dyn PathProblem, step: f64) -> Option<(Arrival, f64)> {
+        let (mut attempt, locator) = self.attempt(problem, step);
+        let attempt = &mut attempt;
+        let (arrival, length) = turn_root_corner(attempt, locator)
+            .or_else(|_| turn_corner(attempt, locator))
+            .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
+            .or_else(|_| pass_recut(attempt))
+            .or_else(|_| leap(attempt))
+            .ok()?;
+        Some((zeros_at_once(attempt, arrival), length))
     }
 
-    fn give_up_if_retraced(&self, doubt: Doubt, step: f64, attempts: Attempts) -> Result<(), StopReason> {
-        let Doubt::Retraced { arc_length } = doubt else { return Ok(()) };
-        if step < self.settings.min_step || attempts.retraced > MOST_RETRACED {
-            let parameter = self.state.current.parameter();
-            return Err(StopReason::RunsBack { parameter, met_arc_length: arc_length });
-        }
-        Ok(())
-    }
-
-    fn too_short(&self, step: f64, doubt: Doubt) -> StopReason {
+    fn too_short(&self, step: f64, doubt: StepDoubt) -> PathStop {
         let parameter = self.state.current.parameter();
         match doubt {
-            Doubt::Corrector(crate::CorrectorError::Evaluation(error)) => {
-                StopReason::EvaluationFailed { parameter, step, error }
+            StepDoubt::Corrector(CorrectorError::Evaluation(error)) => {
+                PathStop::EvaluationFailed { parameter, step, error }
             }
-            _ => StopReason::StepTooShort { parameter, step, residual: self.trial.residual_norm, doubt },
+            _ => PathStop::StepTooShort { parameter, step, residual: self.trial.residual_norm, doubt },
         }
     }
 
     /// Makes the trial, evaluated last and oriented, the current point.
-    fn accept(&mut self, arrival: Arrival, step: f64, attempts: Attempts) {
-        let state = &mut self.state;
+    fn accept(&mut self, arrival: Arrival, step: f64, rejected: u32) {
+        let Self { frame, state, tests, counters, trial, .. } = self;
+        let (weights, settings) = (&frame.weights, &frame.settings);
         let mut events = arrival.events;
-        events.signature_change = self.trial.signature != state.current.signature;
+        events.signature_change = trial.signature != state.current.signature;
         let base = state.history.base();
-        let chord = distance(&self.weights, &base.point, &self.trial.node.point);
-        let angle = product(&self.weights, &base.tangent, &self.trial.node.tangent).clamp(-1.0, 1.0).acos();
-        let errors = state.history.errors(&self.weights, &self.trial.node.point, &mut self.probe.point);
-        let arc_length = state.current.arc_length + chord * (1.0 + angle * angle / 24.0);
+        let chord = distance(weights, &base.point, &trial.node.point);
+        let angle = product(weights, &base.tangent, &trial.node.tangent).clamp(-1.0, 1.0).acos();
+        let errors = state.history.errors(weights, &trial.node.point, &mut self.locator.probe.point);
+        counters.accepted += 1;
+        let is_short = chord <= settings.crawl_step;
+        counters.short_in_a_row = if is_short { counters.short_in_a_row + 1 } else { 0 };
+        let left = state.current.events.zeros;
+        tests.go_on(&trial.tests, &trial.noted, left, arrival.zeros_near | arrival.events.zeros);
         if arrival.anchors_anew {
             state.orientation = -state.orientation;
         }
-        if let Some(sign) = arrival.parameter_sign {
-            state.parameter_sign = sign;
-        }
+        state.parameter_sign = arrival.parameter_sign.unwrap_or(state.parameter_sign);
+        state.outside = arrival.outside;
+        state.stop = arrival.end;
         if events.signature_change || events.branch_point || events.corner {
             state.history.used = 0;
         }
         state.change_ahead =
             if events.signature_change { 0.0 } else { (state.change_ahead - chord).max(0.0) };
-        state.history.push(&self.trial.node);
-        state.stop = arrival.end;
-        state.counters.accepted += 1;
-        let is_short = chord <= self.settings.crawl_step;
-        state.counters.short_in_a_row = if is_short { state.counters.short_in_a_row + 1 } else { 0 };
-        state.zeros_near = arrival.zeros_near | arrival.events.zeros;
-        std::mem::swap(&mut state.tests, &mut state.tests_before);
-        // Where a function was zero, what was noted is its value beyond.
-        let zeros = state.current.events.zeros;
-        let at_zero = state.tests_before.iter_mut().enumerate().filter(|(k, _)| zeros >> k & 1 == 1);
-        at_zero.for_each(|(_, test)| test.value = 0.0);
-        state.tests.clone_from(&self.trial.tests);
-        state.noted.clone_from(&self.trial.noted);
-        state.outside = arrival.outside;
+        state.history.push(&trial.node);
         // Where something else was located, the change of signature lies anywhere in the step.
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };
-        self.store(events, arrival.uncertainty.max(of_change), arc_length);
-        self.state.step_length = self.next_step(step, arrival, angle, attempts);
-        let next = self.state.step_length;
-        let harmless = HARMLESS * self.settings.tolerance_at(next);
-        self.state.most_earlier = best_predictor(&errors, next / chord, harmless);
-        self.memory.remember(&self.state.current, self.state.unit);
-    }
-
-    /// Copies the trial into the current point.
-    fn store(&mut self, events: Events, uncertainty: f64, arc_length: f64) {
-        let orientation = self.state.orientation;
-        let (current, trial) = (&mut self.state.current, &self.trial);
-        current.point.copy_from_slice(&trial.point);
-        current.tangent.copy_from_slice(&trial.node.tangent);
-        current.arc_length = arc_length;
-        current.signature = trial.signature;
-        current.orientation = orientation;
-        current.log_determinant = trial.log_determinant;
-        current.correction_norm = trial.correction_norm;
-        current.residual_norm = trial.residual_norm;
-        current.events = events;
-        current.uncertainty = uncertainty;
+        let arc_length = state.current.arc_length + chord * (1.0 + angle * angle / 24.0);
+        let uncertainty = arrival.uncertainty.max(of_change);
+        state.arrive(trial, arc_length, (events, uncertainty));
+        let accepted = Accepted { trial, step, angle, earlier: arrival.earlier, rejected };
+        state.step_length = next_step(frame, state, &accepted);
+        let harmless = HARMLESS * settings.tolerance_at(state.step_length);
+        state.most_earlier = best_predictor(&errors, state.step_length / chord, harmless);
+        self.memory.remember(&state.current, state.unit);
     }
 }

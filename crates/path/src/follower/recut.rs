@@ -4,59 +4,38 @@
 //! run opposite ways beside each other would look the same within one step; they must therefore be excluded
 //! by a look ahead.
 
-use super::{Arrival, Follower};
-use crate::{
-    corrector::Limits,
-    error::Doubt,
-    problem::PathProblem,
-    product::{add_scaled, weigh},
-};
+use super::{arrival::Arrival, attempt::Attempt, finding::check_defect};
+use crate::{corrector::Limits, error::StepDoubt};
 
 /// How far ahead the path must go on straight, in steps.
 const LOOK_AHEAD: f64 = 1e3;
 
-impl Follower {
-    /// Passes a change of signature at which the determinant changes its sign without a branch point, in a
-    /// step of the shortest length, and anchors the orientation anew.
-    ///
-    /// # Errors
-    /// The path does not go on straight: the branch stops.
-    pub(super) fn pass_recut(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
-    ) -> Result<(Arrival, f64), Doubt> {
-        weigh(&self.weights, &self.state.history.base().tangent, &mut self.row);
-        self.correct_ahead(problem, LOOK_AHEAD * step, step)?;
-        let ahead = (self.trial.sign, self.trial.signature);
-        self.correct_ahead(problem, step, step)?;
-        let recut = ahead == (self.trial.sign, self.trial.signature)
-            && self.trial.sign * self.state.orientation < 0.0
-            && self.trial.signature != self.state.current.signature;
-        if !recut {
-            return Err(Doubt::Reversed);
-        }
-        self.check_defect(step)?;
-        Ok((Arrival { anchors_anew: true, ..Arrival::default() }, step))
+/// Passes a change of signature at which the determinant changes its sign without a branch point, in a
+/// step of the shortest length, and anchors the orientation anew.
+///
+/// # Errors
+/// The path does not go on straight: the branch stops.
+pub(super) fn pass_recut(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
+    let step = attempt.step;
+    attempt.border_across(&attempt.state.base().tangent);
+    correct_ahead(attempt, LOOK_AHEAD * step)?;
+    let ahead = (attempt.trial.sign, attempt.trial.signature);
+    correct_ahead(attempt, step)?;
+    let recut = ahead == (attempt.trial.sign, attempt.trial.signature)
+        && attempt.trial.sign * attempt.state.orientation < 0.0
+        && attempt.changes_signature();
+    if !recut {
+        return Err(StepDoubt::Reversed);
     }
+    check_defect(attempt, step)?;
+    Ok((Arrival { anchors_anew: true, ..Arrival::default() }, step))
+}
 
-    /// Corrects the trial in the plane this far ahead, with the displacement allowed for the step.
-    fn correct_ahead(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        distance: f64,
-        step: f64,
-    ) -> Result<(), Doubt> {
-        let base = self.state.history.base();
-        self.trial.point.copy_from_slice(&base.point);
-        add_scaled(&mut self.trial.point, distance, &base.tangent);
-        let bend = distance * distance;
-        let limits = Limits {
-            max_displacement: self.settings.allowed_displacement(step) + bend,
-            ..self.limits(distance)
-        };
-        self.trial
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)
-    }
+/// Corrects the trial in the plane this far ahead, with the displacement allowed for the step.
+fn correct_ahead(attempt: &mut Attempt<'_>, distance: f64) -> Result<(), StepDoubt> {
+    attempt.put_ahead(distance);
+    let bend = distance * distance;
+    let allowed = attempt.settings().allowed_displacement(attempt.step) + bend;
+    let limits = Limits { max_displacement: allowed, ..attempt.limits(distance) };
+    attempt.correct(limits)
 }

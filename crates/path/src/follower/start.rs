@@ -1,34 +1,17 @@
 //! The first point of a branch.
 
-use super::Follower;
+use super::{Follower, direction::StartDirection};
 use crate::{
     checkpoint::Checkpoint,
     corrector::{Candidate, Limits},
-    error::{PathError, StopReason},
-    point::{ContinuationPoint, Counters, Events},
-    predictor::{History, MOST_EARLIER_NODES},
+    error::{PathError, PathStop},
+    point::{ContinuationPoint, Counters, PathEvents},
     problem::PathProblem,
     product::{norm, scale, weigh},
     settings::{ParameterRange, Settings},
+    state::PathState,
+    test_record::TestRecord,
 };
-
-/// Where a branch sets out from its start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Direction<'a> {
-    /// The parameter increases at first. The start is corrected at fixed parameter.
-    Increasing,
-    /// The parameter decreases at first. The start is corrected at fixed parameter.
-    Decreasing,
-    /// Along this vector `v`, length `n + 1`: the start is corrected in the plane `⟨v, z − z_start⟩ = 0`, and
-    /// the tangent has `⟨v, t⟩ > 0`. For starts at folds and beside branch points.
-    Along(&'a [f64]),
-}
-
-impl Direction<'_> {
-    fn sign(self) -> f64 {
-        if self == Direction::Decreasing { -1.0 } else { 1.0 }
-    }
-}
 
 impl Follower {
     /// Corrects the start, after which the problem is evaluated at [`current`](Self::current).
@@ -38,9 +21,9 @@ impl Follower {
     /// # Errors
     /// [`PathError`]: the start is outside the range or not near the path, or input has the wrong length.
     pub fn start(
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         start: &[f64],
-        direction: Direction<'_>,
+        direction: StartDirection<'_>,
         range: ParameterRange,
         settings: Settings,
     ) -> Result<Self, PathError> {
@@ -54,27 +37,23 @@ impl Follower {
         trial.point.copy_from_slice(start);
         let parameter = trial.parameter();
         let mut counters = Counters::default();
-        let limits = start_limits(&settings);
         trial
-            .correct(problem, &weights, &row, limits, &mut counters)
+            .correct(problem, &weights, &row, start_limits(&settings), &mut counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;
-        problem.tests(&mut trial.tests);
-        problem.note(&mut trial.noted);
+        let mut tests = TestRecord::default();
+        problem.tests(&[], &mut tests.values);
+        problem.judge().note(&mut tests.noted);
         check_inside(trial.parameter(), range)?;
         scale(&mut trial.node.tangent, direction.sign());
-        let mut state = first_state(&trial, direction.sign(), &settings, counters);
-        state.outside = problem.outside(Events::default()).map(|here| (here.least, here.most));
-        let mut follower = Self::resume(problem, state, range, settings);
-        follower.stop_if_leaving();
+        let current = first_point(&trial, direction.sign(), counters);
+        let mut state = PathState::at_start(current, &trial.node, settings.initial_step);
+        state.outside = problem.judge().outside(PathEvents::default()).map(|here| (here.least, here.most));
+        if state.current.parameter() == range.end_ahead(state.parameter_sign) {
+            state.stop = Some(PathStop::RangeEnd);
+        }
+        let mut follower = Self::resume(problem, Checkpoint { state, tests, counters }, range, settings);
         follower.memory.remember(&follower.state.current, 1.0);
         Ok(follower)
-    }
-
-    fn stop_if_leaving(&mut self) {
-        let end = self.range.end_ahead(self.state.parameter_sign);
-        if self.state.current.parameter() == end {
-            self.state.stop = Some(StopReason::RangeEnd);
-        }
     }
 }
 
@@ -89,10 +68,10 @@ fn check_inside(parameter: f64, range: ParameterRange) -> Result<(), PathError> 
     Err(PathError::StartOutsideRange { parameter, low: range.low(), high: range.high() })
 }
 
-pub(super) fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
+pub(super) fn first_border(direction: StartDirection<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
     let length = weights.len();
     let mut row = vec![0.0; length];
-    if let Direction::Along(vector) = direction {
+    if let StartDirection::Along(vector) = direction {
         check_length(vector.len(), length)?;
         weigh(weights, vector, &mut row);
         scale(&mut row, 1.0 / norm(weights, vector));
@@ -104,51 +83,30 @@ pub(super) fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<
 
 pub(super) fn start_limits(settings: &Settings) -> Limits {
     Limits {
-        tolerance: settings.tolerance_at(0.0),
         loose_tolerance: settings.correction_tolerance,
-        // Beside a branch point rounding leaves corrections along the other branch; without damping, along what
-        // the matrix hardly holds.
+        // Beside a branch point rounding leaves corrections along the other branch; without damping, along
+        // what the matrix hardly holds.
         singular_tolerance: settings.correction_tolerance.max(0.01 * settings.initial_step),
-        residual_floor: settings.residual_floor,
-        residual_tolerance: settings.residual_tolerance,
-        residual_wanted: settings.residual_wanted,
         max_iterations: 5 * settings.max_iterations,
         max_displacement: f64::INFINITY,
         max_angle: None,
+        ..settings.limits(0.0)
     }
 }
 
 /// The orientation is that of the border times the sign of the direction.
-fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Counters) -> Checkpoint {
-    let length = trial.point.len();
-    let mut current = ContinuationPoint::empty(length);
-    current.point.copy_from_slice(&trial.point);
-    current.tangent.copy_from_slice(&trial.node.tangent);
-    current.signature = trial.signature;
-    current.orientation = trial.sign * sign;
-    current.log_determinant = trial.log_determinant;
-    current.correction_norm = trial.correction_norm;
-    current.residual_norm = trial.residual_norm;
-    current.events = Events::default();
-    current.evaluations = counters.evaluations;
-    let mut history = History::new(length);
-    history.push(&trial.node);
-    Checkpoint {
-        start: current.clone(),
-        history,
-        most_earlier: MOST_EARLIER_NODES,
-        step_length: settings.initial_step,
-        orientation: current.orientation,
-        parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
-        tests: trial.tests.clone(),
-        tests_before: Vec::new(),
-        noted: trial.noted.clone(),
-        zeros_near: 0,
-        outside: None,
-        unit: 1.0,
-        change_ahead: 0.0,
-        counters,
-        stop: None,
-        current,
+fn first_point(trial: &Candidate, sign: f64, counters: Counters) -> ContinuationPoint {
+    ContinuationPoint {
+        point: trial.point.clone(),
+        tangent: trial.node.tangent.clone(),
+        arc_length: 0.0,
+        signature: trial.signature,
+        orientation: trial.sign * sign,
+        log_determinant: trial.log_determinant,
+        correction_norm: trial.correction_norm,
+        residual_norm: trial.residual_norm,
+        events: PathEvents::default(),
+        uncertainty: 0.0,
+        evaluations: counters.evaluations,
     }
 }

@@ -3,7 +3,7 @@
 //! A problem may change its unknowns on the way, as when a boundary value problem is cut into more pieces.
 //! What a follower knows is carried over: the start, against which a closed path is recognised; the arc
 //! length, the counters, the sense of the parameter and of the determinant; and the memory, which holds only
-//! the part of the unknowns that stays ([`PathProblem::memory_weights`]).
+//! the part of the unknowns that stays ([`Judge::memory_weights`](crate::Judge::memory_weights)).
 //!
 //! Where nothing of the unknowns stays, the memory begins anew ([`Follower::transfer_afresh`]): what was
 //! walked before is then not recognised again. The start may have no unknowns of the new kind; it is out of
@@ -11,12 +11,13 @@
 
 use super::{
     Follower,
+    direction::StartDirection,
     start::{check_length, first_border, start_limits},
 };
 use crate::{
+    checkpoint::Checkpoint,
     corrector::Candidate,
     error::PathError,
-    follower::Direction,
     point::{ContinuationPoint, Counters},
     predictor::{History, Node},
     problem::PathProblem,
@@ -38,7 +39,7 @@ impl Follower {
     /// [`PathError::WrongLength`]; the follower is then as it was.
     pub fn transfer(
         &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         current: &Node,
         start: Option<&Node>,
     ) -> Result<(), PathError> {
@@ -59,11 +60,11 @@ impl Follower {
     /// Those of [`transfer`](Self::transfer).
     pub fn transfer_afresh(
         &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         current: &Node,
         start: Option<(&Node, &ContinuationPoint)>,
     ) -> Result<(), PathError> {
-        let mut counters = self.state.counters;
+        let mut counters = self.counters;
         let start = match start {
             Some((start, old)) => self.in_new_unknowns(problem, start, old, &mut counters)?.0,
             None => out_of_reach(problem.weights().len()),
@@ -72,20 +73,14 @@ impl Follower {
         let mut state = self.state.clone();
         state.history = History::new(current.point.len());
         state.history.push(&node);
-        state.step_length = state.step_length.min(self.settings.initial_step);
-        state.counters = counters;
+        state.step_length = state.step_length.min(self.frame.settings.initial_step);
         state.stop = None;
         (state.start, state.current) = (start, current);
         let unit = state.unit;
-        *self = Self::resume(problem, state, self.range, self.settings.clone());
+        let checkpoint = Checkpoint { state, tests: self.tests.clone(), counters };
+        *self = Self::resume(problem, checkpoint, self.frame.range, self.frame.settings.clone());
         self.memory.remember(&self.state.current, unit);
         Ok(())
-    }
-
-    /// Whether the start has the present unknowns, so that a path that comes back to it is seen to close.
-    #[must_use]
-    pub fn has_start(&self) -> bool {
-        self.state.start.parameter().is_finite()
     }
 
     /// Forgets all points so far, as [`transfer_afresh`](Self::transfer_afresh) did; for
@@ -97,19 +92,19 @@ impl Follower {
     /// The old point in the new unknowns, and the node of the predictor there.
     fn in_new_unknowns(
         &self,
-        problem: &mut (impl PathProblem + ?Sized),
+        problem: &mut dyn PathProblem,
         guess: &Node,
         old: &ContinuationPoint,
         counters: &mut Counters,
     ) -> Result<(ContinuationPoint, Node), PathError> {
         let weights = problem.weights().to_vec();
         check_length(guess.point.len(), weights.len())?;
-        let row = first_border(Direction::Along(&guess.tangent), &weights)?;
+        let row = first_border(StartDirection::Along(&guess.tangent), &weights)?;
         let mut trial = Candidate::new(weights.len());
         trial.point.copy_from_slice(&guess.point);
         let parameter = trial.parameter();
         trial
-            .correct(problem, &weights, &row, start_limits(&self.settings), counters)
+            .correct(problem, &weights, &row, start_limits(&self.frame.settings), counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;
         if trial.sign * old.orientation < 0.0 {
             return Err(PathError::OtherOrientation { parameter });

@@ -10,67 +10,57 @@
 //! one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and
 //! nothing has happened. Nor has anything where it leaves zero after a stretch of it.
 
-use super::Follower;
-use crate::{
-    error::Doubt,
-    problem::{PathProblem, TestValue},
-};
+use super::attempt::Attempt;
+use crate::{error::StepDoubt, problem::TestValue};
 
-impl Follower {
-    /// Makes the test functions of the last point and of the trial, where they were just asked for,
-    /// comparable; bits of those that are not.
-    pub(super) fn leave_undecided_out(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-    ) -> Result<u32, Doubt> {
-        let pairs = || self.state.tests.iter().zip(&self.trial.tests);
-        if pairs().all(|(before, after)| before.left_out == 0 && before.undecided >= after.undecided)
-            && pairs().all(|(before, after)| before.undecided.min(after.undecided) == 0)
-        {
-            return Ok(0);
-        }
-        let rule: Vec<u32> = pairs().map(|(before, after)| before.undecided.min(after.undecided)).collect();
-        problem.tests_without(&rule, &mut self.trial.tests);
-        self.compare_last_point_without(problem, &rule)?;
-        let mut apart = 0;
-        for (index, (before, after)) in self.state.tests.iter().zip(&mut self.trial.tests).enumerate() {
-            let enters = after.undecided > before.undecided;
-            if enters && before.left_out == rule[index] {
-                after.count = before.count;
-                after.value = after.value.abs().copysign(before.value);
-            }
-            if enters || before.left_out != rule[index] {
-                apart |= 1 << index;
-            }
-        }
-        Ok(apart)
+/// Makes the test functions of the last point and of the trial, where they were just asked for, comparable;
+/// bits of those that are not.
+pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>) -> Result<u32, StepDoubt> {
+    let all_known = |(before, after): (&TestValue, &TestValue)| {
+        before.left_out == 0
+            && before.undecided >= after.undecided
+            && before.undecided.min(after.undecided) == 0
+    };
+    if attempt.tests.pairs(&attempt.trial.tests).all(all_known) {
+        return Ok(0);
     }
+    let pairs = attempt.tests.pairs(&attempt.trial.tests);
+    let rule: Vec<u32> = pairs.map(|(before, after)| before.undecided.min(after.undecided)).collect();
+    attempt.problem.tests(&rule, &mut attempt.trial.tests);
+    compare_last_point_without(attempt, &rule)?;
+    let mut apart = 0;
+    for (index, (before, after)) in attempt.tests.values.iter().zip(&mut attempt.trial.tests).enumerate() {
+        let enters = after.undecided > before.undecided;
+        if enters && before.left_out == rule[index] {
+            after.count = before.count;
+            after.value = after.value.abs().copysign(before.value);
+        }
+        if enters || before.left_out != rule[index] {
+            apart |= 1 << index;
+        }
+    }
+    Ok(apart)
+}
 
-    /// Asks for the test functions of the last point anew where more of them is to be left out; the problem
-    /// is evaluated at the trial behind.
-    fn compare_last_point_without(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        rule: &[u32],
-    ) -> Result<(), Doubt> {
-        if self.state.tests.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
-            return Ok(());
-        }
-        let mut values: Vec<TestValue> = Vec::new();
-        self.state.counters.evaluations += 1;
-        problem.evaluate(&self.state.current.point).map_err(|error| Doubt::Corrector(error.into()))?;
-        problem.tests_without(rule, &mut values);
-        for ((before, value), left_out) in self.state.tests.iter_mut().zip(values).zip(rule) {
-            if before.left_out < *left_out {
-                *before = value;
-            }
-        }
-        self.return_to_trial(problem)?;
-        Ok(())
+/// Asks for the test functions of the last point anew where more of them is to be left out; the problem is
+/// evaluated at the trial behind.
+fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<(), StepDoubt> {
+    let known = &attempt.tests.values;
+    if known.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
+        return Ok(());
     }
+    let mut values: Vec<TestValue> = Vec::new();
+    attempt.evaluate(&attempt.state.current.point)?;
+    attempt.problem.tests(rule, &mut values);
+    for ((before, value), left_out) in attempt.tests.values.iter_mut().zip(values).zip(rule) {
+        if before.left_out < *left_out {
+            *before = value;
+        }
+    }
+    attempt.return_to_trial()
+}
 
-    /// So many things each test function of the trial leaves out.
-    pub(super) fn left_out(&self) -> Vec<u32> {
-        self.trial.tests.iter().map(|test| test.left_out).collect()
-    }
+/// So many things each of these test functions leaves out.
+pub(super) fn left_out(tests: &[TestValue]) -> Vec<u32> {
+    tests.iter().map(|test| test.left_out).collect()
 }

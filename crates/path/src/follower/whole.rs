@@ -1,8 +1,8 @@
 //! A whole branch at once, for small problems and tests.
 
-use super::{Direction, Follower, StepOutcome};
+use super::{Follower, StepOutcome, direction::StartDirection};
 use crate::{
-    error::{PathError, StopReason},
+    error::{PathError, PathStop},
     point::{ContinuationPoint, Counters},
     problem::PathProblem,
     product::scale,
@@ -15,7 +15,7 @@ pub struct Branch {
     /// All points in the order of travel, the start first.
     pub points: Vec<ContinuationPoint>,
     /// Why it ended.
-    pub stop: StopReason,
+    pub stop: PathStop,
     /// Work done.
     pub counters: Counters,
 }
@@ -41,9 +41,9 @@ pub struct TwoSidedBranch {
     /// Index of the start.
     pub start: usize,
     /// Why the backward direction ended; `Closed` without points of its own if the forward direction closed.
-    pub backward: StopReason,
+    pub backward: PathStop,
     /// Why the forward direction ended.
-    pub forward: StopReason,
+    pub forward: PathStop,
 }
 
 /// Follows a path from its start to its end.
@@ -51,9 +51,9 @@ pub struct TwoSidedBranch {
 /// # Errors
 /// As [`Follower::start`].
 pub fn follow(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     start: &[f64],
-    direction: Direction<'_>,
+    direction: StartDirection<'_>,
     range: ParameterRange,
     settings: Settings,
 ) -> Result<Branch, PathError> {
@@ -72,17 +72,17 @@ pub fn follow(
 /// # Errors
 /// As [`Follower::start`].
 pub fn follow_both(
-    problem: &mut (impl PathProblem + ?Sized),
+    problem: &mut dyn PathProblem,
     start: &[f64],
     range: ParameterRange,
     settings: Settings,
 ) -> Result<TwoSidedBranch, PathError> {
-    let forward = follow(problem, start, Direction::Increasing, range, settings.clone())?;
-    if forward.stop == StopReason::Closed {
-        let stop = StopReason::Closed;
+    let forward = follow(problem, start, StartDirection::Increasing, range, settings.clone())?;
+    if forward.stop == PathStop::Closed {
+        let stop = PathStop::Closed;
         return Ok(TwoSidedBranch { points: forward.points, start: 0, backward: stop, forward: stop });
     }
-    let backward = follow(problem, start, Direction::Decreasing, range, settings)?;
+    let backward = follow(problem, start, StartDirection::Decreasing, range, settings)?;
     let mut points: Vec<_> = backward.points.into_iter().skip(1).rev().map(reversed).collect();
     let start = points.len();
     points.extend(forward.points);

@@ -7,11 +7,12 @@
 )]
 
 use hammerbeam_path::{
-    Branch, ContinuationPoint, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason,
+    Branch, ContinuationPoint, DenseProblem, ParameterRange, PathProblem, PathStop, Settings, StartDirection,
     follow,
 };
 
-/// What a problem leaves to the one in its field: all that has no default, or all but `evaluate`.
+/// What a problem leaves to the one in its field: all that has no default, or all but `evaluate`. It is
+/// its own judge.
 macro_rules! left_to {
     ($inner:tt) => {
         left_to!($inner but evaluate);
@@ -37,6 +38,9 @@ macro_rules! left_to {
         }
         fn solve(&self, right_hand_side: &mut [f64]) {
             self.$inner.solve(right_hand_side);
+        }
+        fn judge(&mut self) -> &mut dyn hammerbeam_path::Judge {
+            self
         }
     };
 }
@@ -125,7 +129,7 @@ pub fn steps_of(max_parameter_step: f64) -> Settings {
 
 /// Follows with increasing parameter; panics with the reason if the start fails.
 pub fn up(problem: &mut impl PathProblem, start: &[f64], low: f64, high: f64, settings: Settings) -> Branch {
-    follow(problem, start, Direction::Increasing, range(low, high), settings).unwrap()
+    follow(problem, start, StartDirection::Increasing, range(low, high), settings).unwrap()
 }
 
 pub fn down(
@@ -135,7 +139,7 @@ pub fn down(
     high: f64,
     settings: Settings,
 ) -> Branch {
-    follow(problem, start, Direction::Decreasing, range(low, high), settings).unwrap()
+    follow(problem, start, StartDirection::Decreasing, range(low, high), settings).unwrap()
 }
 
 /// Parameters of the folds in the order of travel.
@@ -152,7 +156,7 @@ pub fn assert_monotone(branch: &Branch, place: impl Fn(&[f64]) -> f64) {
 }
 
 pub fn assert_reached_end(branch: &Branch, parameter: f64) {
-    assert_eq!(branch.stop, StopReason::RangeEnd);
+    assert_eq!(branch.stop, PathStop::RangeEnd);
     assert_eq!(branch.points.last().unwrap().parameter(), parameter, "bit by bit");
 }
 

@@ -6,71 +6,34 @@
 //! unknowns with all that it knows: a loop still closes at its start. Neither the orientation of the path nor
 //! its memory, which holds first nodes alone, depends on the number of segments.
 
-use hammerbeam_motion::Stretch;
-use hammerbeam_path::{ContinuationPoint, Node};
-
-use crate::{BranchWalk, OrbitError, cut::begins_with_care, shooting::ShootingProblem};
+use super::{halves::cut_in_halves, orbit_path::OrbitPath, refine::refine};
+use crate::{OrbitError, cut::begins_with_care};
 
 /// Segments become this many times as many,
 const FACTOR: usize = 4;
 /// up to this number.
 const MOST: usize = 64;
 
-impl BranchWalk {
-    /// Goes on from the present point with more segments; false if there are enough already, or if neither
-    /// point is found with more.
-    pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
-        let segments = self.problem.segments();
-        if begins_with_care(self.problem.system()) {
-            return Ok(self.cut_in_halves());
-        }
-        if segments * FACTOR > MOST {
-            return Ok(false);
-        }
-        let current = refine(&mut self.problem, self.follower.current(), FACTOR)?;
-        let start = refine(&mut self.problem, &self.follower.checkpoint().start, FACTOR)?;
-        self.problem.set_segments(segments * FACTOR);
-        if self.follower.transfer(&mut self.problem, &current, Some(&start)).is_err() {
-            // The walk stays where it was; its own reason to stop is told.
-            self.problem.set_segments(segments);
-            return Ok(false);
-        }
-        Ok(true)
+/// Goes on from the present point with more segments; false if there are enough already, or if neither
+/// point is found with more.
+pub(super) fn resegment(path: &mut OrbitPath) -> Result<bool, OrbitError> {
+    let OrbitPath { problem, follower, .. } = path;
+    let segments = problem.segments();
+    if begins_with_care(problem.system()) {
+        return Ok(cut_in_halves(path));
     }
-}
-
-/// Point and tangent with every segment cut into `factor`.
-pub(crate) fn refine(
-    problem: &mut ShootingProblem,
-    at: &ContinuationPoint,
-    factor: usize,
-) -> Result<Node, OrbitError> {
-    let (point, tangent) = (&at.point, &at.tangent);
-    let (size, old) = (problem.node_size(), problem.segments());
-    let (frequency_hz, last_tangent) = (problem.frequency(point), tangent[old * size]);
-    problem.move_to(point)?;
-    let scales = problem.scale().values().to_vec();
-    let unscaled = |values: &[f64]| values.iter().zip(&scales).map(|(x, s)| x * s).collect::<Vec<f64>>();
-    let (mut points, mut tangents) = (Vec::new(), Vec::new());
-    for segment in 0..old {
-        let stretch = problem.stretch(segment, frequency_hz);
-        let place = segment * size..(segment + 1) * size;
-        let (mut state, mut slope) = (unscaled(&point[place.clone()]), unscaled(&tangent[place]));
-        for part in 0..factor {
-            points.extend(state.iter().zip(&scales).map(|(z, s)| z / s));
-            tangents.extend(slope.iter().zip(&scales).map(|(z, s)| z / s));
-            let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / factor as f64;
-            let piece = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
-            let flow = problem.integrator().flow(&piece, &state)?;
-            let carried = |i: usize| (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum::<f64>();
-            let by_last = problem.by_last(&flow);
-            slope = (0..size).map(|i| carried(i) + by_last[i] * last_tangent).collect();
-            state = flow.state;
-        }
+    if segments * FACTOR > MOST {
+        return Ok(false);
     }
-    points.push(point[old * size]);
-    tangents.push(last_tangent);
-    Ok(Node { point: points, tangent: tangents })
+    let current = refine(problem, follower.current(), FACTOR)?;
+    let start = refine(problem, &follower.state().start, FACTOR)?;
+    problem.set_segments(segments * FACTOR);
+    if follower.transfer(problem, &current, Some(&start)).is_err() {
+        // The walk stays where it was, with its own reason to stop.
+        problem.set_segments(segments);
+        return Ok(false);
+    }
+    Ok(true)
 }
 
 #[cfg(test)]
@@ -102,10 +65,10 @@ mod tests {
         let (mut rows, mut journal) = (vec![walk.start_row().unwrap()], Vec::new());
         for step in 1.. {
             if let Some(reason) = walk.step(&mut rows).unwrap() {
-                return (rows, reason, walk.problem.segments());
+                return (rows, reason, walk.path.problem.segments());
             }
             if cuts.contains(&step) {
-                assert!(walk.resegment().unwrap());
+                assert!(super::resegment(&mut walk.path).unwrap());
             }
             if step == stored {
                 journal.extend(walk.take_journal());

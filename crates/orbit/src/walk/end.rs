@@ -1,0 +1,56 @@
+//! Why the path of a walk ended, in terms of orbits.
+
+use hammerbeam_path::PathStop;
+
+use super::{
+    orbit_path::OrbitPath, row::row_at, shorter_period::is_near_shorter_period, splits::splits_here,
+};
+use crate::{StopReason, solve::evaluate};
+
+/// Why the walk ends whose path does; where a flip is too sharp to be passed, it is the end all the same.
+pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason {
+    match reason {
+        PathStop::StepTooShort { parameter, .. } if is_near_shorter_period(path) => {
+            StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
+        }
+        reason => stop_reason(path, reason),
+    }
+}
+
+/// The reason of a path, in terms of orbits.
+pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason {
+    let frequency_hz = path.parameter();
+    match reason {
+        PathStop::RangeEnd => StopReason::RangeEnd { frequency_hz },
+        PathStop::Closed => StopReason::Closed,
+        PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, frequency_hz)
+            .unwrap_or_else(|| StopReason::StepTooShort {
+                frequency_hz,
+                step,
+                residual,
+                doubt: doubt.to_string(),
+            }),
+        PathStop::Crawls { steps, .. } => {
+            splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::Crawls {
+                frequency_hz,
+                solutions: steps,
+                largest_multiplier: largest_multiplier(path),
+            })
+        }
+        PathStop::RunsBack { parameter, met_arc_length } => {
+            StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
+        }
+        PathStop::EvaluationFailed { parameter, error, .. } => {
+            let message = path.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
+            splits_here(path, frequency_hz).unwrap_or(StopReason::Motion { frequency_hz: parameter, message })
+        }
+        PathStop::Budget => StopReason::Budget { solutions: path.follower.counters().accepted as usize },
+    }
+}
+
+/// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
+fn largest_multiplier(path: &mut OrbitPath) -> f64 {
+    let point = path.current().clone();
+    let row = evaluate(&mut path.problem, &point.point).and_then(|()| row_at(path, &point));
+    row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
+}

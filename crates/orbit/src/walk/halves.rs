@@ -1,0 +1,102 @@
+//! Orbits whose ends have to keep clear of impacts, cut into two segments and made one again.
+//!
+//! A symmetric orbit comes to graze two opposite rigid stops at once. Over one segment the speed `v` of the
+//! first touch, which goes like the root of its depth, moves the second one, whose speed then goes like the
+//! root of `v`: the corner there is none of those that the path crate turns. Cut in two, each touch lies in a
+//! segment of its own, and depends on the state before it alone. The multipliers grow like the product of
+//! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
+//!
+//! The phases at which a cut orbit begins and is cut must both be clear of impacts. Where an impact comes
+//! near one of them the orbit is made one segment again, whose begin may move.
+
+use hammerbeam_path::{ContinuationPoint, Node};
+
+use super::{
+    orbit_path::{OrbitPath, Origin},
+    refine::refine,
+};
+use crate::cut::{contacts, folded, longest_of_orbit};
+
+/// Goes on with orbits of two segments; false if the walk stays as it was: an orbit of one impact needs no
+/// second segment, and there may be no room for it.
+pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
+    let of_rigid_stops = path.problem.system().has_rigid_stops();
+    if path.problem.segments() != 1 || !of_rigid_stops || halves_are_clear(path) != Some(true) {
+        return false;
+    }
+    let OrbitPath { problem, follower, .. } = path;
+    let Ok(current) = refine(problem, follower.current(), 2) else {
+        return false;
+    };
+    let begun = Some(&follower.state().start).filter(|_| follower.state().has_start());
+    let start = begun.and_then(|start| refine(problem, start, 2).ok());
+    go_on_with(path, 2, &current, start.as_ref())
+}
+
+/// Makes orbits of two segments one again where an impact comes near their ends, or the start of the walk
+/// is to be found again.
+pub(super) fn join_halves_at_contacts(path: &mut OrbitPath) {
+    if halves_are_clear(path) == Some(true) && !path.is_near_lost_start() {
+        return;
+    }
+    let size = path.problem.node_size();
+    let current = first_node(path.follower.current(), size);
+    let state = path.follower.state();
+    let start = state.has_start().then(|| first_node(&state.start, size));
+    go_on_with(path, 1, &current, start.as_ref());
+}
+
+/// Whether the start and the middle of the present orbit are clear of impacts; none where it has a single
+/// one, for which halves are of no use, or cannot be followed.
+fn halves_are_clear(path: &mut OrbitPath) -> Option<bool> {
+    let OrbitPath { problem, follower, .. } = path;
+    let point = &follower.current().point;
+    problem.move_to(point).ok()?;
+    let (phase, cycles) = (problem.phase(), f64::from(problem.period_multiple()));
+    let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
+    let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
+    match contacts.len() {
+        0 => return Some(true),
+        1 => return None,
+        _ => {}
+    }
+    let (gap, nearest) = longest_of_orbit(&folded(&contacts, 0.5 * cycles), 0.5 * cycles, false)?;
+    Some(!gap.asks_to_move(nearest))
+}
+
+fn go_on_with(path: &mut OrbitPath, segments: usize, current: &Node, start: Option<&Node>) -> bool {
+    let before = path.problem.segments();
+    let origin = origin_now(path);
+    let OrbitPath { problem, follower, .. } = path;
+    problem.set_segments(segments);
+    let mut moved = start.is_some() && follower.transfer(problem, current, start).is_ok();
+    if !moved {
+        // The start is brought back where the path comes near it.
+        moved = follower.transfer(problem, current, None).is_ok();
+    }
+    if moved {
+        path.origin = origin;
+        path.measures_anew = true;
+    } else {
+        problem.set_segments(before);
+    }
+    moved
+}
+
+/// The start of the walk as an orbit of one segment.
+fn origin_now(path: &OrbitPath) -> Option<Origin> {
+    let state = path.follower.state();
+    let of_start = || {
+        let mut point = state.in_first_units(&state.start);
+        let node = first_node(&point, path.problem.node_size());
+        (point.point, point.tangent) = (node.point, node.tangent);
+        Origin { phase: path.problem.phase(), point }
+    };
+    path.origin.clone().or_else(|| state.has_start().then(of_start))
+}
+
+/// The first node of a point and the last unknown, with the tangent there.
+fn first_node(at: &ContinuationPoint, size: usize) -> Node {
+    let of = |values: &[f64]| values[..size].iter().chain(values.last()).copied().collect();
+    Node { point: of(&at.point), tangent: of(&at.tangent) }
+}

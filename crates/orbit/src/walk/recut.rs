@@ -1,0 +1,144 @@
+//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law
+//! remembers how it began, or an impact on a rigid stop, where the state jumps.
+//!
+//! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the
+//! orbit is cut anew in the middle of its longest time without contact: the state and its tangent are carried
+//! there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that
+//! appears by grazing just at the phase, the present phase counts as a contact. Multipliers and the
+//! orientation of the path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix
+//! `P` in between.
+//!
+//! The start of the walk is cut at the new phase, too, so that a loop still closes. Where it is in contact
+//! there, it is out of reach until the path comes back to its frequency.
+//!
+//! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
+//! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
+//! Orbits that are cut in two (`halves.rs`) are made one segment again first; where the study gives the
+//! number of segments the phase does not move.
+
+use hammerbeam_motion::Stretch;
+use hammerbeam_path::{ContinuationPoint, Node};
+
+use super::{
+    halves::join_halves_at_contacts,
+    orbit_path::{OrbitPath, Origin},
+};
+use crate::{
+    OrbitError, Segments,
+    cut::{begins_with_care, contacts, longest_of_orbit},
+    shooting::ShootingProblem,
+};
+
+/// Whether the orbits of a path may have to start at another phase.
+pub(super) fn moves_phase(path: &OrbitPath) -> bool {
+    begins_with_care(path.problem.system()) && path.problem.segments() == 1
+}
+
+/// Keeps the phase away from contacts, and brings back the start where it can be.
+pub(super) fn keep_phase_clear(path: &mut OrbitPath) {
+    if path.follower.stop_reason().is_some() {
+        return;
+    }
+    if is_cut_in_halves(path) {
+        join_halves_at_contacts(path);
+    }
+    if !moves_phase(path) {
+        return;
+    }
+    if let Some(offset) = offset(path, false) {
+        move_phase(path, offset);
+    } else if path.is_near_lost_start() {
+        move_phase(path, 0.0);
+    }
+}
+
+/// Moves the phase although no contact is near it: a step has failed; false if it does not go.
+pub(super) fn flee_phase(path: &mut OrbitPath) -> bool {
+    moves_phase(path) && offset(path, true).is_some_and(|offset| move_phase(path, offset))
+}
+
+/// By how much the phase should move [cycles].
+fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
+    let OrbitPath { problem, follower, .. } = path;
+    let point = &follower.current().point;
+    problem.move_to(point).ok()?;
+    let (phase, cycles) = (problem.phase(), f64::from(problem.period_multiple()));
+    let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
+    let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
+    let (gap, nearest) = longest_of_orbit(&contacts, cycles, flees)?;
+    let moves = flees || gap.asks_to_move(nearest);
+    let offset = gap.middle(phase).rem_euclid(cycles);
+    (moves && offset > 0.0).then_some(offset)
+}
+
+/// Whether its orbits were cut in two (`halves.rs`).
+fn is_cut_in_halves(path: &OrbitPath) -> bool {
+    let is_given = matches!(path.settings.segments, Segments::Fixed(_));
+    begins_with_care(path.problem.system()) && path.problem.segments() == 2 && !is_given
+}
+
+/// Cuts the present orbit and the start of the walk this much later; false if the walk stays as it was.
+fn move_phase(path: &mut OrbitPath, offset: f64) -> bool {
+    let OrbitPath { problem, follower, origin, .. } = path;
+    let (before, cycles) = (problem.phase(), f64::from(problem.period_multiple()));
+    let phase = (before + offset).rem_euclid(cycles);
+    let Ok(current) = carried(problem, follower.current(), (before, offset)) else { return false };
+    let state = follower.state();
+    let begun = || Origin { phase: before, point: state.in_first_units(&state.start) };
+    let start_of_walk = origin.clone().unwrap_or_else(begun);
+    let in_units = in_units(&start_of_walk.point, state.unit);
+    let from_origin = (phase - start_of_walk.phase).rem_euclid(cycles);
+    let start = carried(problem, &in_units, (start_of_walk.phase, from_origin)).ok();
+    problem.set_phase(phase);
+    let with_start = start.as_ref().map(|start| (start, &in_units));
+    let mut moved = with_start.is_some() && follower.transfer_afresh(problem, &current, with_start).is_ok();
+    if !moved && offset > 0.0 {
+        moved = follower.transfer_afresh(problem, &current, None).is_ok();
+    }
+    if !moved {
+        problem.set_phase(before);
+        return false;
+    }
+    *origin = Some(start_of_walk);
+    // Before the phases of the new one the journal has a point without unknowns.
+    path.journal.push(ContinuationPoint::empty(0));
+    path.note_in_journal();
+    path.measures_anew = true;
+    true
+}
+
+/// A point of an orbit of one segment in units that are `unit` times the first ones.
+fn in_units(point: &ContinuationPoint, unit: f64) -> ContinuationPoint {
+    let mut point = point.clone();
+    for values in [&mut point.point, &mut point.tangent] {
+        let last = values.len() - 1;
+        values[..last].iter_mut().for_each(|value| *value /= unit);
+    }
+    point
+}
+
+/// Point and tangent of an orbit whose first node lies this much later than at the phase `from`.
+fn carried(
+    problem: &mut ShootingProblem,
+    at: &ContinuationPoint,
+    (from, offset): (f64, f64),
+) -> Result<Node, OrbitError> {
+    let (mut point, mut tangent) = (at.point.clone(), at.tangent.clone());
+    if offset == 0.0 {
+        return Ok(Node { point, tangent });
+    }
+    let (size, frequency_hz) = (problem.node_size(), problem.frequency(&point));
+    problem.move_to(&point)?;
+    let scales = problem.scale().values().to_vec();
+    let state: Vec<f64> = point.iter().zip(&scales).map(|(x, s)| x * s).collect();
+    let slope: Vec<f64> = tangent.iter().zip(&scales).map(|(t, s)| t * s).collect();
+    let stretch = Stretch { frequency_hz, start: from, end: from + offset };
+    let flow = problem.integrator().flow(&stretch, &state)?;
+    let by_last = problem.by_last(&flow);
+    for i in 0..size {
+        let carried: f64 = (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum();
+        point[i] = flow.state[i] / scales[i];
+        tangent[i] = (carried + by_last[i] * tangent[size]) / scales[i];
+    }
+    Ok(Node { point, tangent })
+}

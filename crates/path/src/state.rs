@@ -1,0 +1,139 @@
+//! Where a follower is: the point accepted last, and what is known of the path there.
+
+use crate::{
+    corrector::Candidate,
+    error::PathStop,
+    memory::in_units,
+    point::{ContinuationPoint, PathEvents},
+    predictor::{History, MOST_EARLIER_NODES, Node},
+    product::{norm, scale},
+};
+
+/// Where a follower is, as plain data; nothing of it changes while a step is tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathState {
+    /// The point accepted last.
+    pub current: ContinuationPoint,
+    /// The start, against which a closed path is recognised.
+    pub start: ContinuationPoint,
+    /// The last points of the present smooth arc, for the predictor; the first is the base of the next step.
+    pub history: History,
+    /// Most earlier points for the predictor of the next step: as many as would have served the last one
+    /// best.
+    pub most_earlier: usize,
+    /// Length of the next step.
+    pub step_length: f64,
+    /// Sign of `det [R_x R_λ; (W t)ᵀ]` with the tangent in the direction of travel.
+    pub orientation: f64,
+    /// Sign that `t_λ` has after `current`; it settles the doubt at a fold, where `t_λ` is rounding.
+    pub parameter_sign: f64,
+    /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is
+    /// known of them.
+    pub outside: Option<(u32, u32)>,
+    /// Units of the unknowns now, in those of the start.
+    pub unit: f64,
+    /// A change of signature is known to lie within this distance ahead; zero if none is known.
+    pub change_ahead: f64,
+    /// Why the branch ended, if it did.
+    pub stop: Option<PathStop>,
+}
+
+impl PathState {
+    /// At a start whose tangent points in the direction of travel.
+    pub(crate) fn at_start(start: ContinuationPoint, node: &Node, step_length: f64) -> Self {
+        let mut history = History::new(start.point.len());
+        history.push(node);
+        Self {
+            start: start.clone(),
+            history,
+            most_earlier: MOST_EARLIER_NODES,
+            step_length,
+            orientation: start.orientation,
+            parameter_sign: if start.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
+            outside: None,
+            unit: 1.0,
+            change_ahead: 0.0,
+            stop: None,
+            current: start,
+        }
+    }
+
+    /// Whether the start has the present unknowns, so that a path that comes back to it is seen to close.
+    #[must_use]
+    pub fn has_start(&self) -> bool {
+        self.start.parameter().is_finite()
+    }
+
+    /// A point as it is in the units of the start.
+    #[must_use]
+    pub fn in_first_units(&self, point: &ContinuationPoint) -> ContinuationPoint {
+        let of = |values: &[f64]| in_units(values, self.unit);
+        ContinuationPoint { point: of(&point.point), tangent: of(&point.tangent), ..point.clone() }
+    }
+
+    /// The base of the next step.
+    pub(crate) fn base(&self) -> &Node {
+        self.history.base()
+    }
+
+    /// Makes a candidate the present point.
+    pub(crate) fn arrive(
+        &mut self,
+        trial: &Candidate,
+        arc_length: f64,
+        (events, uncertainty): (PathEvents, f64),
+    ) {
+        let current = &mut self.current;
+        current.point.copy_from_slice(&trial.point);
+        current.tangent.copy_from_slice(&trial.node.tangent);
+        current.arc_length = arc_length;
+        current.signature = trial.signature;
+        current.orientation = self.orientation;
+        current.log_determinant = trial.log_determinant;
+        current.correction_norm = trial.correction_norm;
+        current.residual_norm = trial.residual_norm;
+        current.events = events;
+        current.uncertainty = uncertainty;
+    }
+
+    /// Goes on in units of the unknowns that are `factor` times as large.
+    ///
+    /// Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit
+    /// the start. Where the unknowns grow or shrink by orders of magnitude, a problem may change its units:
+    /// `x' = x/c`, `R' = R/c`, the parameter and the weights as they are. A unit tangent `t` then has the
+    /// length `ρ = ‖[t_x/c; t_λ]‖` and becomes `[t_x/c; t_λ]/ρ`; a step along it keeps its end if its length
+    /// is multiplied by `ρ`. The vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a
+    /// point, so that `D' = ρ D`: no sign changes. The memory stays in the first units.
+    pub(crate) fn rescale(&mut self, factor: f64, weights: &[f64], shortest_step: f64) {
+        self.unit *= factor;
+        for node in &mut self.history.nodes {
+            divide(&mut node.point, factor);
+            renormalise(&mut node.tangent, weights, factor);
+        }
+        for point in [&mut self.current, &mut self.start] {
+            divide(&mut point.point, factor);
+            let length = renormalise(&mut point.tangent, weights, factor);
+            point.log_determinant += length.ln();
+        }
+        // A step may be tried along the tangent of the present point.
+        let mut tangent = self.current.tangent.clone();
+        let grown = 1.0 / renormalise(&mut tangent, weights, 1.0 / factor);
+        self.step_length = (self.step_length * grown).max(shortest_step);
+        self.change_ahead *= grown;
+    }
+}
+
+fn divide(values: &mut [f64], factor: f64) {
+    let last = values.len() - 1;
+    scale(&mut values[..last], 1.0 / factor);
+}
+
+/// Length in the new units, which becomes one.
+fn renormalise(tangent: &mut [f64], weights: &[f64], factor: f64) -> f64 {
+    divide(tangent, factor);
+    let length = norm(weights, tangent);
+    if length > 0.0 {
+        scale(tangent, 1.0 / length);
+    }
+    length
+}
