@@ -2,13 +2,15 @@
 
 use std::time::{Duration, Instant};
 
-use hammerbeam_jobs::verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify};
+use hammerbeam_jobs::{
+    Observer,
+    verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify},
+};
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
-use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output};
+use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
 /// Disagreements shown as text; all of them are in the document.
 const SHOWN: usize = 50;
@@ -23,18 +25,10 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
         tolerance: options.tolerance,
         jobs: usize::from(options.jobs),
     };
-    let interrupt = Interrupt::listen(output)?;
-    let bar = progress_bar();
+    let mut watch = Watch::new(Interrupt::listen(output)?);
     let begun = Instant::now();
-    let watch = |done: u64, total: u64| {
-        if begun.elapsed() > Duration::from_secs(1) {
-            bar.set_length(total);
-            bar.set_position(done);
-        }
-        !interrupt.raised()
-    };
-    let verified = verify(&store, &model, &settings, &watch);
-    bar.finish_and_clear();
+    let verified = verify(&store, &model, &settings, &mut watch);
+    watch.finishing();
     let Some(verification) = verified? else {
         return Err(Failure::Interrupted("interrupted; nothing was changed".to_owned()));
     };
@@ -48,13 +42,6 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     }
     let (disagree, sampled) = (verification.disagreeing(), verification.sampled);
     Err(Failure::Disagreement(format!("{disagree} of {sampled} solutions disagree")))
-}
-
-fn progress_bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("[{bar:24}] {pos} of {len} solutions, {eta} left");
-    let bar = ProgressBar::new(0);
-    bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-    bar
 }
 
 fn document(verification: &Verification, settings: &VerifySettings) -> Value {

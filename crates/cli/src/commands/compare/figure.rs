@@ -1,6 +1,7 @@
 //! The response diagram with the measured points over it, shifted as the comparison has it: figure 6 of the
 //! paper.
 
+use hammerbeam_drawing::{Album, Drawn};
 use hammerbeam_figure::{
     MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,
     ResponseSettings,
@@ -10,7 +11,6 @@ use hammerbeam_signal::{Quantity, points::Kind};
 use hammerbeam_study::StudyFile;
 
 use super::Compared;
-use crate::figures::{Album, Drawn};
 
 /// Draws a comparison, if its quantity has a response diagram.
 pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) {

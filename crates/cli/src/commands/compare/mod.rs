@@ -9,6 +9,7 @@ mod text;
 
 use std::path::PathBuf;
 
+use hammerbeam_drawing::{DrawSettings, draw_into};
 use hammerbeam_jobs::{
     StoredBranches,
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
@@ -26,8 +27,8 @@ pub use text::{estimate, fit_notes, gaps};
 use crate::{
     compare_args::{CompareOptions, QuantityName},
     failure::Failure,
-    figures::Drawn,
     output::Output,
+    watch::Notices,
 };
 
 /// Distance of orbits that are computed again as a part of the middle of the frequency range, and their
@@ -83,19 +84,23 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let point = of_point.then(|| point.clone());
         compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
     }
-    let mut drawn = Drawn::into(&folder)?;
-    drawn.frequency_unit = output.frequency_unit;
-    for one in &compared {
-        let name = format!("points_{}.csv", one.comparison.quantity.word());
-        write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;
-        drawn.files.push(name);
-        let name = format!("compare_{}", one.comparison.quantity.word());
-        draw(&file, one, &name, &mut drawn);
-    }
-    let amplitudes = table::write_amplitudes(&folder, &measured.points)?;
-    drawn.files.extend(amplitudes.iter().map(|amplitudes| amplitudes.name.clone()));
-    let notes = amplitudes.map_or_else(Vec::new, |amplitudes| amplitudes.notes);
-    let files = drawn.finish()?.names;
+    let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+    let mut notes = Vec::new();
+    let drawn = draw_into::<Failure>(&folder, settings, &mut Notices, |drawn| {
+        for one in &compared {
+            let name = format!("points_{}.csv", one.comparison.quantity.word());
+            write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;
+            drawn.files.push(name);
+            let name = format!("compare_{}", one.comparison.quantity.word());
+            draw(&file, one, &name, drawn);
+        }
+        if let Some(amplitudes) = table::write_amplitudes(&folder, &measured.points)? {
+            drawn.files.push(amplitudes.name);
+            notes = amplitudes.notes;
+        }
+        Ok(())
+    });
+    let files = drawn?.names;
     let mut document = document::document(options, &measured, (&compared, &point), (&folder, &files));
     document["excitation_notes"] = serde_json::json!(notes);
     output.give(&document, || {

@@ -6,9 +6,11 @@ mod report;
 mod signals;
 mod tables;
 
+use hammerbeam_drawing::{DrawSettings, draw_into};
 use hammerbeam_jobs::{
-    OrbitSolver, StoredBranches,
+    OrbitSolver, PreparedStudy, StoredBranches,
     comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
+    pool::threads,
     rig::{
         Filtered, RigError, RigMode, RigPoint, SignalPair, acceleration_curves, changed_study,
         compare_signal, filtered_branches, rig_modes, sweep,
@@ -19,18 +21,14 @@ use hammerbeam_results::Store;
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 use hammerbeam_study::{Model, StudyFile, file::Rig};
 
-use super::{
-    compare::{Compared, draw},
-    run::threads,
-};
+use super::compare::{Compared, draw};
 use crate::{
     compare_args::RigOptions,
-    drift,
     failure::Failure,
-    figures::Drawn,
     interrupt::Interrupt,
     output::{Output, tell},
     progress::Terminal,
+    watch::{Notices, Watch},
 };
 
 /// Distance of orbits that are put behind filters as a part of the middle of the frequency range, and their
@@ -67,47 +65,49 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     };
     let rig_file = changed_study(&file)?;
     let (model, rig_model) = (Model::build(&file)?, Model::build(&rig_file)?);
-    drift::heed(&model)?;
+    let study = PreparedStudy { file, model };
+    study.check_held(&mut Notices)?;
+    let PreparedStudy { file, model } = study;
     let interrupt = Interrupt::listen(output)?;
     let threads = threads(options.jobs);
     let solutions = branches(options, &file, &model, threads, &interrupt)?;
     let stored = StoredBranches::open(&options.out, &file)?;
-    let stop = interrupt.flag();
+    let mut watch = Watch::new(interrupt.clone());
     tell("sweeping the rig");
-    let points = sweep(&rig, &rig_model, threads, stop)?;
+    let points = sweep(&rig, &rig_model, threads, &mut watch)?;
     let modes = rig_modes(&rig, &rig_model, &model)?;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
     let order = rig.low_pass_order as usize;
     let filters: Vec<Filter> = cut_offs.map(|cut_off_hz| Filter { order, cut_off_hz }).collect();
     tell("putting the branches behind filters");
-    let filtered = filtered_branches(&stored, &model, &filters, (spacing_hz, SAMPLES), threads, stop)?;
+    let filtered = filtered_branches(&stored, &model, &filters, (spacing_hz, SAMPLES), threads, &mut watch)?;
     let comparisons = comparisons(&stored, &model, &points, &filtered)?;
     let factor = comparisons[0].2.fit.frequency.value;
-    let signal = |&wanted: &(f64, u32)| {
+    let mut signal = |&wanted: &(f64, u32)| {
         let (rig_side, model_side) = ((&rig_model, points.as_slice()), (&model, &stored));
-        compare_signal(&rig, rig_side, model_side, wanted, factor, (threads, stop))
+        compare_signal(&rig, rig_side, model_side, wanted, factor, (threads, &mut watch))
     };
     tell("comparing signals");
-    let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
+    let signals = rig.signals.iter().map(&mut signal).collect::<Result<Vec<_>, _>>()?;
     let found = Found { file, rig, modes, points, filters, filtered, comparisons, signals, solutions };
-    let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
-    drawn.frequency_unit = output.frequency_unit;
-    tables::write(&options.out, &found, &mut drawn.files)?;
-    for (name, curves, comparison) in &found.comparisons {
-        let compared = Compared {
-            curves: curves.clone(),
-            comparison: comparison.clone(),
-            low_pass_hz: found.low_pass_hz(name),
-            point: None,
-            range_hz: [low, high],
-        };
-        draw(&found.file, &compared, name, &mut drawn);
-    }
-    let document = document::document(&found);
-    report::write(&options.out, &found, &document, &mut drawn.files)?;
-    let files = drawn.finish()?.names;
-    let mut document = document;
+    let settings = DrawSettings { threads, frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+    let mut document = document::document(&found);
+    let drawn = draw_into::<Failure>(&options.out, settings, &mut watch, |drawn| {
+        tables::write(&options.out, &found, &mut drawn.files)?;
+        for (name, curves, comparison) in &found.comparisons {
+            let compared = Compared {
+                curves: curves.clone(),
+                comparison: comparison.clone(),
+                low_pass_hz: found.low_pass_hz(name),
+                point: None,
+                range_hz: [low, high],
+            };
+            draw(&found.file, &compared, name, drawn);
+        }
+        report::write(&options.out, &found, &document, &mut drawn.files)
+    });
+    let files = drawn?.names;
     document["folder"] = serde_json::json!(options.out);
     document["files"] = serde_json::json!(files);
     output.give(&document, || report::text(&found, &options.out, &files))?;
