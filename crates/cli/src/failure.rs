@@ -6,7 +6,7 @@ use hammerbeam_attractor::AttractorError;
 use hammerbeam_drawing::DrawingError;
 use hammerbeam_jobs::{
     JobError,
-    comparison::{ComparisonError, ObservationError, OverlayError},
+    comparison::{ComparisonError, MeasuredError, ObservationError, OverlayError},
     rig::RigError,
     run::RunError,
 };
@@ -87,7 +87,8 @@ impl From<JobError> for Failure {
             JobError::Interrupted { .. } | JobError::TablesInterrupted => {
                 Self::Interrupted(error.to_string())
             }
-            JobError::NoSearch { .. } => Self::NoResult(error.to_string()),
+            JobError::NoSearch { .. } | JobError::NoBranches { .. } => Self::NoResult(error.to_string()),
+            JobError::Measured(error) => error.into(),
             _ => Self::BadInput(error.to_string()),
         }
     }
@@ -186,6 +187,16 @@ impl From<ObservationError> for Failure {
     }
 }
 
+impl From<MeasuredError> for Failure {
+    fn from(error: MeasuredError) -> Self {
+        match error {
+            MeasuredError::Table(error) => error.into(),
+            MeasuredError::NoFrequency { .. } => Self::BadInput(format!("{error} with --reference")),
+            other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
 impl From<OverlayError> for Failure {
     fn from(error: OverlayError) -> Self {
         match error {
@@ -208,6 +219,7 @@ impl From<RigError> for Failure {
             RigError::Store(error) => error.into(),
             RigError::Observation(error) => error.into(),
             RigError::NoRig { .. } | RigError::Changes { .. } => Self::BadInput(error.to_string()),
+            RigError::BranchesInterrupted => Self::Interrupted(error.to_string()),
             RigError::Interrupted => Self::Interrupted(
                 "interrupted; the branches are kept, the measurement begins anew".to_owned(),
             ),

@@ -10,6 +10,7 @@
 //! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
 //! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions that need not repeat |
 //! | [`orbit`] | one orbit over its period |
+//! | `compare.rs` | measured points over branches |
 //! | `page.rs`, `page/` | the page |
 //!
 //! # Example
@@ -29,6 +30,7 @@
 //! # Ok::<(), DrawingError>(())
 //! ```
 
+mod compare;
 mod drawn;
 mod error;
 mod linear;
@@ -52,6 +54,7 @@ use hammerbeam_results::{
 use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{Model, StudyFile};
 
+pub use compare::draw_compared;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, draw_into};
 pub use error::DrawingError;
 pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};

@@ -1,5 +1,7 @@
 //! Why a job has no result.
 
+use std::path::PathBuf;
+
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_results::{StoreError, export::ExportError, whole_file::WriteError};
 use hammerbeam_signal::SignalError;
@@ -7,7 +9,7 @@ use hammerbeam_study::{Drift, StudyError};
 
 use crate::{
     basins::CoordinateError,
-    comparison::{ComparisonError, ObservationError, OverlayError},
+    comparison::{ComparisonError, MeasuredError, ObservationError, OverlayError},
     initial::InitialStateError,
     rig::RigError,
     run::RunError,
@@ -52,6 +54,12 @@ pub enum JobError {
     /// Measured points cannot be compared.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),
+    /// There is nothing to compare with.
+    #[error("{} holds no branch to compare with", results.display())]
+    NoBranches { results: PathBuf },
+    /// Measured points cannot be read.
+    #[error(transparent)]
+    Measured(#[from] MeasuredError),
     /// What was measured cannot be computed along branches.
     #[error(transparent)]
     Observation(#[from] ObservationError),

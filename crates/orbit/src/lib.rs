@@ -19,7 +19,7 @@
 //! | `walk.rs`, `walk/`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, step by step, cutting orbits into more segments on the way, storing a walk |
 //! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
 //! | `corner/` | grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides |
-//! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
+//! | `stop.rs`, `stop_text.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
 //! | `spectrum.rs` | multipliers, and which of them are on the unit circle as well as they are known: stable, marginal, unstable |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
@@ -118,6 +118,7 @@ mod stability;
 mod start;
 mod state_scale;
 mod stop;
+mod stop_text;
 mod survey;
 mod switch;
 #[cfg(test)]

@@ -4,11 +4,10 @@ use std::time::{Duration, Instant};
 
 use hammerbeam_jobs::{
     Observer,
-    verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify},
+    verify::{Disagreement, Quantity, Verification, VerifyReport, VerifySettings, Worst, verify},
 };
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
-use serde_json::{Value, json};
 
 use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
@@ -36,57 +35,14 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     if verification.stored == 0 {
         return Err(Failure::NoResult(format!("no solutions are stored in {folder}")));
     }
-    output.give(&document(&verification, &settings), || text(&verification, &folder, begun.elapsed()))?;
+    let report = VerifyReport { verification, settings };
+    output.give(&report, || text(&report.verification, &folder, begun.elapsed()))?;
+    let verification = report.verification;
     if verification.disagreements.is_empty() {
         return Ok(());
     }
     let (disagree, sampled) = (verification.disagreeing(), verification.sampled);
     Err(Failure::Disagreement(format!("{disagree} of {sampled} solutions disagree")))
-}
-
-fn document(verification: &Verification, settings: &VerifySettings) -> Value {
-    json!({
-        "stored": verification.stored,
-        "sampled": verification.sampled,
-        "seed": settings.seed,
-        "tolerance": settings.tolerance,
-        "agree": verification.disagreements.is_empty(),
-        "solutions_disagreeing": verification.disagreeing(),
-        "solutions_grazing": verification.grazing,
-        "quantities": verification.worst.iter().map(of_quantity).collect::<Vec<_>>(),
-        "disagreements": verification.disagreements.iter().map(of_disagreement).collect::<Vec<_>>(),
-    })
-}
-
-fn of_quantity(worst: &Worst) -> Value {
-    json!({
-        "quantity": worst.quantity.name(),
-        "worst_difference": number(worst.difference),
-        "bound": worst.bound,
-        "branch": worst.place.map(|(branch, _)| branch),
-        "frequency_hz": worst.place.map(|(_, frequency_hz)| frequency_hz),
-        "compared": worst.compared,
-        "disagree": worst.disagree,
-        "grazing": worst.grazing,
-    })
-}
-
-fn of_disagreement(found: &Disagreement) -> Value {
-    json!({
-        "branch": found.branch,
-        "frequency_hz": found.frequency_hz,
-        "quantity": found.quantity.name(),
-        "stored": number(found.stored),
-        "recomputed": number(found.recomputed),
-        "difference": number(found.difference),
-        "bound": found.bound,
-        "message": found.message,
-    })
-}
-
-/// JSON has no infinity: null.
-fn number(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { Value::Null }
 }
 
 fn text(verification: &Verification, folder: &str, elapsed: Duration) -> String {

@@ -56,6 +56,7 @@
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
 mod compare;
+mod document;
 mod recompute;
 mod report;
 mod sample;
@@ -74,6 +75,7 @@ use hammerbeam_study::Model;
 
 use crate::{CountedProgress, Observer, PooledOrder};
 
+pub use document::VerifyReport;
 pub use report::{Disagreement, Quantity, Verification, Worst};
 
 use compare::{Comparison, compare};

@@ -1,13 +1,12 @@
 //! `hammerbeam overlay`: a recorded motion laid over the computed orbit that is most alike.
 
 mod give;
-mod notes;
 
 use std::path::Path;
 
 use hammerbeam_jobs::{
     Observer, StoredBranches,
-    comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
+    comparison::{Filter, Overlay, OverlaySettings, Sought, frequency_in_name, nothing_alike, overlay},
     pool::threads,
 };
 use hammerbeam_results::Store;
@@ -18,10 +17,8 @@ use hammerbeam_signal::{
 };
 use hammerbeam_study::StudyFile;
 
-pub use notes::{Laying, nothing_alike};
-
 use super::{
-    compare::{frequency_in_name, observed},
+    compare::observed,
     signal::{Input, open, quantity},
 };
 use crate::{

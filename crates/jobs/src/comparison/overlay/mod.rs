@@ -14,11 +14,13 @@
 //! |---|---|
 //! | `candidates.rs` | the orbits that are tried |
 //! | `laid.rs` | one of them laid under the measurement |
+//! | `notes.rs` | what has to be known of it |
 //! | `alike.rs` | the most alike one, and those that are as alike |
 
 mod alike;
 mod candidates;
 mod laid;
+mod notes;
 
 use hammerbeam_attractor::InOrder;
 use hammerbeam_results::StoreError;
@@ -35,6 +37,7 @@ use super::{
 use crate::{Observer, PooledOrder, StoredBranches};
 pub use alike::Alike;
 use candidates::Candidate;
+pub use notes::{LaidWaveform, OverlayAdvice, OverlayNote, nothing_alike};
 
 /// Which orbits are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]

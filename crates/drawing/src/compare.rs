@@ -1,19 +1,18 @@
 //! The response diagram with the measured points over it, shifted as the comparison has it: figure 6 of the
 //! paper.
 
-use hammerbeam_drawing::{Album, Drawn};
 use hammerbeam_figure::{
     MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,
     ResponseSettings,
 };
-use hammerbeam_jobs::comparison::{BranchCurve, PointOutcome};
+use hammerbeam_jobs::comparison::{BranchCurve, ComparedQuantity, CurvePoint, PointOutcome};
 use hammerbeam_signal::{Quantity, points::Kind};
 use hammerbeam_study::StudyFile;
 
-use super::Compared;
+use crate::{Album, Drawn};
 
 /// Draws a comparison, if its quantity has a response diagram.
-pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) {
+pub fn draw_compared(file: &StudyFile, compared: &ComparedQuantity, name: &str, drawn: &mut Drawn<'_>) {
     let quantity = compared.comparison.quantity;
     let drawing = match quantity {
         Quantity::Displacement => Drawing::Displacement,
@@ -37,7 +36,7 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
 }
 
 fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
-    let point = |point: &hammerbeam_jobs::comparison::CurvePoint| ResponsePoint {
+    let point = |point: &CurvePoint| ResponsePoint {
         frequency_hz: point.frequency_hz,
         displacement_m: if quantity == Quantity::Displacement { point.value } else { f64::NAN },
         acceleration_m_s2: if quantity == Quantity::Acceleration { point.value } else { f64::NAN },

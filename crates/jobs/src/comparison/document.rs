@@ -1,39 +1,86 @@
 //! A comparison as a document.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use hammerbeam_jobs::comparison::{Comparison, Estimate, Origin, PointOutcome, Residual};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::{Compared, measured::Measured};
-use crate::compare_args::CompareOptions;
+use super::{Comparison, Curves, Estimate, Filter, MeasuredPoints, Origin, PointOutcome, Residual};
 
-pub fn document(
-    options: &CompareOptions,
-    measured: &Measured,
-    (compared, point): (&[Compared], &str),
-    (folder, files): (&Path, &[String]),
-) -> Value {
-    let findings = measured.findings.iter().map(
-        |(file, finding)| json!({ "file": file, "kind": finding.kind(), "message": finding.to_string() }),
-    );
-    json!({
-        "results": options.results,
-        "point": point,
-        "measured": options.measured,
-        "low_pass_hz": options.low_pass,
-        "order": options.low_pass.map(|_| options.order),
-        "reach": options.reach,
-        "findings": findings.collect::<Vec<_>>(),
-        "comparisons": compared.iter().map(of_study).collect::<Vec<_>>(),
-        "folder": folder,
-        "files": files,
-    })
+/// A quantity with its curves and what came of it.
+#[derive(Debug, Clone)]
+pub struct ComparedQuantity {
+    /// The branches.
+    pub curves: Curves,
+    /// The comparison.
+    pub comparison: Comparison,
+    /// Cut-off of the filter that the curves are behind [Hz], if there is one.
+    pub low_pass_hz: Option<f64>,
+    /// The point that was measured, if it is not the response point of the study.
+    pub point: Option<String>,
+    /// Range of the frequency of the study [Hz].
+    pub range_hz: [f64; 2],
+}
+
+impl ComparedQuantity {
+    /// How many points are shifted beyond the range of the study, where nothing is computed or drawn.
+    #[must_use]
+    pub fn beyond(&self) -> usize {
+        let [low, high] = self.range_hz;
+        self.comparison.points.iter().filter(|point| !(low..=high).contains(&point.shifted_hz)).count()
+    }
+}
+
+/// What came of measured points over branches.
+#[derive(Debug, Clone)]
+pub struct CompareReport {
+    /// Folder of the branches.
+    pub results: PathBuf,
+    /// Name of the point that was measured.
+    pub point: String,
+    /// Files and folders of what was measured.
+    pub files_measured: Vec<PathBuf>,
+    /// What they hold.
+    pub measured: MeasuredPoints,
+    /// The filter of the measurement.
+    pub filter: Option<Filter>,
+    /// Ratio up to which a point is explained by a branch.
+    pub reach: f64,
+    /// One comparison for each quantity.
+    pub compared: Vec<ComparedQuantity>,
+    /// Folder of the tables and figures.
+    pub folder: PathBuf,
+    /// Their names.
+    pub files: Vec<String>,
+    /// What has to be known of the measured excitation.
+    pub excitation_notes: Vec<String>,
+}
+
+impl Serialize for CompareReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let findings = self.measured.findings.iter().map(
+            |(file, finding)| json!({ "file": file, "kind": finding.kind(), "message": finding.to_string() }),
+        );
+        let document = json!({
+            "results": self.results,
+            "point": self.point,
+            "measured": self.files_measured,
+            "low_pass_hz": self.filter.map(|filter| filter.cut_off_hz),
+            "order": self.filter.map(|filter| filter.order),
+            "reach": self.reach,
+            "findings": findings.collect::<Vec<_>>(),
+            "comparisons": self.compared.iter().map(of_study).collect::<Vec<_>>(),
+            "folder": self.folder,
+            "files": self.files,
+            "excitation_notes": self.excitation_notes,
+        });
+        document.serialize(serializer)
+    }
 }
 
 /// A comparison of one quantity, how many points the range of the study leaves out, and how many solutions
 /// could not be gone over.
-fn of_study(compared: &Compared) -> Value {
+fn of_study(compared: &ComparedQuantity) -> Value {
     let mut document = comparison_document(&compared.comparison);
     document["beyond_the_range"] = json!(compared.beyond());
     document["gaps"] = json!(compared.curves.gaps());
@@ -41,7 +88,7 @@ fn of_study(compared: &Compared) -> Value {
 }
 
 /// A comparison of one quantity.
-pub fn comparison_document(comparison: &Comparison) -> Value {
+pub(crate) fn comparison_document(comparison: &Comparison) -> Value {
     let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
     let unexplained = comparison.points.iter().filter(|point| point.verdict.is_unexplained());
     json!({
@@ -93,7 +140,7 @@ fn residual(residual: Residual) -> Value {
 }
 
 /// A point.
-pub fn point_document(outcome: &PointOutcome) -> Value {
+fn point_document(outcome: &PointOutcome) -> Value {
     let nearest = outcome.nearest.map(|nearest| {
         json!({
             "branch": nearest.hit.branch,

@@ -1,12 +1,18 @@
 //! A rig as a document.
 
-use hammerbeam_jobs::rig::{FilteredBranch, FilteredRatio, RigMode};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::{Found, signals, tables};
-use crate::commands::compare::comparison_document;
+use super::{FilteredBranch, FilteredRatio, RigMode, RigReport, signal_document};
+use crate::comparison::{Filter, comparison_document};
 
-pub fn document(found: &Found) -> Value {
+impl Serialize for RigReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        document(self).serialize(serializer)
+    }
+}
+
+fn document(found: &RigReport) -> Value {
     let comparisons: Vec<Value> = found
         .comparisons
         .iter()
@@ -17,8 +23,8 @@ pub fn document(found: &Found) -> Value {
             document
         })
         .collect();
-    let [right, wrong, doubtful] = tables::agreement(found);
-    let chaos = tables::chaos(found);
+    let [right, wrong, doubtful] = found.agreement();
+    let chaos = found.chaos();
     json!({
         "study": found.file.name,
         "title": found.file.study.title,
@@ -36,7 +42,7 @@ pub fn document(found: &Found) -> Value {
             "seed": found.rig.seed,
             "points": found.points.len(),
             "begun_anew": found.points.iter().filter(|point| point.begun_anew).count(),
-            "max_displacement_m": tables::largest_displacement(found),
+            "max_displacement_m": found.largest_displacement(),
         },
         "classification": { "as_the_states": right, "not_as_the_states": wrong, "doubtful": doubtful },
         "chaos": {
@@ -47,7 +53,7 @@ pub fn document(found: &Found) -> Value {
             "median_record_over_motion": chaos.median_ratio,
         },
         "comparisons": comparisons,
-        "signals": found.signals.iter().enumerate().map(signals::document).collect::<Vec<_>>(),
+        "signals": found.signals.iter().enumerate().map(signal_document).collect::<Vec<_>>(),
         "filters": filters(found),
     })
 }
@@ -66,8 +72,8 @@ fn mode(mode: &RigMode) -> Value {
     })
 }
 
-fn filters(found: &Found) -> Vec<Value> {
-    let one = |(index, filter): (usize, &hammerbeam_jobs::comparison::Filter)| {
+fn filters(found: &RigReport) -> Vec<Value> {
+    let one = |(index, filter): (usize, &Filter)| {
         let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
         let branch = |branch: &&FilteredBranch| {
             json!({

@@ -2,15 +2,24 @@
 
 use std::path::Path;
 
-use hammerbeam_jobs::rig::{FilteredBranch, SignalPair};
-use hammerbeam_results::export::{Table, header, number};
+use hammerbeam_results::export::{ExportError, Table, header, number};
 use hammerbeam_signal::{Quantity, points::Kind};
 use hammerbeam_study::file::HarmonicExcitation;
 
-use super::{Found, signals::laid};
-use crate::{commands::compare::write_points, failure::Failure};
+use super::{FilteredBranch, RigReport, SignalPair};
+use crate::comparison::write_points;
 
-pub fn write(folder: &Path, found: &Found, files: &mut Vec<String>) -> Result<(), Failure> {
+/// Writes the tables of a rig.
+///
+/// * `files`: takes their names.
+///
+/// # Errors
+/// A table cannot be written.
+pub fn write_rig_tables(
+    folder: &Path,
+    found: &RigReport,
+    files: &mut Vec<String>,
+) -> Result<(), ExportError> {
     points(folder, found)?;
     figure_2(folder, found)?;
     branches(folder, found)?;
@@ -33,12 +42,13 @@ pub fn write(folder: &Path, found: &Found, files: &mut Vec<String>) -> Result<()
 }
 
 /// Name of the table of a signal: the figures of the paper begin with number 7.
+#[must_use]
 pub fn figure_name(index: usize) -> String {
     format!("figure_{:02}.csv", index + 7)
 }
 
 /// The measurement, as `hammerbeam compare` reads it.
-fn points(folder: &Path, found: &Found) -> Result<(), Failure> {
+fn points(folder: &Path, found: &RigReport) -> Result<(), ExportError> {
     let titles = [
         "frequency_hz",
         "max_acceleration_m_s2",
@@ -79,12 +89,12 @@ fn points(folder: &Path, found: &Found) -> Result<(), Failure> {
 }
 
 /// Amplitude of the table's acceleration: that of the study, and as measured.
-fn figure_2(folder: &Path, found: &Found) -> Result<(), Failure> {
+fn figure_2(folder: &Path, found: &RigReport) -> Result<(), ExportError> {
     let titles = ["sweep", "frequency_hz", "computed_m_s2", "measured_m_s2", "measured_over_computed"];
     let mut table = Table::begin(folder, "figure_02.csv", &header(&titles))?;
     for point in &found.points {
         let frequency_hz = point.point.frequency_hz;
-        let computed = table_acceleration(found, frequency_hz);
+        let computed = found.table_acceleration(frequency_hz);
         let measured = point.point.excitation.map(|(_, amplitude)| amplitude);
         table.row(&[
             point.direction.word().to_owned(),
@@ -98,17 +108,8 @@ fn figure_2(folder: &Path, found: &Found) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Amplitude of the acceleration of the support that the study has [m/s²].
-pub fn table_acceleration(found: &Found, frequency_hz: f64) -> f64 {
-    let of = |excitation: &HarmonicExcitation| {
-        let rate = std::f64::consts::TAU * frequency_hz * f64::from(excitation.order);
-        excitation.amplitude().map_or(0.0, |amplitude| amplitude.at(frequency_hz)) * rate * rate
-    };
-    found.file.study.excitation.harmonic().map_or(0.0, of)
-}
-
 /// Branches with and without filters.
-fn branches(folder: &Path, found: &Found) -> Result<(), Failure> {
+fn branches(folder: &Path, found: &RigReport) -> Result<(), ExportError> {
     let mut titles = header(&[
         "branch",
         "period_multiple",
@@ -153,7 +154,7 @@ fn branch_rows(branch: &FilteredBranch) -> impl Iterator<Item = Vec<String>> {
     })
 }
 
-fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Failure> {
+fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), ExportError> {
     let titles = [
         "phase_cycles",
         "measured_acceleration_m_s2",
@@ -163,7 +164,7 @@ fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Fa
         "support_displacement_m",
     ];
     let mut table = Table::begin(folder, name, &header(&titles))?;
-    let computed = laid(signal).ok();
+    let computed = signal.laid().ok();
     for (k, measured) in signal.measured.samples.iter().enumerate() {
         table.row(&[
             number(k as f64 / signal.measured.per_period as f64),
@@ -178,36 +179,14 @@ fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Fa
     Ok(())
 }
 
-/// How often the record tells what the states do: right, wrong, doubtful.
-pub fn agreement(found: &Found) -> [usize; 3] {
-    let mut counts = [0; 3];
-    for point in &found.points {
-        let right = match point.point.kind {
-            Kind::Periodic { period_multiple } => point.period_of_states == period_multiple,
-            Kind::Aperiodic => point.period_of_states.is_none(),
-            Kind::Doubtful | Kind::Unknown => {
-                counts[2] += 1;
-                continue;
-            }
-        };
-        counts[usize::from(!right)] += 1;
-    }
-    counts
-}
-
-/// Largest ratio of measured displacement to what a sensor range would have to be: told in millimetres.
-pub fn largest_displacement(found: &Found) -> f64 {
-    let values = found.points.iter().filter_map(|point| point.point.maxima.of(Quantity::Displacement));
-    values.fold(0.0, f64::max)
-}
-
 /// What exponents say of the aperiodic points.
-#[derive(Default)]
-pub struct Chaos {
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RigChaos {
+    /// Aperiodic points.
     pub aperiodic: usize,
-    /// With a positive exponent from the record, and those with one from the motion (its interval above
-    /// zero).
+    /// Those with a positive exponent from the record.
     pub by_record: usize,
+    /// Those with one from the motion (its interval above zero).
     pub by_motion: usize,
     /// With both.
     pub by_both: usize,
@@ -215,21 +194,59 @@ pub struct Chaos {
     pub median_ratio: Option<f64>,
 }
 
-/// Counts chaotic motions.
-pub fn chaos(found: &Found) -> Chaos {
-    let mut chaos = Chaos::default();
-    let mut ratios = Vec::new();
-    for exponents in found.points.iter().filter_map(|point| point.exponents) {
-        let of_record = exponents.of_record.map(|of| of.value).filter(|value| *value > 0.0);
-        let of_motion =
-            exponents.of_motion.filter(|(value, half)| value - half > 0.0).map(|(value, _)| value);
-        chaos.aperiodic += 1;
-        chaos.by_record += usize::from(of_record.is_some());
-        chaos.by_motion += usize::from(of_motion.is_some());
-        ratios.extend(of_record.zip(of_motion).map(|(record, motion)| record / motion));
+impl RigReport {
+    /// Amplitude of the acceleration of the support that the study has [m/s²].
+    #[must_use]
+    pub fn table_acceleration(&self, frequency_hz: f64) -> f64 {
+        let of = |excitation: &HarmonicExcitation| {
+            let rate = std::f64::consts::TAU * frequency_hz * f64::from(excitation.order);
+            excitation.amplitude().map_or(0.0, |amplitude| amplitude.at(frequency_hz)) * rate * rate
+        };
+        self.file.study.excitation.harmonic().map_or(0.0, of)
     }
-    ratios.sort_by(f64::total_cmp);
-    chaos.by_both = ratios.len();
-    chaos.median_ratio = ratios.get(ratios.len() / 2).copied();
-    chaos
+
+    /// How often the record shows what the states do: right, wrong, doubtful.
+    #[must_use]
+    pub fn agreement(&self) -> [usize; 3] {
+        let mut counts = [0; 3];
+        for point in &self.points {
+            let right = match point.point.kind {
+                Kind::Periodic { period_multiple } => point.period_of_states == period_multiple,
+                Kind::Aperiodic => point.period_of_states.is_none(),
+                Kind::Doubtful | Kind::Unknown => {
+                    counts[2] += 1;
+                    continue;
+                }
+            };
+            counts[usize::from(!right)] += 1;
+        }
+        counts
+    }
+
+    /// Largest displacement that was measured [m].
+    #[must_use]
+    pub fn largest_displacement(&self) -> f64 {
+        let values = self.points.iter().filter_map(|point| point.point.maxima.of(Quantity::Displacement));
+        values.fold(0.0, f64::max)
+    }
+
+    /// Counts chaotic motions.
+    #[must_use]
+    pub fn chaos(&self) -> RigChaos {
+        let mut chaos = RigChaos::default();
+        let mut ratios = Vec::new();
+        for exponents in self.points.iter().filter_map(|point| point.exponents) {
+            let of_record = exponents.of_record.map(|of| of.value).filter(|value| *value > 0.0);
+            let of_motion =
+                exponents.of_motion.filter(|(value, half)| value - half > 0.0).map(|(value, _)| value);
+            chaos.aperiodic += 1;
+            chaos.by_record += usize::from(of_record.is_some());
+            chaos.by_motion += usize::from(of_motion.is_some());
+            ratios.extend(of_record.zip(of_motion).map(|(record, motion)| record / motion));
+        }
+        ratios.sort_by(f64::total_cmp);
+        chaos.by_both = ratios.len();
+        chaos.median_ratio = ratios.get(ratios.len() / 2).copied();
+        chaos
+    }
 }

@@ -1,10 +1,11 @@
 //! What has to be known of a waveform that is laid over an orbit.
 
-use hammerbeam_jobs::comparison::Overlay;
 use hammerbeam_signal::{
     classify::{Classification, Motion},
     waveform::Waveform,
 };
+
+use super::Overlay;
 
 /// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of
 /// the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed
@@ -12,7 +13,7 @@ use hammerbeam_signal::{
 const NOTHING: f64 = 0.1;
 /// Correlation below which less than half of the measured power is that of the orbit (its square).
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Correlation of a course turned around beyond which it is told: half of what is left without.
+/// Correlation of a course turned around beyond which it is reported: half of what is left without.
 const TURNED: f64 = 0.5;
 /// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it
 /// is the square that counts.
@@ -20,22 +21,39 @@ const ROUNDING: f64 = 1e-9;
 /// Scatter of pieces that shows in a tenth of a per cent.
 const SHOWS: f64 = 5e-4;
 
-/// What is told, and what a user of `overlay` can do.
-pub struct Note {
-    pub told: String,
-    pub advice: Option<&'static str>,
+/// Something that the reader of an overlay has to know, and what can be done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverlayNote {
+    /// In words.
+    pub text: String,
+    /// What can be done.
+    pub advice: Option<OverlayAdvice>,
+}
+
+/// What can be done where an overlay is doubtful.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OverlayAdvice {
+    /// Give a negative factor on measured values.
+    NegativeFactor,
+    /// Give the frequency, the branch or the factor on measured values.
+    GiveMore,
 }
 
 /// A waveform over an orbit, and what the record was taken for.
-#[derive(Clone, Copy)]
-pub struct Laying<'a> {
+#[derive(Debug, Clone, Copy)]
+pub struct LaidWaveform<'a> {
+    /// What it was laid over.
     pub overlay: &'a Overlay,
+    /// The waveform.
     pub measured: &'a Waveform,
+    /// What its record was taken for.
     pub classification: &'a Classification,
+    /// Its period, in excitation periods.
     pub period_multiple: u32,
 }
 
-/// That no orbit is alike enough to be laid over.
+/// That no orbit is alike enough to be laid over, in words.
+#[must_use]
 pub fn nothing_alike(overlay: &Overlay) -> Option<String> {
     let (correlation, tried) = (overlay.alignment.correlation, overlay.tried);
     // A correlation that is no number is none either.
@@ -47,17 +65,18 @@ pub fn nothing_alike(overlay: &Overlay) -> Option<String> {
     })
 }
 
-impl Laying<'_> {
+impl LaidWaveform<'_> {
     /// What the reader has to know.
-    pub fn notes(&self) -> Vec<Note> {
+    #[must_use]
+    pub fn notes(&self) -> Vec<OverlayNote> {
         let advised = [
-            (self.turned(), Some("--amplitude-factor takes a negative factor")),
+            (self.turned(), Some(OverlayAdvice::NegativeFactor)),
             (self.little(), None),
-            (self.others(), Some("give --at, --branch or --amplitude-factor")),
+            (self.others(), Some(OverlayAdvice::GiveMore)),
         ];
         let plain = [self.motion(), self.skipped(), self.scattered(), self.level()];
-        let all = advised.into_iter().chain(plain.map(|told| (told, None)));
-        all.filter_map(|(told, advice)| Some(Note { told: told?, advice })).collect()
+        let all = advised.into_iter().chain(plain.map(|text| (text, None)));
+        all.filter_map(|(text, advice)| Some(OverlayNote { text: text?, advice })).collect()
     }
 
     /// That the sensor seems to be turned around.

@@ -2,23 +2,25 @@
 
 use std::path::Path;
 
-use hammerbeam_jobs::comparison::{Comparison, PointOutcome};
 use hammerbeam_results::{
-    export::{Table, header, number, word},
-    whole_file::replace,
+    export::{ExportError, Table, header, number, word},
+    whole_file::{WriteError, replace},
 };
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 
-use crate::failure::Failure;
+use super::{Comparison, PointOutcome};
 
 /// Writes every point with its branch.
 ///
-/// * `low_pass_hz`: cut-off of the filter that the branches are behind, if there is one.
+/// * `low_pass_hz`: cut-off of the filter that the branches are behind [Hz], if there is one.
+///
+/// # Errors
+/// The table cannot be written.
 pub fn write_points(
     folder: &Path,
     name: &str,
     (comparison, low_pass_hz): (&Comparison, Option<f64>),
-) -> Result<(), Failure> {
+) -> Result<(), ExportError> {
     let unit = comparison.quantity.key();
     let value = |what: &str| format!("{what}_{}_{unit}", comparison.quantity.word());
     let mut titles = header(&["origin", "kind", "period_multiple", "frequency_hz", "shifted_frequency_hz"]);
@@ -75,8 +77,9 @@ impl Amplitude {
     }
 }
 
-/// What was written of the excitation, and what is to be told of it.
-pub struct Amplitudes {
+/// What was written of the excitation, and what has to be known of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExcitationAmplitudes {
     /// Name of the file.
     pub name: String,
     /// In words, each with its frequency.
@@ -92,7 +95,13 @@ const UNUSUAL: f64 = 6.0;
 
 /// Writes the measured amplitudes of the excitation as a study file takes them, if there are two at least:
 /// means of what was measured at the same frequency.
-pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Option<Amplitudes>, Failure> {
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_amplitudes(
+    folder: &Path,
+    points: &[MeasuredPoint],
+) -> Result<Option<ExcitationAmplitudes>, WriteError> {
     let all = |wanted: Quantity| -> Vec<(f64, f64)> {
         let of = |point: &MeasuredPoint| {
             let (quantity, amplitude) = point.excitation_amplitude()?;
@@ -115,7 +124,7 @@ pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Optio
     let name = "excitation.toml".to_owned();
     replace(&folder.join(&name), text.as_bytes())?;
     let notes = spread(&means).chain(beside(&means)).collect();
-    Ok(Some(Amplitudes { name, notes }))
+    Ok(Some(ExcitationAmplitudes { name, notes }))
 }
 
 /// Amplitudes by rising frequency, those of the same one together.
@@ -181,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_far_from_its_neighbours_and_one_that_spreads_are_told_and_no_others() {
+    fn a_row_far_from_its_neighbours_and_one_that_spreads_are_reported_and_no_others() {
         let smooth = |f: f64| 5e-4 * (1.0 - 1e-4 * f * f);
         let mut measured: Vec<(f64, f64)> = (20..60).map(|f| (f64::from(f), smooth(f64::from(f)))).collect();
         assert_eq!(spread(&means(measured.clone())).chain(beside(&means(measured.clone()))).count(), 0);

@@ -11,50 +11,39 @@ use hammerbeam_signal::{
     spectrum::{Window, amplitude_spectrum},
 };
 
-use super::super::signal::largest;
-use crate::failure::Failure;
+use super::{course::largest, measured::MeasuredError};
 
 /// Whether a file can be read as a time series with times or a rate.
-pub fn looks_like_record(path: &Path) -> bool {
+pub(super) fn looks_like_record(path: &Path) -> bool {
     read_raw(path).is_ok_and(|(raw, _)| raw.judge(&Terms::default()).is_ok())
 }
 
 /// Reduces a record.
 ///
 /// * `reference`: the channel that is excited.
-pub fn reduce(path: &Path, reference: Option<&str>) -> Result<(MeasuredPoint, Vec<Finding>), Failure> {
-    let shown = path.display();
-    let told = |error: SignalError| match Failure::from(error) {
-        Failure::BadInput(message) if !message.starts_with(&shown.to_string()) => {
-            Failure::BadInput(format!("{shown}: {message}"))
-        }
-        Failure::NoResult(message) => Failure::BadInput(format!("{shown}: {message}")),
-        other => other,
-    };
-    let (raw, _) = read_raw(path).map_err(told)?;
+pub(super) fn reduce(
+    path: &Path,
+    reference: Option<&str>,
+) -> Result<(MeasuredPoint, Vec<Finding>), MeasuredError> {
+    let of_record = |source: SignalError| MeasuredError::Record { path: path.to_owned(), source };
+    let (raw, _) = read_raw(path).map_err(of_record)?;
     let reference = reference.map(|text| raw.channel_name(text).map(str::to_owned)).transpose();
-    let reference = reference.map_err(SignalError::from).map_err(told)?;
-    let record = raw.judge(&Terms::default()).map_err(SignalError::from).map_err(told)?;
+    let reference = reference.map_err(SignalError::from).map_err(of_record)?;
+    let record = raw.judge(&Terms::default()).map_err(SignalError::from).map_err(of_record)?;
     let reference = reference.map(|name| record.find(&name)).transpose();
-    let reference = reference.map_err(SignalError::from).map_err(told)?;
+    let reference = reference.map_err(SignalError::from).map_err(of_record)?;
     let frequency_hz = match reference {
         Some(index) => {
             let samples = &record.channels[index].samples;
-            excitation_frequency(samples, record.sampling_rate_hz).map_err(told)?
+            excitation_frequency(samples, record.sampling_rate_hz).map_err(of_record)?
         }
-        None => frequency_in_name(path).ok_or_else(|| {
-            Failure::BadInput(format!(
-                "{shown}: the excitation frequency is not known; name the file like \"31.5Hz.csv\", or give the excited channel with --reference"
-            ))
-        })?,
+        None => {
+            frequency_in_name(path).ok_or_else(|| MeasuredError::NoFrequency { path: path.to_owned() })?
+        }
     };
-    let point = point(path, &record, reference, frequency_hz).map_err(told)?;
-    match point {
-        Some(point) => Ok((point, record.findings)),
-        None => Err(Failure::BadInput(format!(
-            "{shown}: no channel has a unit of length, speed, acceleration or force"
-        ))),
-    }
+    let point = point(path, &record, reference, frequency_hz).map_err(of_record)?;
+    let point = point.ok_or_else(|| MeasuredError::NoQuantity { path: path.to_owned() })?;
+    Ok((point, record.findings))
 }
 
 fn point(
@@ -101,7 +90,8 @@ fn amplitude(channel: &Channel, sampling_rate_hz: f64) -> Result<(Quantity, f64)
     Ok((channel.quantity, line))
 }
 
-/// The number before "Hz" in the name of a file, as in `run3_31.5Hz.csv`.
+/// The number before "Hz" in the name of a file, as in `run3_31.5Hz.csv` [Hz].
+#[must_use]
 pub fn frequency_in_name(path: &Path) -> Option<f64> {
     let name = path.file_stem()?.to_str()?;
     let end = name.to_lowercase().rfind("hz")?;
