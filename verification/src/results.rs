@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use hammerbeam_jobs::{
-    OrbitSolver, StoredBranch, StoredBranches,
-    run::{Observer, Plan, Quiet, run},
+    Observer, OrbitSolver, Quiet, StoredBranch, StoredBranches,
+    run::{Plan, run},
 };
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_results::{Store, store::BranchRecord};

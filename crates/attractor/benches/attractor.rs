@@ -4,16 +4,13 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use std::{
-    sync::atomic::AtomicBool,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use faer::Mat;
 use hammerbeam_attractor::{
-    AttractorError, Axis, Basins, Effort, Grid, LyapunovSettings, Part, Patience, SectionMap, SystemMap,
-    in_order, lyapunov, settle, state_scales,
+    AttractorError, Axis, Basins, Effort, Grid, InOrder, LyapunovSettings, OneByOne, Part, Patience,
+    SectionMap, SystemMap, lyapunov, settle, state_scales,
 };
 use hammerbeam_motion::{
     Stretch, System,
@@ -141,7 +138,7 @@ fn cells(criterion: &mut Criterion) {
         bencher.iter(|| {
             let mut basins =
                 Basins::new(common::paper_beam(), 36.0, grid.clone(), Effort::default(), EXACT).unwrap();
-            while basins.round(1, &AtomicBool::new(false)).is_some() {}
+            while basins.round(&mut OneByOne).is_some() {}
             basins.attractors().len()
         });
     });
@@ -165,20 +162,16 @@ const WHOLE: f64 = 200.0 * 200.0;
 /// What a basin of 200 x 200 cells takes on two cores, from cells of the same rectangle by both integrators:
 /// a grid of 32 x 32 by the exact one, sixteen cells spread over it by the general one.
 fn whole_basin(_: &mut Criterion) {
-    let (stop, grid) = (AtomicBool::new(false), grid(32));
+    let (mut threads, grid) = (common::Threads::of(CORES), grid(32));
     let begun = Instant::now();
     let mut basins = Basins::new(common::paper_beam(), 36.0, grid.clone(), Effort::default(), EXACT).unwrap();
-    while basins.round(CORES, &stop).is_some() {}
+    while basins.round(&mut threads).is_some() {}
     tell("exact", basins.done(), begun.elapsed());
     let spread: Vec<usize> = (0..16).map(|k| 64 * k + 4 * (k % 8)).collect();
     let begun = Instant::now();
-    let settled = in_order(
-        &spread,
-        CORES,
-        &stop,
-        || general(36.0),
-        |map, &cell| settle(map, 1, &grid.state(cell), PATIENCE).unwrap(),
-    );
+    let settled = threads.in_order(&spread, &|| general(36.0), &|map, &cell| {
+        settle(map, 1, &grid.state(cell), PATIENCE).unwrap()
+    });
     tell("general", settled.unwrap().len(), begun.elapsed());
 }
 

@@ -15,14 +15,12 @@
 //! `sqrt(p (1 - p)/N)` of a sample of N random states. A grid samples a basin with smooth borders better than
 //! that.
 
-use std::sync::atomic::AtomicBool;
-
 use hammerbeam_motion::{System, exact::ExactSettings};
 
 use crate::{
-    AttractorError, Class, Classified, Doubt, Effort, Estimate, Grid, SectionMap, SystemMap,
+    AttractorError, Class, Classified, Doubt, Effort, Estimate, Grid, InOrder, SectionMap, SystemMap,
     classify::periodic,
-    examine, in_order,
+    examine,
     settle::{Patience, Settled, advance_period, distance, settle_unless},
 };
 
@@ -141,9 +139,11 @@ impl Basins {
 
     /// Does one more round.
     ///
+    /// * `workers`: do its cells; the result does not depend on who does which.
+    ///
     /// # Returns
     /// `None` if all cells are done, or if it was stopped: a round that was stopped leaves nothing.
-    pub fn round(&mut self, threads: usize, stop: &AtomicBool) -> Option<Round> {
+    pub fn round(&mut self, workers: &mut impl InOrder) -> Option<Round> {
         let first = self.done;
         let size = first.clamp(1, ROUND).min(self.grid.cells() - first);
         if size == 0 {
@@ -151,10 +151,11 @@ impl Basins {
         }
         let cells: Vec<usize> = (first..first + size).collect();
         let make = || SystemMap::new(self.system.clone(), self.frequency_hz, 1, self.motion);
-        let destinations = in_order(&cells, threads, stop, make, |map, &cell| match map {
-            Ok(map) => self.destination(map, cell).unwrap_or(Destination::Lost),
+        let follow = |map: &mut Result<SystemMap, AttractorError>, cell: &usize| match map {
+            Ok(map) => self.destination(map, *cell).unwrap_or(Destination::Lost),
             Err(_) => Destination::Lost,
-        })?;
+        };
+        let destinations = workers.in_order(&cells, &make, &follow)?;
         let known = self.attractors.len();
         let numbers = destinations.into_iter().map(|destination| self.number(destination)).collect();
         self.done += size;

@@ -19,7 +19,7 @@
 //!   at a phase and at touches
 //! - `sweep.rs`: stepped sweeps with the state carried over, diagrams from many states
 //! - `grid.rs`, `basins.rs`: where the motions from a grid of states lead
-//! - `parallel.rs`, `random.rs`: work on many threads with the same results; numbers from a seed
+//! - `parallel.rs`, `random.rs`: who does the same work for many items; numbers from a seed
 //!
 //! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of
 //! cells does so step by step, and can show progress and stop in between.
@@ -64,7 +64,7 @@ pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
 pub use error::AttractorError;
 pub use grid::{Axis, Grid};
 pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov};
-pub use parallel::in_order;
+pub use parallel::{InOrder, OneByOne};
 pub use part::Part;
 pub use poincare::{Section, SectionPoint, poincare};
 pub use section::{FieldMap, SectionMap, StepMap, SystemMap, WATCHED_PERIODS, state_scales};

@@ -2,9 +2,9 @@
 //! has it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use std::{f64::consts::TAU, sync::atomic::AtomicBool};
+use std::f64::consts::TAU;
 
-use crate::common::{element, oscillator};
+use crate::common::{Threads, element, oscillator};
 use hammerbeam_attractor::{
     Attractor, AttractorError, Axis, Basins, Class, Effort, Grid, distance, fractions, state_scales,
 };
@@ -40,7 +40,7 @@ fn basins(system: System, frequency_hz: f64, grid: Grid) -> Basins {
 
 fn all(mut basins: Basins, threads: usize) -> (Vec<u32>, Vec<Attractor>) {
     let mut cells = Vec::new();
-    while let Some(round) = basins.round(threads, &AtomicBool::new(false)) {
+    while let Some(round) = basins.round(&mut Threads::of(threads)) {
         assert_eq!(round.first, cells.len());
         cells.extend(round.cells);
     }
@@ -63,13 +63,16 @@ fn a_stop_loses_no_finished_round_and_the_rest_has_the_same_bits() {
     let mut first = basins(duffing(), FREQUENCY_HZ, grid(CELLS));
     let mut kept = Vec::new();
     for _ in 0..6 {
-        kept.extend(first.round(2, &AtomicBool::new(false)).unwrap().cells);
+        kept.extend(first.round(&mut Threads::of(2)).unwrap().cells);
     }
-    assert!(first.round(2, &AtomicBool::new(true)).is_none(), "a round that is stopped leaves nothing");
+    assert!(
+        first.round(&mut Threads { is_stopped: true, ..Threads::of(2) }).is_none(),
+        "a round that is stopped leaves nothing"
+    );
     assert_eq!(first.done(), kept.len());
     let mut second = basins(duffing(), FREQUENCY_HZ, grid(CELLS));
     second.resume(kept.len(), first.attractors().to_vec());
-    while let Some(round) = second.round(1, &AtomicBool::new(false)) {
+    while let Some(round) = second.round(&mut Threads::of(1)) {
         kept.extend(round.cells);
     }
     assert_eq!(kept, cells);

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{element, model};
 use hammerbeam_attractor::{
-    AttractorError, Axis, Basins, Class, Effort, Grid, LyapunovSettings, Observable, SectionMap,
+    AttractorError, Axis, Basins, Class, Effort, Grid, LyapunovSettings, Observable, OneByOne, SectionMap,
     SweepSettings, Sweeper, SystemMap, lyapunov,
 };
 use hammerbeam_motion::{
@@ -106,9 +106,8 @@ fn a_contact_that_stays_closed_is_refused_by_name() {
     let axis = |direction: [f64; 2]| Axis { direction: direction.to_vec(), low: -1.0, high: 0.4, count: 2 };
     let grid = Grid { base: vec![0.0; 2], x: axis([1.0, 0.0]), y: axis([0.0, 1.0]) };
     let mut basins = Basins::new(system, FREQUENCY_HZ, grid, Effort::default(), motion).unwrap();
-    let stop = std::sync::atomic::AtomicBool::new(false);
     let mut cells = Vec::new();
-    while let Some(round) = basins.round(1, &stop) {
+    while let Some(round) = basins.round(&mut OneByOne) {
         cells.extend(round.cells);
     }
     assert_eq!((cells, basins.attractors().len()), (vec![0; 4], 0));

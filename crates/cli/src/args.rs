@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::verify::TOLERANCE;
 use hammerbeam_study::file::DrawnOrbit;
 
 use crate::{
     compare_args::{CompareOptions, RigOptions},
-    figures::RESOLUTION,
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     overlay_args::OverlayOptions,
     signal_args::SignalCommand,
@@ -205,15 +205,15 @@ pub struct FigureOptions {
 
     /// Draw these alone; may be given several times [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
-    pub kind: Vec<FigureKind>,
+    pub kind: Vec<KindName>,
 
     /// Formats of the figures; may be given several times
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FigureFormat::USUAL)]
-    pub format: Vec<FigureFormat>,
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::USUAL)]
+    pub format: Vec<FormatName>,
 
     /// Scale of the vertical axis of response diagrams
-    #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
-    pub scale: FigureScale,
+    #[arg(long, value_enum, default_value_t = ScaleName::Automatic)]
+    pub scale: ScaleName,
 
     /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may
     /// be given several times [default: those of the study]
@@ -235,7 +235,7 @@ pub struct FigureOptions {
 
 /// Format of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FigureFormat {
+pub enum FormatName {
     /// Scalable Vector Graphics
     Svg,
     /// Portable Network Graphics, of pixels
@@ -244,25 +244,24 @@ pub enum FigureFormat {
     Pdf,
 }
 
-impl FigureFormat {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
+impl FormatName {
     /// What is drawn where none is asked for.
     pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
+}
 
-    /// Last part of the name of a file.
-    pub fn suffix(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Pdf => "pdf",
+impl From<FormatName> for FigureFormat {
+    fn from(name: FormatName) -> Self {
+        match name {
+            FormatName::Svg => Self::Svg,
+            FormatName::Png => Self::Png,
+            FormatName::Pdf => Self::Pdf,
         }
     }
 }
 
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FigureScale {
+pub enum ScaleName {
     /// Logarithmic where the values are positive and span a factor of more than 40
     Automatic,
     /// Linear
@@ -273,7 +272,7 @@ pub enum FigureScale {
 
 /// What a figure shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FigureKind {
+pub enum KindName {
     /// The structure with its stops, its modes, the error of its reduction, the amplitude of its excitation
     Structure,
     /// Branches: maximum displacement, acceleration, contact force and impact velocity over the frequency
@@ -296,19 +295,31 @@ pub enum FigureKind {
     Page,
 }
 
-impl FigureKind {
-    pub const ALL: [Self; 10] = [
-        Self::Structure,
-        Self::Response,
-        Self::Vary,
-        Self::Curves,
-        Self::Multipliers,
-        Self::Orbits,
-        Self::Sweeps,
-        Self::Exponents,
-        Self::Basins,
-        Self::Page,
-    ];
+impl From<ScaleName> for FigureScale {
+    fn from(name: ScaleName) -> Self {
+        match name {
+            ScaleName::Automatic => Self::Automatic,
+            ScaleName::Linear => Self::Linear,
+            ScaleName::Logarithmic => Self::Logarithmic,
+        }
+    }
+}
+
+impl From<KindName> for FigureKind {
+    fn from(name: KindName) -> Self {
+        match name {
+            KindName::Structure => Self::Structure,
+            KindName::Response => Self::Response,
+            KindName::Vary => Self::Vary,
+            KindName::Curves => Self::Curves,
+            KindName::Multipliers => Self::Multipliers,
+            KindName::Orbits => Self::Orbits,
+            KindName::Sweeps => Self::Sweeps,
+            KindName::Exponents => Self::Exponents,
+            KindName::Basins => Self::Basins,
+            KindName::Page => Self::Page,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

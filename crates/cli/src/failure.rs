@@ -2,8 +2,11 @@
 
 use std::process::ExitCode;
 
+use hammerbeam_attractor::AttractorError;
+use hammerbeam_drawing::DrawingError;
 use hammerbeam_jobs::{
-    comparison::{ComparisonError, ObservationError, OverlayError},
+    JobError,
+    comparison::{ComparisonError, MeasuredError, ObservationError, OverlayError},
     rig::RigError,
     run::RunError,
 };
@@ -62,6 +65,57 @@ impl Failure {
             | Self::Disagreement(message)
             | Self::Interrupted(message) => message.clone(),
             Self::Other(error) => format!("{error:#}"),
+        }
+    }
+}
+
+impl From<JobError> for Failure {
+    fn from(error: JobError) -> Self {
+        match error {
+            JobError::Study(error) => error.into(),
+            JobError::Store(error) => error.into(),
+            JobError::Export(error) => error.into(),
+            JobError::Write(error) => error.into(),
+            JobError::Run(error) => error.into(),
+            JobError::Motion(error) => error.into(),
+            JobError::Comparison(error) => error.into(),
+            JobError::Observation(error) => error.into(),
+            JobError::Overlay(error) => error.into(),
+            JobError::Rig(error) => error.into(),
+            JobError::Signal(error) => error.into(),
+            JobError::Stopped { source, .. } => (*source).into(),
+            JobError::Interrupted { .. } | JobError::TablesInterrupted => {
+                Self::Interrupted(error.to_string())
+            }
+            JobError::NoSearch { .. } | JobError::NoBranches { .. } => Self::NoResult(error.to_string()),
+            JobError::Measured(error) => error.into(),
+            _ => Self::BadInput(error.to_string()),
+        }
+    }
+}
+
+impl From<DrawingError> for Failure {
+    fn from(error: DrawingError) -> Self {
+        match error {
+            DrawingError::Store(error) => error.into(),
+            DrawingError::Job(error) => error.into(),
+            DrawingError::Signal(error) => error.into(),
+            DrawingError::Write(error) => error.into(),
+            DrawingError::Motion(error) => Self::NoResult(error.to_string()),
+            DrawingError::Interrupted { .. } => Self::Interrupted(error.to_string()),
+            other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<AttractorError> for Failure {
+    fn from(error: AttractorError) -> Self {
+        match error {
+            AttractorError::Input { .. }
+            | AttractorError::StateLength { .. }
+            | AttractorError::BehindRigidStop { .. }
+            | AttractorError::WithinContact { .. } => Self::BadInput(error.to_string()),
+            other => Self::NoResult(other.to_string()),
         }
     }
 }
@@ -133,6 +187,16 @@ impl From<ObservationError> for Failure {
     }
 }
 
+impl From<MeasuredError> for Failure {
+    fn from(error: MeasuredError) -> Self {
+        match error {
+            MeasuredError::Table(error) => error.into(),
+            MeasuredError::NoFrequency { .. } => Self::BadInput(format!("{error} with --reference")),
+            other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
 impl From<OverlayError> for Failure {
     fn from(error: OverlayError) -> Self {
         match error {
@@ -155,6 +219,7 @@ impl From<RigError> for Failure {
             RigError::Store(error) => error.into(),
             RigError::Observation(error) => error.into(),
             RigError::NoRig { .. } | RigError::Changes { .. } => Self::BadInput(error.to_string()),
+            RigError::BranchesInterrupted => Self::Interrupted(error.to_string()),
             RigError::Interrupted => Self::Interrupted(
                 "interrupted; the branches are kept, the measurement begins anew".to_owned(),
             ),

@@ -51,11 +51,6 @@ impl Interrupt {
         self.raised.load(Ordering::SeqCst)
     }
 
-    /// The flag that is raised, for threads that look at it themselves.
-    pub fn flag(&self) -> &AtomicBool {
-        &self.raised
-    }
-
     /// From now on pieces of work are short and end in order.
     pub fn is_in_order(&self) {
         self.in_order.store(true, Ordering::SeqCst);

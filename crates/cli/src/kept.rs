@@ -1,89 +1,26 @@
-//! Where the results of a request are kept: in the results folder of `--out`, or nowhere.
+//! What becomes of the results of a command that does not come to its end, in words.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use hammerbeam_jobs::StoredBranches;
-use hammerbeam_results::{
-    Store,
-    store::{DATABASE, RequestKind, StoreError},
-};
-use hammerbeam_study::StudyFile;
+use hammerbeam_jobs::JobError;
 
 use crate::failure::Failure;
 
-/// A request, and the store that keeps its results if there is one.
-#[derive(Debug)]
-pub struct Kept {
-    folder: Option<PathBuf>,
-    store: Option<Store>,
-    request: i64,
-    /// Pieces that were done before.
-    pub done: u64,
+/// What becomes of so many results of an interrupted command.
+pub fn fate(number: u64, out: Option<&Path>) -> String {
+    let be = if number == 1 { "is" } else { "are" };
+    match out {
+        Some(_) => format!("{}, the same command goes on from there", place(number, out)),
+        None => format!("{be} lost without --out"),
+    }
 }
 
-impl Kept {
-    /// Finds or begins a request in a results folder.
-    ///
-    /// * `words`: everything that its results depend on besides the study, as lines `key = value`.
-    pub fn open(
-        out: Option<&Path>,
-        file: &StudyFile,
-        (kind, words): (RequestKind, &[String]),
-        pieces: u64,
-    ) -> Result<Self, Failure> {
-        let Some(folder) = out else { return Ok(Self { folder: None, store: None, request: 0, done: 0 }) };
-        let mut store = Store::open_for_run(folder, file)?;
-        let request = store.request(kind, &words.join("\n"), pieces)?;
-        Ok(Self {
-            folder: Some(folder.to_owned()),
-            store: Some(store),
-            request: request.id,
-            done: request.done,
-        })
-    }
-
-    /// What is stored of the request.
-    pub fn read<T: Default>(
-        &self,
-        read: impl FnOnce(&Store, i64) -> Result<T, StoreError>,
-    ) -> Result<T, StoreError> {
-        self.store.as_ref().map_or_else(|| Ok(T::default()), |store| read(store, self.request))
-    }
-
-    /// The store and the number of the request, to read it piece by piece.
-    pub fn stored(&self) -> Option<(&Store, i64)> {
-        self.store.as_ref().map(|store| (store, self.request))
-    }
-
-    /// Stores more of it.
-    pub fn add(
-        &mut self,
-        add: impl FnOnce(&mut Store, i64) -> Result<(), StoreError>,
-    ) -> Result<(), StoreError> {
-        self.store.as_mut().map_or(Ok(()), |store| add(store, self.request))
-    }
-
-    /// Closes the store.
-    pub fn finish(&mut self) -> Result<(), StoreError> {
-        self.store.take().map_or(Ok(()), Store::finish)
-    }
-
-    /// What becomes of so many results of an interrupted command.
-    pub fn fate(&self, number: u64) -> String {
-        let be = if number == 1 { "is" } else { "are" };
-        match &self.folder {
-            Some(_) => format!("{}, the same command goes on from there", self.place(number)),
-            None => format!("{be} lost without --out"),
-        }
-    }
-
-    /// Where so many results are, of a command that cannot go on.
-    pub fn place(&self, number: u64) -> String {
-        let [be, have_been] = if number == 1 { ["is", "was"] } else { ["are", "were"] };
-        match &self.folder {
-            Some(folder) => format!("{be} kept in {}", folder.display()),
-            None => format!("{have_been} computed"),
-        }
+/// Where so many results are, of a command that cannot go on.
+pub fn place(number: u64, out: Option<&Path>) -> String {
+    let [be, have_been] = if number == 1 { ["is", "was"] } else { ["are", "were"] };
+    match out {
+        Some(folder) => format!("{be} kept in {}", folder.display()),
+        None => format!("{have_been} computed"),
     }
 }
 
@@ -92,27 +29,18 @@ pub fn counted(number: u64, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
-/// The words of a state.
-pub fn state_words(state: &[f64]) -> impl Iterator<Item = String> {
-    state.iter().enumerate().map(|(index, entry)| format!("state[{index}] = {entry:e}"))
-}
-
-/// Branches of the folder given, else those of the results if there are some.
+/// A job that was stopped or cannot go on, with what becomes of what it has done.
 ///
-/// They are read before the work, so that a wrong folder is told at once, and again after it, when they are
-/// to be let go before the store is closed: nobody may read the results then.
-pub fn branches(
-    results: Option<&Path>,
-    out: Option<&Path>,
-    file: &StudyFile,
-) -> Result<Option<StoredBranches>, StoreError> {
-    if let Some(folder) = results {
-        return StoredBranches::open(folder, file).map(Some);
-    }
-    let own = out.filter(|folder| folder.join(DATABASE).is_file());
-    match own.map(|folder| StoredBranches::open(folder, file)).transpose() {
-        // Of a command that ended before it had stored anything.
-        Err(StoreError::NoResults { .. }) => Ok(None),
-        other => other,
+/// * `fate`: of so many pieces, in words.
+pub fn unfinished(error: JobError, fate: impl Fn(u64) -> String) -> Failure {
+    match error {
+        JobError::Interrupted { done, part_s } => {
+            let part = part_s.map(|seconds| {
+                format!("; the tables have what was averaged over {seconds:.6} s of one more")
+            });
+            Failure::Interrupted(format!("interrupted; {}{}", fate(done), part.unwrap_or_default()))
+        }
+        JobError::Stopped { source, done } => Failure::from(*source).and(&fate(done)),
+        other => other.into(),
     }
 }

@@ -1,12 +1,9 @@
-//! The `hammerbeam` command: flags, terminal text and exit codes around the study crate.
+//! The `hammerbeam` command: flags, terminal text and exit codes around the jobs.
 
 mod args;
 mod commands;
 mod compare_args;
-mod crew;
-mod drift;
 mod failure;
-mod figures;
 mod initial;
 mod interrupt;
 mod kept;
@@ -20,6 +17,7 @@ mod progress;
 mod series;
 mod signal_args;
 mod ticker;
+mod watch;
 
 use std::process::ExitCode;
 

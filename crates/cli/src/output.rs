@@ -37,7 +37,9 @@ impl Output {
     /// Standard output does not take it: a full disk, say.
     pub fn give(self, document: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
         if self.json {
-            give_text(&serde_json::to_string_pretty(document).expect("results are plain data with text keys"))
+            // As a value, whose keys are sorted.
+            let document = serde_json::to_value(document).expect("results are plain data with text keys");
+            give_text(&format!("{document:#}"))
         } else {
             give_text(&printable(text().trim_end()))
         }

@@ -1,13 +1,17 @@
 //! The progress of a run: a bar, or a line every ten seconds when standard error is not a terminal.
 
-use std::time::{Duration, Instant};
+use std::{
+    fmt::Display,
+    time::{Duration, Instant},
+};
 
-use hammerbeam_jobs::run::{Observer, Progress, VariedProgress};
+use hammerbeam_jobs::{Observer, Progress, VariedProgress};
 use hammerbeam_results::store::{JobKind, JobRecord};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::{
     interrupt::Interrupt,
+    output::tell,
     pace::{Lines, Pace},
 };
 
@@ -136,6 +140,15 @@ impl Observer for Terminal {
             let message = self.varied_message(progress);
             self.show(self.diagram + (1.0 - self.diagram) * progress.fraction, message);
         }
+    }
+
+    fn notice(&mut self, notice: &dyn Display) {
+        tell(&notice.to_string());
+    }
+
+    fn finishing(&mut self) {
+        self.clear();
+        self.interrupt.is_in_order();
     }
 
     fn interrupted(&mut self) -> bool {

@@ -1,18 +1,17 @@
-//! A series of frequencies.
+//! A series of frequencies, as its options have it.
 
-use hammerbeam_attractor::frequencies;
+use hammerbeam_jobs::JobError;
 
 use crate::failure::Failure;
 
-/// Frequencies from low to high; both ends belong to them.
+/// Ends that are the wrong way round, by the names of their options; any other failure is given back.
 ///
-/// * `step_hz`: a hundredth of the way if there is none.
-/// * `first`: the option of the first frequency, with which ends that are the wrong way round are told.
-pub fn series((from, to): (f64, f64), step_hz: Option<f64>, first: &str) -> Result<Vec<f64>, Failure> {
-    if to < from {
-        let message = format!("--to is {to} Hz, which is below {first}, {from} Hz");
-        return Err(Failure::BadInput(message));
+/// * `first`: the option of the first frequency.
+pub fn falling(error: JobError, first: &str) -> Result<Failure, JobError> {
+    match error {
+        JobError::FallingFrequencies { from_hz, to_hz } => {
+            Ok(Failure::BadInput(format!("--to is {to_hz} Hz, which is below {first}, {from_hz} Hz")))
+        }
+        other => Err(other),
     }
-    let step = step_hz.unwrap_or(((to - from) / 100.0).max(f64::MIN_POSITIVE));
-    Ok(frequencies(from, to, step)?)
 }

@@ -13,8 +13,8 @@
 use std::{hint::black_box, path::Path, thread::available_parallelism, time::Instant};
 
 use hammerbeam_jobs::{
-    OrbitSolver,
-    run::{Plan, Quiet, run},
+    OrbitSolver, Quiet,
+    run::{Plan, run},
 };
 use hammerbeam_motion::{
     Stretch,

@@ -2,9 +2,17 @@
 //!
 //! | room | what it knows |
 //! |---|---|
+//! | `prepared` | a study with its model, which every job takes |
+//! | `observer` | what a job reports while it works, and how it is stopped |
+//! | [`pool`] | the threads of all jobs |
+//! | `request`, `initial` | where the results of a motion are kept, and the state at which it begins |
+//! | [`check`] | what is known of a study before anything is computed |
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
+//! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
+//! | `branch` | one side of a branch, row by row |
+//! | [`orbits`] | all periodic solutions at one frequency |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
@@ -16,15 +24,35 @@
 //! it goes on, and what is in the store is skipped, so a run that was killed does exactly what is left, with
 //! the same bits.
 
+pub mod basins;
+mod branch;
+pub mod check;
 pub mod comparison;
 mod crossings;
+mod error;
+pub mod exponents;
+mod initial;
+mod observer;
 mod orbit_solver;
+pub mod orbits;
+pub mod pool;
+mod prepared;
+mod request;
 pub mod rig;
 pub mod run;
 pub mod settled;
+pub mod simulate;
+pub mod sweep;
 pub mod update;
 pub mod varied;
 pub mod verify;
 
+pub use branch::BranchRows;
 pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
+pub use error::JobError;
+pub use initial::{InitialState, InitialStateError};
+pub use observer::{CountedProgress, Observer, Progress, Quiet, VariedProgress};
 pub use orbit_solver::OrbitSolver;
+pub use pool::PooledOrder;
+pub use prepared::PreparedStudy;
+pub use request::{FrequencySeries, JobFolders};

@@ -25,7 +25,7 @@
 //! - `checkpoint.rs`: storing a walk
 //! - `cut.rs`: phases at which an orbit may start
 //! - `corner/`: grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides
-//! - `stop.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again at once
+//! - `stop.rs`, `stop_text.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again at once
 //! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
 //!   stable, marginal, unstable
 //! - `stability.rs`, `located.rs`: test functions of flips and Neimark-Sacker points; what is known of an
@@ -124,6 +124,7 @@ mod stability;
 mod start;
 mod state_scale;
 mod stop;
+mod stop_text;
 mod survey;
 mod switch;
 #[cfg(test)]

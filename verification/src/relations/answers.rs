@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use hammerbeam_jobs::{
-    run::{Observer, Progress},
+    Observer, Progress, Quiet,
     verify::{VerifySettings, verify},
 };
 use hammerbeam_orbit::PeriodicSolution;
@@ -201,7 +201,7 @@ fn of_orbit(orbit: &PeriodicSolution, units: Units) -> OrbitAnswer {
 fn verified(results: &Results, folder: &Path, limits: &Limits) -> Result<(u64, Vec<String>), Failure> {
     let store = Store::open(folder)?;
     let settings = VerifySettings { sample: limits.verified, ..VerifySettings::default() };
-    let verification = verify(&store, &results.model, &settings, &|_, _| true)?;
+    let verification = verify(&store, &results.model, &settings, &mut Quiet)?;
     let verification = verification.expect("nothing stops the verification");
     let in_words = verification.disagreements.iter().map(|found| {
         let at = part(results.range_hz, found.frequency_hz);

@@ -8,6 +8,15 @@ mod motion;
 #[allow(unused_imports, reason = "each test file uses some of them")]
 pub use motion::{beam_with, element, hertz, model, paper_beam};
 
+use std::{
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+use hammerbeam_attractor::InOrder;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Load, LocalElement, System};
 
 /// Whether whole sets are asked for instead of samples.
@@ -22,4 +31,44 @@ pub fn oscillator(stiffness: f64, damping: f64, force: f64, elements: Vec<LocalE
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     System::new(model, &load, elements).unwrap()
+}
+
+/// Work on so many threads.
+#[derive(Debug, Clone, Copy)]
+pub struct Threads {
+    pub count: usize,
+    /// Whether it is stopped before anything is done.
+    pub is_stopped: bool,
+}
+
+impl Threads {
+    pub fn of(count: usize) -> Self {
+        Self { count, is_stopped: false }
+    }
+}
+
+impl InOrder for Threads {
+    fn in_order<T: Sync, W, R: Send>(
+        &mut self,
+        items: &[T],
+        make: &(dyn Fn() -> W + Sync),
+        work: &(dyn Fn(&mut W, &T) -> R + Sync),
+    ) -> Option<Vec<R>> {
+        let next = AtomicUsize::new(if self.is_stopped { items.len() } else { 0 });
+        let results: Mutex<Vec<Option<R>>> = Mutex::new(items.iter().map(|_| None).collect());
+        thread::scope(|scope| {
+            for _ in 0..self.count {
+                scope.spawn(|| {
+                    let mut worker = make();
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(item) = items.get(index) else { break };
+                        let result = work(&mut worker, item);
+                        results.lock().unwrap()[index] = Some(result);
+                    }
+                });
+            }
+        });
+        results.into_inner().unwrap().into_iter().collect()
+    }
 }

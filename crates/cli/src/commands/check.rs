@@ -1,78 +1,31 @@
 //! `hammerbeam check`: what the program understood of a study, and whether its rig makes one too.
 
-use std::f64::consts::TAU;
-
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_jobs::rig::changed_study;
+use hammerbeam_jobs::{
+    PreparedStudy,
+    check::{CheckReport, check},
+};
 use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
-    Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
+    Study, UndampedInContact, UndampedMode,
     file::{
         Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
         MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, StopRest, Structure,
     },
 };
-use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, drift, failure::Failure, kept::counted, output::Output};
+use crate::{args::StudyOptions, failure::Failure, kept::counted, output::Output, watch::Notices};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
-    let model = Model::build(&file)?;
-    if file.study.rig.is_some() {
-        Model::build(&changed_study(&file)?)?;
-    }
-    drift::warn(&model.drifts());
-    drift::heed_range(&model, &file.study)?;
-    output.give(&document(&file.study, &model), || text(&file.study, &model, output.frequency_unit))?;
+    let study = PreparedStudy::read(&options.study)?;
+    let report = check(&study, &mut Notices)?;
+    output.give(&report, || text(&report, output.frequency_unit))?;
     Ok(())
-}
-
-/// Eigenfrequencies of the equations of motion [Hz].
-fn eigenfrequencies_hz(model: &Model) -> Vec<f64> {
-    model.system.model().natural_frequencies.iter().map(|w| w / TAU).collect()
-}
-
-fn document(study: &Study, model: &Model) -> Value {
-    json!({
-        "title": study.title,
-        "identity": study.identity(),
-        "degrees_of_freedom": model.system.dof(),
-        "eigenfrequencies_hz": eigenfrequencies_hz(model),
-        "frequency_hz": study.excitation.harmonic().map(|harmonic| harmonic.frequency_hz),
-        "undamped_modes": model.undamped_modes().iter().map(undamped_document).collect::<Vec<_>>(),
-        "undamped_in_contact":
-            model.undamped_in_contact().iter().map(in_contact_document).collect::<Vec<_>>(),
-        "drifts": model.drifts().iter().map(drift_document).collect::<Vec<_>>(),
-        "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
-        "response_point": study.response.point,
-        "period_multiples": study.response.period_multiples,
-        "study": study,
-    })
-}
-
-/// Displacements are relative to the largest.
-fn drift_document(drift: &Drift) -> Value {
-    let motion: serde_json::Map<String, Value> =
-        drift.motion.iter().map(|(name, size)| (name.clone(), (*size).into())).collect();
-    json!({ "frequency_hz": 0.0, "motion": motion, "held_by_stops": drift.held_by_stops })
 }
 
 /// How to damp a mode.
 pub const UNDAMPED_ADVICE: &str =
     "give `modal_ratio` in [damping], such as 0.01, or a damper in [[structure.damper]]";
-
-/// A mode without damping.
-pub fn undamped_document(mode: &UndampedMode) -> Value {
-    json!({ "mode": mode.number, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.ratio })
-}
-
-/// A mode without damping while stops are closed.
-pub fn in_contact_document(mode: &UndampedInContact) -> Value {
-    let motion: serde_json::Map<String, Value> =
-        mode.motion.iter().map(|(name, size)| (name.clone(), (*size).into())).collect();
-    json!({ "stops": mode.stops, "frequency_hz": mode.frequency_hz, "motion": motion })
-}
 
 /// The modes without damping while stops are closed, and what that means.
 fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {
@@ -105,7 +58,8 @@ fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
     ))
 }
 
-fn text(study: &Study, model: &Model, unit: FrequencyUnit) -> String {
+fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
+    let (study, dof) = (report.study, report.eigenfrequencies_hz.len());
     let shown = |hertz: f64| digits(unit.factor() * hertz);
     let mut lines = Vec::new();
     if !study.title.is_empty() {
@@ -115,13 +69,13 @@ fn text(study: &Study, model: &Model, unit: FrequencyUnit) -> String {
         Structure::Beam(beam) => beam_text(beam),
         Structure::Lumped(lumped) => lumped_text(lumped),
     });
-    lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof(), unit)));
-    let frequencies: Vec<String> = eigenfrequencies_hz(model).iter().take(8).map(|f| shown(*f)).collect();
-    let more = if model.system.dof() > 8 { ", ..." } else { "" };
+    lines.push(format!("reduction    {}", reduction_text(&study.reduction, dof, unit)));
+    let frequencies: Vec<String> = report.eigenfrequencies_hz.iter().take(8).map(|f| shown(*f)).collect();
+    let more = if dof > 8 { ", ..." } else { "" };
     lines.push(format!("modes        {}{more} {}", frequencies.join(", "), unit.symbol()));
     lines.push(format!("damping      {}", damping_text(study)));
-    lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
-    lines.extend(in_contact_text(&model.undamped_in_contact()));
+    lines.extend(undamped_text(&report.undamped_modes, dof));
+    lines.extend(in_contact_text(&report.undamped_in_contact));
     lines.push(format!("excitation   {}", excitation_text(study, unit)));
     lines.extend(
         study.loads.iter().map(|load| format!("load         {}", load_text(load, &study.excitation))),

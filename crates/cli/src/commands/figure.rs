@@ -1,35 +1,40 @@
 //! `hammerbeam figure`: pictures of everything in a results folder.
 
+use std::path::Path;
+
+use hammerbeam_drawing::{
+    DrawSettings, DrawnFiles, FigureFormat, FigureKind, FigureSelection, draw, draw_into,
+};
+use hammerbeam_figure::plain_number;
+use hammerbeam_jobs::{PreparedStudy, StoredBranches, pool::threads};
 use hammerbeam_results::Store;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
 
-use super::run::threads;
-use crate::{
-    args::{FigureFormat, FigureKind, FigureOptions},
-    failure::Failure,
-    figures::{self, Drawn, Files, Wishes, orbit},
-    interrupt::Interrupt,
-    output::Output,
-};
+use crate::{args::FigureOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let snapshot = store.snapshot()?;
-    let file = StudyFile::parse("study.toml", store.about("study")?)?;
-    let model = Model::build(&file)?;
+    let PreparedStudy { file, model } = PreparedStudy::of_store(&store)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
-    if wishes(options, &file).kinds.contains(&FigureKind::Orbits) {
-        orbit::refuse_unknown(store.folder(), &file, &options.orbit)?;
+    let selection = selection(options, &file);
+    if selection.kinds.contains(&FigureKind::Orbits) {
+        refuse_unknown(store.folder(), &file, &options.orbit)?;
     }
-    let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen(output)?);
-    drawn.frequency_unit = output.frequency_unit;
-    drawn.resolution = options.resolution;
-    drawn.formats = FigureFormat::ALL.into_iter().filter(|format| options.format.contains(format)).collect();
-    let wishes = wishes(options, &file);
-    figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
+    let formats: Vec<FigureFormat> = options.format.iter().map(|name| (*name).into()).collect();
+    let settings = DrawSettings {
+        threads: threads(options.jobs),
+        resolution: options.resolution,
+        frequency_unit: output.frequency_unit,
+        formats: FigureFormat::ALL.into_iter().filter(|format| formats.contains(format)).collect(),
+    };
+    let mut watch = Watch::new(Interrupt::listen(output)?);
+    let drawn = draw_into::<Failure>(folder, settings, &mut watch, |drawn| {
+        Ok(draw(&store, (&file, &model), &selection, drawn)?)
+    });
     drop(snapshot);
-    let Files { names: files, refused, lacking } = drawn.finish()?;
+    let DrawnFiles { names: files, refused, lacking } = drawn?;
     if files.is_empty() {
         let results = options.results.display();
         return Err(Failure::NoResult(format!("{results} holds nothing of what was asked for to draw")));
@@ -45,12 +50,36 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// What the options ask for: of what they do not name, everything.
-fn wishes(options: &FigureOptions, file: &StudyFile) -> Wishes {
-    let all = Wishes::of(file);
-    Wishes {
-        kinds: if options.kind.is_empty() { all.kinds } else { options.kind.clone() },
-        scale: options.scale,
+fn selection(options: &FigureOptions, file: &StudyFile) -> FigureSelection {
+    let all = FigureSelection::of(file);
+    let kinds: Vec<FigureKind> = options.kind.iter().map(|name| (*name).into()).collect();
+    FigureSelection {
+        kinds: if kinds.is_empty() { all.kinds } else { kinds },
+        scale: options.scale.into(),
         orbits: if options.orbit.is_empty() { all.orbits } else { options.orbit.clone() },
         low_pass_hz: options.low_pass.or(all.low_pass_hz),
     }
+}
+
+/// Refuses an orbit that the user asks for where no stored branch has one.
+fn refuse_unknown(folder: &Path, file: &StudyFile, orbits: &[DrawnOrbit]) -> Result<(), Failure> {
+    if orbits.is_empty() {
+        return Ok(());
+    }
+    let branches = StoredBranches::open(folder, file)?;
+    for &DrawnOrbit { frequency_hz, period_multiple } in orbits {
+        let ranges = branches.ranges(|record| record.period_multiple == period_multiple);
+        if !ranges.iter().any(|(low, high)| (*low..=*high).contains(&frequency_hz)) {
+            let low = ranges.iter().map(|range| range.0).fold(f64::INFINITY, f64::min);
+            let high = ranges.iter().map(|range| range.1).fold(0.0, f64::max);
+            let there = match ranges.len() {
+                0 => "there is no such branch".to_owned(),
+                _ => format!("they lie between {} and {} Hz", plain_number(low), plain_number(high)),
+            };
+            return Err(Failure::BadInput(format!(
+                "--orbit: no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} Hz; {there}"
+            )));
+        }
+    }
+    Ok(())
 }

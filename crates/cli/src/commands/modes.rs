@@ -1,5 +1,6 @@
 //! `hammerbeam modes`: eigenfrequencies before and after the reduction, and the shapes at the points.
 
+use hammerbeam_drawing::{DrawSettings, draw_into, draw_linear};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
@@ -7,8 +8,8 @@ use serde_json::{Value, json};
 use crate::{
     args::ModesOptions,
     failure::Failure,
-    figures::{self, Drawn},
     output::{Output, six_decimals},
+    watch::Notices,
 };
 
 /// Rows of the table that are always shown, when there are so many.
@@ -19,10 +20,12 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let model = Model::build(&file)?;
     let mut document = document(&model);
     if let Some(folder) = &options.out {
-        let mut drawn = Drawn::into(folder)?;
-        drawn.frequency_unit = output.frequency_unit;
-        figures::draw_linear(&mut drawn, &file, &model);
-        document["figures"] = json!(drawn.finish()?.names);
+        let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+        let drawn = draw_into::<Failure>(folder, settings, &mut Notices, |drawn| {
+            draw_linear(drawn, &file, &model);
+            Ok(())
+        });
+        document["figures"] = json!(drawn?.names);
     }
     output.give(&document, || text(&model, output.frequency_unit))?;
     Ok(())

@@ -1,88 +1,52 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
+use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_jobs::OrbitSolver;
-use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
-use hammerbeam_study::{Model, StudyFile};
-use serde_json::{Value, json};
+use hammerbeam_jobs::{PreparedStudy, orbits::orbits};
+use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_study::StudyFile;
 
 use crate::{
     args::OrbitOptions,
-    drift,
     failure::Failure,
-    figures::{self, Drawn},
     interrupt::Interrupt,
     output::{Output, six_decimals, tell},
+    watch::Watch,
 };
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     file.forced()?;
-    let model = Model::build(&file)?;
-    drift::heed(&model)?;
-    let solver = OrbitSolver::new(&model, &file.study);
+    let study = PreparedStudy::new(file)?;
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
-    let interrupt = Interrupt::listen(output)?;
-    let found = solver.find_orbits(frequency_hz, multiple, &mut || interrupt.raised());
-    if interrupt.raised() {
-        return Err(Failure::Interrupted("interrupted".to_owned()));
-    }
-    let FoundOrbits { orbits, incomplete } = found.map_err(Failure::NoResult)?;
-    let incomplete = incomplete.map(|reason| format!("the search is not complete: {reason}"));
-    let Some((first, others)) = orbits.split_first() else {
+    let mut watch = Watch::new(Interrupt::listen(output)?);
+    let mut report = orbits(&study, frequency_hz, multiple, &mut watch)?;
+    let incomplete = report.incomplete.as_ref().map(|reason| format!("the search is not complete: {reason}"));
+    if report.orbits.is_empty() {
         let nothing = format!(
             "no periodic solution of {multiple} excitation period(s) was found at {}",
             output.frequency_unit.words(frequency_hz)
         );
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
-    };
-    let complete = incomplete.is_none();
+    }
     if let Some(why) = incomplete {
         tell(&why);
     }
-    let mut document = document(first, others, complete);
     if let Some(folder) = &options.out {
-        let low_pass_hz = options.low_pass.or(file.study.figures.low_pass_hz);
-        let mut drawn = Drawn::into(folder)?.on(1, interrupt);
-        drawn.frequency_unit = output.frequency_unit;
-        figures::orbit::draw((&file, &model), &orbits, low_pass_hz, &mut drawn)?;
-        document["figures"] = json!(drawn.finish()?.names);
+        let low_pass_hz = options.low_pass.or(study.file.study.figures.low_pass_hz);
+        let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+        let drawn = draw_into::<Failure>(folder, settings, &mut watch, |drawn| {
+            Ok(orbit::draw((&study.file, &study.model), &report.orbits, low_pass_hz, drawn)?)
+        });
+        report.figures = Some(drawn?.names);
     }
-    output.give(&document, || text(first, others, (&file.study.response.point, output.frequency_unit)))?;
+    let point = &study.file.study.response.point;
+    output.give(&report, || text(&report.orbits, (point, output.frequency_unit)))?;
     Ok(())
 }
 
-fn document(first: &PeriodicSolution, others: &[PeriodicSolution], complete: bool) -> Value {
-    let mut document = quantities(first);
-    document["search_complete"] = complete.into();
-    document["others"] = others.iter().map(quantities).collect();
-    document
-}
-
-fn quantities(solution: &PeriodicSolution) -> Value {
-    let maxima = &solution.maxima;
-    json!({
-        "frequency_hz": solution.frequency_hz,
-        "period_multiple": solution.period_multiple,
-        "max_abs_displacement_m": maxima.displacement,
-        "max_abs_acceleration_m_s2": maxima.acceleration,
-        "max_contact_force_n": maxima.contact_force,
-        "max_impact_velocity_m_s": maxima.impact_velocity,
-        "impulse_n_s": maxima.impulse,
-        "contacts": maxima.contacts,
-        "phase_cycles": solution.phase,
-        "state": solution.nodes[0],
-        "floquet_multipliers": solution.floquet_multipliers,
-        "stable": solution.stable(),
-        "stability": solution.stability().word(),
-        "residual": solution.residual,
-        "error_estimate": solution.error_estimate,
-    })
-}
-
-fn text(first: &PeriodicSolution, others: &[PeriodicSolution], shown: (&str, FrequencyUnit)) -> String {
-    let shown: Vec<String> =
-        std::iter::once(first).chain(others).map(|solution| solution_text(solution, shown)).collect();
+fn text(orbits: &[PeriodicSolution], shown: (&str, FrequencyUnit)) -> String {
+    let shown: Vec<String> = orbits.iter().map(|solution| solution_text(solution, shown)).collect();
     let count = match shown.len() {
         1 => "One periodic solution was found.".to_owned(),
         count => format!("{count} periodic solutions were found."),

@@ -1,96 +1,55 @@
 //! `hammerbeam run`: everything a study asks for, into one results folder.
 
-use std::{
-    collections::HashMap,
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
+use hammerbeam_drawing::{DrawSettings, FigureSelection, draw, draw_into};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
-    MirrorImage, OrbitSolver, StoredBranches,
-    run::{Plan, RunOutcome},
-    settled::settled_states,
-    varied::{self, VariedOutcome},
+    MirrorImage, PreparedStudy,
+    pool::threads,
+    run::{BranchReport, RunOutcome, RunReport, RunRequest, WholeRun, peak_stability, run_study},
 };
-use hammerbeam_orbit::Stability;
 use hammerbeam_results::{
-    Store,
-    store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
-    summary::{BranchSummary, Peak, summarise},
+    store::{JobRecord, PieceRecord, StoredReason},
+    summary::{BranchSummary, Peak},
 };
-use hammerbeam_study::{Model, Study, StudyFile, UndampedInContact, UndampedMode};
-use serde_json::{Value, json};
+use hammerbeam_study::StudyFile;
 
 use crate::{
-    args::RunOptions,
-    commands::check::{UNDAMPED_ADVICE, in_contact_document, undamped_document},
-    drift,
-    failure::Failure,
-    figures::{self, Drawn, Wishes},
-    interrupt::Interrupt,
-    output::Output,
-    progress::Terminal,
+    args::RunOptions, commands::check::UNDAMPED_ADVICE, failure::Failure, interrupt::Interrupt,
+    output::Output, progress::Terminal, watch::Watch,
 };
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     file.forced()?;
-    let model = Model::build(&file)?;
-    drift::heed(&model)?;
-    drift::heed_range(&model, &file.study)?;
-    let mut settled = Vec::new();
-    for folder in &options.from {
-        settled.extend(settled_states(&Store::open(folder)?)?);
-    }
-    let mut store = Store::open_for_run(&options.out, &file)?;
-    let solver = OrbitSolver::new(&model, &file.study);
+    let study = PreparedStudy::new(file)?;
     let interrupt = Interrupt::listen(output)?;
-    let pieces = file.study.varies.len() + file.study.curves.len();
-    let mut terminal = Terminal::new(interrupt.clone(), pieces);
+    let asked = &study.file.study;
+    let mut terminal = Terminal::new(interrupt.clone(), asked.varies.len() + asked.curves.len());
     let begun = Instant::now();
     let threads = threads(options.jobs);
-    let plan = Plan { met: solver.settled(&settled), ..Plan::of(&file.study) };
-    let outcome = hammerbeam_jobs::run::run(&mut store, &solver, &plan, threads, &mut terminal);
-    let varied = match outcome {
-        Ok(RunOutcome::Done) => varied::run(&mut store, &model, &file.study, threads, &mut terminal),
-        _ => Ok(VariedOutcome::Done),
-    };
+    let request = RunRequest { out: &options.out, from: &options.from, threads };
+    let run = run_study(&study, request, &mut terminal);
     terminal.clear();
-    interrupt.is_in_order();
-    let mut outcome = outcome?;
-    if varied? == VariedOutcome::Interrupted {
-        outcome = RunOutcome::Interrupted;
-    }
-    let images = mirror_images(&options.out, &file, &model)?;
-    let branches = summarise(&store)?;
-    let pieces = store.pieces()?;
-    let jobs = store.jobs()?;
-    let summary = Summary {
-        unit: output.frequency_unit,
-        study: &file.study,
-        folder: options.out.display().to_string(),
-        branches,
-        images,
-        pieces,
-        jobs,
-        undamped: model.undamped_modes(),
-        undamped_in_contact: model.undamped_in_contact(),
-    };
-    let result = match outcome {
+    let WholeRun { store, report } = run?;
+    let mut summary = Summary { unit: output.frequency_unit, range_hz: asked.excitation.range_hz(), report };
+    let result = match summary.report.outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
-            let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt);
-            drawn.frequency_unit = output.frequency_unit;
-            figures::draw(&store, (&file, &model), &Wishes::of_run(&file), &mut drawn)?;
-            match drawn.finish() {
+            let settings =
+                DrawSettings { threads, frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+            let selection = FigureSelection::of_run(&study.file);
+            let drawn = draw_into(&options.out, settings, &mut Watch::new(interrupt), |drawn| {
+                draw(&store, (&study.file, &study.model), &selection, drawn)
+            });
+            match drawn.map_err(Failure::from) {
                 Err(Failure::Interrupted(_)) => Err(Failure::Interrupted(summary.interrupted_drawing())),
                 Err(other) => Err(other),
-                Ok(_) if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
+                Ok(_) if summary.report.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
-                    let figures = figures.names;
-                    output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()))?;
-                    Ok(())
+                    summary.report.figures = figures.names;
+                    output.give(&summary.report, || summary.text(begun.elapsed()))
                 }
             }
         }
@@ -99,52 +58,40 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     result
 }
 
-/// Threads to work with: those asked for, else one for each core.
-pub fn threads(asked: Option<u16>) -> usize {
-    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
-}
-
-/// What came of a run.
-struct Summary<'a> {
+/// What came of a run, in words.
+struct Summary {
     unit: FrequencyUnit,
-    study: &'a Study,
-    folder: String,
-    branches: Vec<BranchSummary>,
-    /// Where the mirror image of each branch is.
-    images: HashMap<u32, MirrorImage>,
-    pieces: Vec<PieceRecord>,
-    jobs: Vec<JobRecord>,
-    undamped: Vec<UndampedMode>,
-    undamped_in_contact: Vec<UndampedInContact>,
+    range_hz: [f64; 2],
+    report: RunReport,
 }
 
-impl Summary<'_> {
-    fn solutions(&self) -> u64 {
-        self.branches.iter().map(|branch| branch.solutions).sum()
+impl Summary {
+    fn folder(&self) -> String {
+        self.report.results.display().to_string()
     }
 
     fn interrupted(&self) -> String {
         format!(
             "interrupted; {} solutions are kept in {}, the same command goes on from there",
-            self.solutions(),
-            self.folder
+            self.report.solutions(),
+            self.folder()
         )
     }
 
     fn interrupted_drawing(&self) -> String {
         format!(
             "interrupted while drawing; all {} solutions are kept in {}, the same command draws them",
-            self.solutions(),
-            self.folder
+            self.report.solutions(),
+            self.folder()
         )
     }
 
     fn nothing(&self) -> String {
-        let [low, high] = self.study.excitation.range_hz();
+        let [low, high] = self.range_hz;
         let (low, high) = (self.unit.words(low), self.unit.words(high));
         let mut lines = vec![format!("no periodic solution was found between {low} and {high}")];
         lines.extend(self.failed_text());
-        if self.left() > 0 {
+        if self.report.left() > 0 {
             lines.push(format!("the search is not complete: {}", self.out_of_time()));
         }
         lines.join("\n")
@@ -153,31 +100,20 @@ impl Summary<'_> {
     fn out_of_time(&self) -> String {
         format!(
             "out of time: {} searches, flips and branch points are left; the same command goes on with them",
-            self.left()
+            self.report.left()
         )
-    }
-
-    /// Searches, flips and branch points that were not come to.
-    fn left(&self) -> usize {
-        self.jobs.iter().filter(|job| job.outcome.is_none()).count()
-    }
-
-    /// Those of which nothing came or that were not complete, with the reason.
-    fn failed(&self) -> impl Iterator<Item = (&JobRecord, &str)> {
-        let ended = self.jobs.iter().filter(|job| job.outcome.is_some());
-        ended.filter_map(|job| Some((job, job.message.as_deref()?)))
     }
 
     fn failed_text(&self) -> Vec<String> {
         const SHOWN: usize = 5;
-        let failed: Vec<_> = self.failed().collect();
+        let failed: Vec<_> = self.report.failed().collect();
         if failed.is_empty() {
             return Vec::new();
         }
         let mut lines = vec![format!(
             "\n{} of {} searches, flips and branch points led to nothing or were not complete:",
             failed.len(),
-            self.jobs.len()
+            self.report.searches.len()
         )];
         let line = |(job, message): &(&JobRecord, &str)| {
             format!("  {}: {message}", shown(self.unit, job.frequency_hz, 6))
@@ -191,9 +127,9 @@ impl Summary<'_> {
 
     /// Why solutions are marginal all along branches: a bifurcation makes one or two.
     fn marginal_text(&self) -> Option<String> {
-        let marginal: u64 = self.branches.iter().map(|branch| branch.marginal).sum();
-        let open = self.undamped.iter().map(ToString::to_string);
-        let in_contact = self.undamped_in_contact.iter().map(ToString::to_string);
+        let marginal: u64 = self.report.branches.iter().map(|branch| branch.summary.marginal).sum();
+        let open = self.report.undamped_modes.iter().map(ToString::to_string);
+        let in_contact = self.report.undamped_in_contact.iter().map(ToString::to_string);
         let mut modes = open.chain(in_contact);
         let first = modes.next().filter(|_| marginal > 0)?;
         let others = match modes.count() {
@@ -208,76 +144,33 @@ impl Summary<'_> {
         ))
     }
 
-    fn document(&self, figures: &[String]) -> Value {
-        let failed = self
-            .failed()
-            .map(|(job, message)| json!({ "frequency_hz": job.frequency_hz, "message": message }));
-        let in_contact = self.undamped_in_contact.iter().map(in_contact_document);
-        json!({
-            "unfinished": self.left(),
-            "failed": failed.collect::<Vec<_>>(),
-            "results": self.folder,
-            "title": self.study.title,
-            "solutions": self.solutions(),
-            "branches": self.branches.iter().map(|branch| self.branch_document(branch)).collect::<Vec<_>>(),
-            "varied": self.pieces.iter().map(piece_document).collect::<Vec<_>>(),
-            "undamped_in_contact": in_contact.collect::<Vec<_>>(),
-            "undamped_modes": self.undamped.iter().map(undamped_document).collect::<Vec<_>>(),
-            "figures": figures,
-        })
+    fn branch_text(&self, branch: &BranchReport) -> String {
+        let image = branch.mirror_image.and_then(image_text);
+        [Some(branch_text(&branch.summary, self.unit)), image]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 
-    fn branch_document(&self, branch: &BranchSummary) -> Value {
-        let mut document = branch_document(branch);
-        document["mirror_image"] = match self.images.get(&branch.record.id) {
-            None => Value::Null,
-            Some(MirrorImage::Itself) => json!(branch.record.id),
-            Some(MirrorImage::Branch(other)) => json!(other),
-            Some(MirrorImage::Given) => json!("not stored"),
-        };
-        document
-    }
-
-    fn branch_text(&self, branch: &BranchSummary) -> String {
-        let image = self.images.get(&branch.record.id).copied().and_then(image_text);
-        [Some(branch_text(branch, self.unit)), image].into_iter().flatten().collect::<Vec<_>>().join("\n")
-    }
-
-    fn text(&self, figures: &[String], elapsed: Duration) -> String {
+    fn text(&self, elapsed: Duration) -> String {
         let mut lines = vec![format!(
             "{} solutions on {} branch(es) in {}, after {:.1} s",
-            self.solutions(),
-            self.branches.len(),
-            self.folder,
+            self.report.solutions(),
+            self.report.branches.len(),
+            self.folder(),
             elapsed.as_secs_f64()
         )];
-        lines.extend(self.branches.iter().map(|branch| self.branch_text(branch)));
-        lines.extend(self.pieces.iter().map(piece_text));
+        lines.extend(self.report.branches.iter().map(|branch| self.branch_text(branch)));
+        lines.extend(self.report.varied.iter().map(piece_text));
         lines.extend(self.marginal_text());
         lines.extend(self.failed_text());
-        if self.left() > 0 {
+        if self.report.left() > 0 {
             lines.push(format!("\n{}", self.out_of_time()));
         }
-        lines.push(format!("{} files with figures in {}", figures.len(), self.folder));
+        lines.push(format!("{} files with figures in {}", self.report.figures.len(), self.folder()));
         lines.join("\n")
     }
-}
-
-/// Where the mirror images of the branches of a symmetric system are.
-fn mirror_images(
-    folder: &Path,
-    file: &StudyFile,
-    model: &Model,
-) -> Result<HashMap<u32, MirrorImage>, Failure> {
-    let mut images = HashMap::new();
-    if !model.system.is_symmetric() {
-        return Ok(images);
-    }
-    let stored = StoredBranches::open(folder, file)?;
-    for branch in stored.branches() {
-        images.extend(stored.mirror_image_of(model, branch)?.map(|image| (branch.record.id, image)));
-    }
-    Ok(images)
 }
 
 fn image_text(image: MirrorImage) -> Option<String> {
@@ -290,44 +183,6 @@ fn image_text(image: MirrorImage) -> Option<String> {
                 .to_owned(),
         ),
     }
-}
-
-fn branch_document(branch: &BranchSummary) -> Value {
-    let walk = |walk: &WalkRecord| {
-        json!({
-            "solutions": walk.solutions,
-            "stop_reason": walk.reason.as_ref().map(|reason| reason.kind.as_str()),
-            "stop_frequency_hz": walk.reason.as_ref().and_then(|reason| reason.frequency_hz),
-            "stop_message": walk.reason.as_ref().map(|reason| reason.message.as_str()),
-        })
-    };
-    let peak = |peak: &Peak| {
-        json!({
-            "frequency_hz": peak.frequency_hz,
-            "equal_hz": peak.equal_hz,
-            "equal_solutions": peak.equal,
-            "max_abs_displacement_m": peak.max_abs_displacement_m,
-            "stable": peak.stability == Some(Stability::Stable),
-            "stability": peak_stability(peak),
-        })
-    };
-    json!({
-        "branch": branch.record.id,
-        "period_multiple": branch.record.period_multiple,
-        "solutions": branch.solutions,
-        "stable_solutions": branch.stable,
-        "marginal_solutions": branch.marginal,
-        "frequency_hz": branch.range_hz,
-        "folds": branch.folds,
-        "flips": branch.flips,
-        "flips_not_followed": branch.flips_not_followed,
-        "neimark_sacker_points": branch.neimark_sackers,
-        "branch_points": branch.branch_points,
-        "grazings": branch.grazings,
-        "peaks": branch.peaks.iter().map(peak).collect::<Vec<_>>(),
-        "up": walk(&branch.record.up),
-        "down": walk(&branch.record.down),
-    })
 }
 
 fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
@@ -400,37 +255,9 @@ fn shown(unit: FrequencyUnit, frequency_hz: f64, decimals: usize) -> String {
     format!("{:.decimals$} {}", unit.factor() * frequency_hz, unit.symbol())
 }
 
-fn peak_stability(peak: &Peak) -> &'static str {
-    peak.stability.map_or("in part stable", Stability::word)
-}
-
 /// How many solutions are marginal, behind the number of those that are stable; nothing if none is.
 fn marginal_words(marginal: u64) -> String {
     if marginal > 0 { format!(", {marginal} marginal") } else { String::new() }
-}
-
-fn piece_document(piece: &PieceRecord) -> Value {
-    let branches = piece.branches.iter().map(|branch| {
-        json!({
-            "branch": branch.branch,
-            "of": branch.kind,
-            "period_multiple": branch.period_multiple,
-            "solutions": branch.rows,
-            "stable_solutions": branch.stable,
-            "marginal_solutions": branch.marginal,
-            "events": branch.events,
-            "parameter": branch.range,
-            "up": branch.up,
-            "down": branch.down,
-        })
-    });
-    json!({
-        "piece": piece.id,
-        "kind": if piece.is_curve { "curve" } else { "vary" },
-        "parameter_name": piece.parameter,
-        "message": piece.message,
-        "branches": branches.collect::<Vec<_>>(),
-    })
 }
 
 fn piece_text(piece: &PieceRecord) -> String {

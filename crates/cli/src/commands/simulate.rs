@@ -1,175 +1,181 @@
 //! `hammerbeam simulate`: a motion in time, with every contact.
-//!
-//! With `--out` it goes into the store chunk by chunk, and on from the last one if it is asked again. Tables
-//! and summary are made of the chunks alone, those of the store first, so that they have the same bytes
-//! however often the command was interrupted.
-
-mod observer;
-mod size;
-mod summary;
-mod time;
-mod told;
 
 use std::path::Path;
 
-use hammerbeam_attractor::{AttractorError, Simulation, SimulationCheckpoint, SystemMap};
-use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_results::{
-    export::SimulationTables,
-    store::{RequestKind, SimulatedChunk},
+use hammerbeam_attractor::AttractorError;
+use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::{
+    JobError, JobFolders, PreparedStudy,
+    simulate::{
+        DurationTooLong, SimulationReport, SimulationRequest, SimulationTime, SimulationTooLarge, simulate,
+    },
 };
-use hammerbeam_study::{Model, StudyFile};
 
 use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{Kept, state_words},
+    kept::{counted, fate, place, unfinished},
     motion_args::SimulateOptions,
     output::Output,
-    ticker::Ticker,
+    watch::Watch,
 };
-use observer::Observer;
-use summary::Summary;
-use told::Told;
+
+/// Periods that are written down if nothing is said.
+const USUAL_PERIODS: u64 = 10;
+/// Samples in a period if nothing is said.
+const USUAL_SAMPLES: u32 = 100;
 
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
-    let model = Model::build(&file)?;
-    let (layout, pieces) = time::layout(options, (&file, &model))?;
-    let told = Told { layout: &layout, pieces };
-    size::check(&told, options.out.is_some())?;
-    let motion = ExactSettings::default();
-    let mut map = SystemMap::new(model.system.clone(), layout.frequency_hz, 1, motion)?;
-    let state = initial::state(&options.initial, &mut map, (&file, &model), options.results.as_deref())?;
-    let begin = |checkpoint: Option<SimulationCheckpoint>| match checkpoint {
-        Some(checkpoint) => Simulation::resume(model.system.clone(), layout.frequency_hz, checkpoint, motion),
-        None => Simulation::new(model.system.clone(), layout.frequency_hz, &state, motion),
+    let study = PreparedStudy::read(&options.study)?;
+    let time = match study.file.forced().is_ok() {
+        true => forced(options)?,
+        false => free(options, &study)?,
     };
-    if options.out.is_some() {
-        // A motion that cannot begin leaves no folder behind.
-        begin(None)?.skip_period()?;
-    }
-    let interrupt = Interrupt::listen(output)?;
-    // What is asked of the study.
-    let mut words = layout.words();
-    words.extend(state_words(&state));
-    let total = layout.transient_periods + layout.periods;
-    let kept = Kept::open(options.out.as_deref(), &file, (RequestKind::Simulation, &words), total)?;
-    let tables = options.out.as_deref().map(|folder| SimulationTables::new(folder, "", layout.clone()));
-    let written = Written { told, tables, summary: Summary::default() };
-    let mut work = Work { interrupt: &interrupt, done: kept.done, kept, written };
-    let mut simulation = begin(work.read()?)?;
-    let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
-    let Work { mut kept, done, written, .. } = work;
-    interrupt.is_in_order();
-    // Under the lock of the folder: two commands do not write the same tables at once.
-    let written = written.finish();
-    kept.finish()?;
-    let summary = written.map_err(|failure| failure.and(&told.fate(done, &kept)))?;
-    if let Some(error) = failure {
-        return Err(if done > 0 { told.ended(&error, (done, &kept)) } else { error.into() });
-    }
-    if done < total {
-        return Err(Failure::Interrupted(format!("interrupted; {}", told.fate(done, &kept))));
-    }
-    let out = options.out.as_deref();
-    output.give(&summary.document(&told, out), || summary.text(&told, (out, output.frequency_unit)))?;
+    let request = SimulationRequest {
+        time,
+        section_phase: options.section_phase,
+        initial: initial::meant(&options.initial, 2 * study.dof())?,
+    };
+    let folders = JobFolders { results: options.results.as_deref(), out: options.out.as_deref() };
+    let mut watch = Watch::new(Interrupt::listen(output)?);
+    let report = simulate(&study, &request, folders, &mut watch);
+    let report = report.map_err(|error| refused(options, (&study, &time), error))?;
+    output.give(&report, || text(&report, output.frequency_unit))?;
     Ok(())
 }
 
-struct Work<'a> {
-    interrupt: &'a Interrupt,
-    kept: Kept,
-    written: Written<'a>,
-    /// Periods that are done, with those of the transient.
-    done: u64,
+fn bad(message: String) -> Failure {
+    Failure::BadInput(message)
 }
 
-impl Work<'_> {
-    /// Takes over what is stored.
-    ///
-    /// # Returns
-    /// Where the motion is, if it has begun.
-    fn read(&mut self) -> Result<Option<SimulationCheckpoint>, Failure> {
-        let Some((store, request)) = self.kept.stored() else { return Ok(None) };
-        let (written, mut last) = (&mut self.written, None);
-        let fate = written.told.fate(self.done, &self.kept);
-        store.each_simulated::<Failure>(request, written.told.layout, |chunk| {
-            if self.interrupt.raised() {
-                let message = "interrupted before the tables were written; everything is kept";
-                return Err(Failure::Interrupted(message.to_owned()));
+fn too_long(error: DurationTooLong) -> Failure {
+    let DurationTooLong { found, most, things } = error;
+    bad(format!("--duration holds {found:e} {things}, must be {most:e} at most"))
+}
+
+/// The periods of a study with an excitation.
+fn forced(options: &SimulateOptions) -> Result<SimulationTime, Failure> {
+    if options.sampling.is_some() {
+        let message = "--sampling is for a study without [excitation]; allowed here: --samples-per-period";
+        return Err(bad(message.to_owned()));
+    }
+    let Some(frequency_hz) = options.frequency else {
+        return Err(bad("--frequency is missing: the study has an [excitation]".to_owned()));
+    };
+    let periods = match options.duration {
+        None => options.periods.unwrap_or(USUAL_PERIODS),
+        Some(duration) => SimulationTime::periods_in(duration, frequency_hz).map_err(too_long)?,
+    };
+    let samples = options.samples_per_period.unwrap_or(USUAL_SAMPLES);
+    Ok(SimulationTime::periods(frequency_hz, options.transient_periods, periods, samples))
+}
+
+/// The intervals of a study without one.
+fn free(options: &SimulateOptions, study: &PreparedStudy) -> Result<SimulationTime, Failure> {
+    let given = [
+        ("--frequency", options.frequency.is_some()),
+        ("--periods", options.periods.is_some()),
+        ("--transient-periods", options.transient_periods > 0),
+        ("--samples-per-period", options.samples_per_period.is_some()),
+        ("--section-phase", options.section_phase > 0.0),
+    ];
+    if let Some((flag, _)) = given.iter().find(|(_, given)| *given) {
+        let message = "the study has no [excitation], so no period; allowed: --duration S and --sampling HZ";
+        return Err(bad(format!("{flag}: {message}")));
+    }
+    let Some(duration) = options.duration else {
+        let message = "--duration is missing: the study has no [excitation], so no period to count";
+        return Err(bad(message.to_owned()));
+    };
+    SimulationTime::free(duration, options.sampling, &study.model).map_err(too_long)
+}
+
+fn refused(
+    options: &SimulateOptions,
+    (study, time): (&PreparedStudy, &SimulationTime),
+    error: JobError,
+) -> Failure {
+    let out = options.out.as_deref();
+    match initial::refused(&options.initial, 2 * study.dof(), error) {
+        Ok(failure) => failure,
+        Err(JobError::TooLarge(error)) => bad(too_large(&error)),
+        Err(JobError::Stopped { source, done }) => match *source {
+            JobError::Motion(error) => ended(time, &error, (done, out)),
+            other => unfinished(other.stopped_after(done), |done| fate_of(time, done, out)),
+        },
+        Err(error) => unfinished(error, |done| fate_of(time, done, out)),
+    }
+}
+
+/// What takes too much, by the options that ask for it.
+fn too_large(error: &SimulationTooLarge) -> String {
+    match *error {
+        SimulationTooLarge::Free { numbers, most, sampling_hz } => format!(
+            "the motion is {numbers} numbers, must be {most} at most with --out; allowed: a shorter --duration, or a \
+             lower --sampling than {sampling_hz} Hz"
+        ),
+        SimulationTooLarge::Period { samples, dof, elements, numbers, most, most_samples } => format!(
+            "--samples-per-period {samples} of {dof} degrees of freedom and {elements} local elements is {numbers} numbers in a period, must be {most} at most; allowed: 1 to {most_samples} samples"
+        ),
+        SimulationTooLarge::Periods { periods, of_period, numbers, most, most_periods, samples } => format!(
+            "--periods {periods} of {of_period} numbers each is {numbers} numbers, must be {most} at most with --out; allowed: 1 to {most_periods} periods with --samples-per-period {samples}"
+        ),
+        _ => error.to_string(),
+    }
+}
+
+/// What becomes of the periods that are done.
+fn fate_of(time: &SimulationTime, done: u64, out: Option<&Path>) -> String {
+    let (number, part) = place_of(time, done);
+    format!("{}{part} {}", counted(number, time.pieces.word()), fate(number, out))
+}
+
+/// A motion that ends early.
+fn ended(time: &SimulationTime, error: &AttractorError, (done, out): (u64, Option<&Path>)) -> Failure {
+    let word = time.pieces.word();
+    let (period, part) = place_of(time, done + 1);
+    let (number, of) = place_of(time, done);
+    let finished = counted(number, word);
+    Failure::NoResult(format!("{word} {period}{part}: {error}; {finished}{of} {}", place(number, out)))
+}
+
+/// The number of a period in its part of the motion, and that part.
+fn place_of(time: &SimulationTime, period: u64) -> (u64, &'static str) {
+    match time.transient {
+        0 => (period, ""),
+        transient if period > transient => (period - transient, ""),
+        _ => (period, " of the transient"),
+    }
+}
+
+fn text(report: &SimulationReport, unit: FrequencyUnit) -> String {
+    let seconds = report.time_s;
+    let mut lines = vec![
+        match (report.frequency_hz, report.periods) {
+            (Some(frequency_hz), Some(periods)) => {
+                format!("{periods} periods at {}, {seconds:.6} s", unit.words(frequency_hz))
             }
-            written.take(&chunk).map_err(|failure| failure.and(&fate))?;
-            last = Some(chunk.checkpoint);
-            Ok(())
-        })?;
-        Ok(last)
-    }
-
-    /// Goes on to the end.
-    ///
-    /// # Returns
-    /// Why the motion ends early, if it does.
-    fn simulate(
-        &mut self,
-        simulation: &mut Simulation,
-        mut observer: Observer<'_>,
-    ) -> Result<Option<AttractorError>, Failure> {
-        let Told { layout, pieces } = self.written.told;
-        let transient = layout.transient_periods;
-        let total = transient + layout.periods;
-        let mut ticker = Ticker::new(total, pieces.words());
-        let mut failure = None;
-        while self.done < total && failure.is_none() && !self.interrupt.raised() {
-            let period =
-                if self.done < transient { observer.skip(simulation) } else { observer.period(simulation) };
-            match period {
-                Ok(()) => self.done += 1,
-                Err(error) => failure = Some(error),
+            _ => {
+                let sampling_hz = report.sampling_hz.unwrap_or_default();
+                format!("{seconds:.6} s of free vibration, {sampling_hz} samples in a second")
             }
-            if observer.is_due() {
-                self.add(observer.take(simulation))?;
-            }
-            ticker.at(self.done, String::new);
-        }
-        ticker.clear();
-        self.add(observer.take(simulation))?;
-        Ok(failure)
+        },
+        format!(
+            "  largest sampled displacement  {:.6e} m ({} samples)",
+            report.max_abs_sampled_displacement_m, report.samples
+        ),
+        format!("  contacts                      {}", report.contacts),
+        format!("  largest contact force         {:.6e} N", report.max_contact_force_n),
+        format!("  largest impact velocity       {:.6e} m/s", report.max_impact_velocity_m_s),
+        format!("  impulse of all contacts       {:.6e} N s", report.impulse_n_s),
+        format!("  energy lost in all contacts   {:.3e} J", report.energy_lost_j),
+    ];
+    if report.is_cut_in_contact {
+        lines.push("    (with what a contact holds that is closed at the begin or the end)".to_owned());
     }
-
-    /// Stores the periods that have been done last, and writes them down.
-    fn add(&mut self, chunk: Option<SimulatedChunk>) -> Result<(), Failure> {
-        let Some(chunk) = chunk else { return Ok(()) };
-        let first = self.done - chunk.periods;
-        let stored = self.kept.add(|store, request| store.append_simulated(request, first, &chunk));
-        stored.map_err(|error| Failure::from(error).and(&self.written.told.fate(first, &self.kept)))?;
-        let kept = self.written.told.fate(self.done, &self.kept);
-        self.written.take(&chunk).map_err(|failure| failure.and(&kept))
+    if let Some(folder) = &report.results {
+        lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));
     }
-}
-
-/// The tables, and the motion in few numbers.
-struct Written<'a> {
-    told: Told<'a>,
-    tables: Option<SimulationTables>,
-    summary: Summary,
-}
-
-impl Written<'_> {
-    fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), Failure> {
-        self.summary.take(self.told.layout, chunk);
-        self.tables.as_mut().map_or(Ok(()), |tables| tables.take(chunk))?;
-        Ok(())
-    }
-
-    fn finish(mut self) -> Result<Summary, Failure> {
-        self.tables.map_or_else(|| Ok(Vec::new()), SimulationTables::finish)?;
-        self.summary.finish(self.told.layout);
-        Ok(self.summary)
-    }
-}
-
-pub fn folder(path: Option<&Path>) -> Option<String> {
-    path.map(|path| path.display().to_string())
+    lines.join("\n")
 }

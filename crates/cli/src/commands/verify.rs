@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use hammerbeam_jobs::verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify};
+use hammerbeam_jobs::{
+    Observer,
+    verify::{Disagreement, Quantity, Verification, VerifyReport, VerifySettings, Worst, verify},
+};
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
-use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::{Value, json};
 
-use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output};
+use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
 /// Disagreements shown as text; all of them are in the document.
 const SHOWN: usize = 50;
@@ -23,18 +24,10 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
         tolerance: options.tolerance,
         jobs: usize::from(options.jobs),
     };
-    let interrupt = Interrupt::listen(output)?;
-    let bar = progress_bar();
+    let mut watch = Watch::new(Interrupt::listen(output)?);
     let begun = Instant::now();
-    let watch = |done: u64, total: u64| {
-        if begun.elapsed() > Duration::from_secs(1) {
-            bar.set_length(total);
-            bar.set_position(done);
-        }
-        !interrupt.raised()
-    };
-    let verified = verify(&store, &model, &settings, &watch);
-    bar.finish_and_clear();
+    let verified = verify(&store, &model, &settings, &mut watch);
+    watch.finishing();
     let Some(verification) = verified? else {
         return Err(Failure::Interrupted("interrupted; nothing was changed".to_owned()));
     };
@@ -42,64 +35,14 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     if verification.stored == 0 {
         return Err(Failure::NoResult(format!("no solutions are stored in {folder}")));
     }
-    output.give(&document(&verification, &settings), || text(&verification, &folder, begun.elapsed()))?;
+    let report = VerifyReport { verification, settings };
+    output.give(&report, || text(&report.verification, &folder, begun.elapsed()))?;
+    let verification = report.verification;
     if verification.disagreements.is_empty() {
         return Ok(());
     }
     let (disagree, sampled) = (verification.disagreeing(), verification.sampled);
     Err(Failure::Disagreement(format!("{disagree} of {sampled} solutions disagree")))
-}
-
-fn progress_bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("[{bar:24}] {pos} of {len} solutions, {eta} left");
-    let bar = ProgressBar::new(0);
-    bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-    bar
-}
-
-fn document(verification: &Verification, settings: &VerifySettings) -> Value {
-    json!({
-        "stored": verification.stored,
-        "sampled": verification.sampled,
-        "seed": settings.seed,
-        "tolerance": settings.tolerance,
-        "agree": verification.disagreements.is_empty(),
-        "solutions_disagreeing": verification.disagreeing(),
-        "solutions_grazing": verification.grazing,
-        "quantities": verification.worst.iter().map(of_quantity).collect::<Vec<_>>(),
-        "disagreements": verification.disagreements.iter().map(of_disagreement).collect::<Vec<_>>(),
-    })
-}
-
-fn of_quantity(worst: &Worst) -> Value {
-    json!({
-        "quantity": worst.quantity.name(),
-        "worst_difference": number(worst.difference),
-        "bound": worst.bound,
-        "branch": worst.place.map(|(branch, _)| branch),
-        "frequency_hz": worst.place.map(|(_, frequency_hz)| frequency_hz),
-        "compared": worst.compared,
-        "disagree": worst.disagree,
-        "grazing": worst.grazing,
-    })
-}
-
-fn of_disagreement(found: &Disagreement) -> Value {
-    json!({
-        "branch": found.branch,
-        "frequency_hz": found.frequency_hz,
-        "quantity": found.quantity.name(),
-        "stored": number(found.stored),
-        "recomputed": number(found.recomputed),
-        "difference": number(found.difference),
-        "bound": found.bound,
-        "message": found.message,
-    })
-}
-
-/// JSON has no infinity: null.
-fn number(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { Value::Null }
 }
 
 fn text(verification: &Verification, folder: &str, elapsed: Duration) -> String {

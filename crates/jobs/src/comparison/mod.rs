@@ -47,13 +47,20 @@
 //! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
 //! | `overlay/` | a measured course laid over orbits |
+//! | `measured.rs`, `records.rs` | tables of points, and records that are reduced to points |
+//! | `whole.rs`, `tables.rs`, `document.rs` | all quantities of a results folder, their tables, their document |
 
 pub mod course;
 mod curve;
+mod document;
 mod fit;
 mod judge;
+mod measured;
 mod observed;
 mod overlay;
+mod records;
+mod tables;
+mod whole;
 
 use hammerbeam_signal::{
     MeasuredQuantity,
@@ -61,11 +68,20 @@ use hammerbeam_signal::{
 };
 
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
+pub(crate) use document::comparison_document;
+pub use document::{CompareReport, ComparedQuantity};
 pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, SecondMinimum};
 pub use judge::{Match, PointOutcome, Verdict};
+pub use measured::{MeasuredError, MeasuredPoints, read_measured};
 pub(crate) use observed::thinned;
 pub use observed::{Filter, Observation, ObservationError, curves};
-pub use overlay::{Alike, Overlay, OverlayError, OverlaySettings, Sought, overlay};
+pub use overlay::{
+    Alike, LaidWaveform, Overlay, OverlayAdvice, OverlayError, OverlayNote, OverlaySettings, Sought,
+    nothing_alike, overlay,
+};
+pub use records::frequency_in_name;
+pub use tables::{ExcitationAmplitudes, write_amplitudes, write_points};
+pub use whole::{compare_results, write_compared};
 
 /// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -5,15 +5,13 @@
 //! stored, exact on the continuous motion. An orbit whose motion cannot be gone over again leaves a gap and
 //! is counted; it is an error only if none can.
 
-use std::sync::atomic::AtomicBool;
-
-use hammerbeam_attractor::in_order;
+use hammerbeam_attractor::InOrder;
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::Model;
 
 use super::RigError;
 use crate::{
-    StoredBranches,
+    Observer, PooledOrder, StoredBranches,
     comparison::{
         BranchCurve, CurvePoint, Curves, Filter,
         course::{Course, Sampled, course, largest_behind, sampled},
@@ -150,7 +148,7 @@ pub fn filtered_branches(
     filters: &[Filter],
     (spacing_hz, samples): (f64, usize),
     threads: usize,
-    stop: &AtomicBool,
+    observer: &mut dyn Observer,
 ) -> Result<Filtered, RigError> {
     let mut items: Vec<Item> = Vec::new();
     let mut found = Vec::new();
@@ -167,7 +165,7 @@ pub fn filtered_branches(
         let (branch, period_multiple) = (record.id, record.period_multiple);
         found.push(FilteredBranch { branch, period_multiple, points: Vec::new() });
     }
-    let gaps = fill(&mut found, &items, (model, filters, samples), (threads, stop))?;
+    let gaps = fill(&mut found, &items, (model, filters, samples), (threads, observer))?;
     Ok(Filtered { branches: found, gaps })
 }
 
@@ -179,10 +177,11 @@ fn fill(
     found: &mut [FilteredBranch],
     items: &[Item],
     (model, filters, samples): (&Model, &[Filter], usize),
-    (threads, stop): (usize, &AtomicBool),
+    (threads, observer): (usize, &mut dyn Observer),
 ) -> Result<usize, RigError> {
     let work = |(): &mut (), (_, _, _, orbit): &Item| maxima(model, filters, samples, orbit);
-    let tried = in_order(items, threads, stop, || (), work).ok_or(RigError::Interrupted)?;
+    let tried = PooledOrder::new(threads, observer).in_order(items, &|| (), &work);
+    let tried = tried.ok_or(RigError::Interrupted)?;
     let (maxima, gaps) = sampled(tried)?;
     for (item, maxima) in items.iter().zip(maxima) {
         found[item.0].points.push(point(item, maxima.unwrap_or_else(|| Maxima::gap(filters.len()))));
@@ -239,6 +238,7 @@ mod tests {
     use hammerbeam_orbit::OrbitMaxima;
 
     use super::*;
+    use crate::Quiet;
     use hammerbeam_study::StudyFile;
 
     const BEAM: &str = include_str!("../../../../studies/beam-with-stop.toml");
@@ -290,8 +290,7 @@ mod tests {
             let mut found = [FilteredBranch { branch: 1, period_multiple: 1, points: Vec::new() }];
             let item = |(row, orbit)| (0, row + 1, true, orbit);
             let items: Vec<Item> = orbits.into_iter().enumerate().map(item).collect();
-            let stop = AtomicBool::new(false);
-            let gaps = fill(&mut found, &items, (&model, &filters, 64), (1, &stop))?;
+            let gaps = fill(&mut found, &items, (&model, &filters, 64), (1, &mut Quiet))?;
             let [branch] = found;
             Ok::<_, RigError>((branch, gaps))
         };

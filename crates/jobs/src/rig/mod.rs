@@ -15,6 +15,8 @@
 //! | `modes.rs` | which modes these are |
 //! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
 //! | `signals.rs` | measured and computed signals laid over one another |
+//! | `whole.rs` | all of it |
+//! | `tables.rs`, `document.rs`, `signal_document.rs` | its tables and its document |
 //!
 //! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and
 //! threads take whole sweeps, signals or solutions.
@@ -22,10 +24,14 @@
 mod build;
 mod chaos;
 mod decay;
+mod document;
 mod filter;
 mod modes;
+mod signal_document;
 mod signals;
 mod sweep;
+mod tables;
+mod whole;
 
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_motion::exact::MotionError;
@@ -39,8 +45,11 @@ pub use filter::{
     Filtered, FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches,
 };
 pub use modes::{MeasuredMode, RigMode, rig_modes};
+pub use signal_document::signal_document;
 pub use signals::{SignalPair, compare_signal};
 pub use sweep::{Direction, RigPoint, sweep};
+pub use tables::{RigChaos, figure_name, write_rig_tables};
+pub use whole::{RigReport, measure_rig};
 
 use crate::comparison::{
     ObservationError, OverlayError,
@@ -89,6 +98,12 @@ pub enum RigError {
     /// Stopped from outside.
     #[error("interrupted")]
     Interrupted,
+    /// Stopped from outside while the branches were computed.
+    #[error("interrupted; the branches computed so far are kept, the same command goes on")]
+    BranchesInterrupted,
+    /// The study has no branch.
+    #[error("no branch was found to compare with")]
+    NothingToCompare,
 }
 
 impl RigError {

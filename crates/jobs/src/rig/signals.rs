@@ -4,8 +4,6 @@
 //! as the figure has. It is laid over the stable orbits of that period whose frequency is near
 //! (`comparison/overlay/`), with delays of whole excitation periods and a lag of at most a tenth of one.
 
-use std::sync::atomic::AtomicBool;
-
 use hammerbeam_signal::{
     MeasuredQuantity,
     classify::{Classification, ClassifySettings, classify},
@@ -18,7 +16,7 @@ use super::{
     sweep::{FINER, LEAD_IN, record, settled},
 };
 use crate::{
-    StoredBranches,
+    Observer, StoredBranches,
     comparison::{
         Filter, Overlay, OverlaySettings, Sought,
         course::{follow, largest},
@@ -72,7 +70,7 @@ pub fn compare_signal(
     (model, branches): (&Model, &StoredBranches),
     (measured_hz, period_multiple): (f64, u32),
     factor: f64,
-    (threads, stop): (usize, &AtomicBool),
+    (threads, observer): (usize, &mut dyn Observer),
 ) -> Result<SignalPair, RigError> {
     let (acceleration, start_s) = measure(rig, rig_model, points, (measured_hz, period_multiple))?;
     let classification = classify(&acceleration, rig.sampling_hz, measured_hz, &ClassifySettings::default())?;
@@ -89,7 +87,7 @@ pub fn compare_signal(
         shifts: Shifts::NearWhole { period: SHOWN, most: MOST_LAG * SHOWN as f64 },
         factor: None,
     };
-    let computed = overlay((model, branches), (&measured, period_multiple), &settings, (threads, stop))?;
+    let computed = overlay((model, branches), (&measured, period_multiple), &settings, (threads, observer))?;
     let largest_measured = largest(&acceleration);
     Ok(SignalPair { measured_hz, period_multiple, classification, computed, measured, largest_measured })
 }

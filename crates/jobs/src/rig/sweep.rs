@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use hammerbeam_attractor::{AttractorError, Simulation, distance, in_order, state_scales};
+use hammerbeam_attractor::{AttractorError, Simulation, distance, state_scales};
 use hammerbeam_motion::exact::{ExactSettings, MotionError};
 use hammerbeam_signal::{
     Channel, MeasuredQuantity, Record, SignalError,
@@ -14,7 +14,10 @@ use hammerbeam_signal::{
 use hammerbeam_study::{Model, file::Rig};
 
 use super::{MotionExponents, RigError, chaos::exponents};
-use crate::comparison::course::{Course, follow, largest};
+use crate::{
+    Observer, PooledOrder,
+    comparison::course::{Course, follow, largest},
+};
 
 /// Rate at which a motion is gone over before the chain, over the sampling rate: at 10 kHz twelve
 /// microseconds, where a contact lasts fifty or more.
@@ -77,10 +80,15 @@ pub struct RigPoint {
 /// The points of the sweep up, then those of the sweep down, each in its order.
 /// # Errors
 /// [`RigError`].
-pub fn sweep(rig: &Rig, model: &Model, threads: usize, stop: &AtomicBool) -> Result<Vec<RigPoint>, RigError> {
+pub fn sweep(
+    rig: &Rig,
+    model: &Model,
+    threads: usize,
+    observer: &mut dyn Observer,
+) -> Result<Vec<RigPoint>, RigError> {
     let directions = [Direction::Up, Direction::Down];
-    let swept =
-        in_order(&directions, threads, stop, || (), |(), direction| one_way(rig, model, *direction, stop));
+    let work = |(): &mut (), direction: &Direction, stop: &AtomicBool| one_way(rig, model, *direction, stop);
+    let swept = PooledOrder::new(threads, observer).each(&directions, &|| (), &work, |_, _| {});
     let mut points = Vec::new();
     for sweep in swept.ok_or(RigError::Interrupted)? {
         points.extend(sweep?);

@@ -3,7 +3,8 @@
 use hammerbeam_orbit::Side;
 use hammerbeam_results::store::{Store, StoreError, StoredReason};
 
-use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
+use super::{Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
+use crate::Observer;
 
 /// What the decisions are taken on.
 pub(super) struct Decisions<'a> {

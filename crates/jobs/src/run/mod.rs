@@ -33,6 +33,8 @@
 //! | `schedule.rs` | what an idle thread does next |
 //! | `worker.rs` | what a thread does |
 //! | `runner.rs` | the loop over all of it |
+//! | `whole.rs` | that, and after it branches in other parameters and curves |
+//! | `report.rs` | what came of it, branch by branch |
 
 mod agenda;
 mod decide;
@@ -41,16 +43,18 @@ mod joins;
 mod known;
 mod none_stable;
 mod plan;
-mod progress;
+mod report;
 mod runner;
 mod schedule;
 mod solver;
+mod whole;
 mod worker;
 
 pub use plan::Plan;
-pub use progress::{Observer, Progress, Quiet, VariedProgress};
+pub use report::{BranchReport, RunReport, peak_stability};
 pub use runner::{RunError, RunOutcome, run};
 pub use solver::{Match, Origin, Solver, Surveyed, Walk};
+pub use whole::{RunRequest, WholeRun, run_study};
 
 #[cfg(test)]
 mod fake;

@@ -2,22 +2,25 @@
 
 use std::{
     sync::{
-        Arc, Mutex,
+        Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc::{self, Receiver, RecvTimeoutError, Sender},
+        mpsc::{self, Receiver, RecvTimeoutError, SyncSender},
     },
-    thread,
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 use hammerbeam_results::store::{Continuation, MOST_STARTS, Memory, Store, StoreError};
 
 use super::{
-    Observer, Plan, Progress, Solver, Surveyed,
+    Plan, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
     schedule::next_task,
     worker::{self, Report, Stretch, Task},
+};
+use crate::{
+    Observer, Progress,
+    pool::{PATIENCE, Pool, with_pool},
 };
 
 /// How a run came to its end.
@@ -50,9 +53,6 @@ pub enum RunError {
     Thread,
 }
 
-/// Time between two looks at the observer.
-const PATIENCE: Duration = Duration::from_millis(50);
-
 /// Runs what is left of a plan on so many threads.
 ///
 /// # Errors
@@ -67,17 +67,9 @@ pub fn run(
     let agenda = Agenda::load(store, solver, plan)?;
     let threads = threads.max(1);
     let stop = AtomicBool::new(false);
-    let (tasks, of_threads) = mpsc::channel();
-    let of_threads = Mutex::new(of_threads);
-    let (sender, reports) = mpsc::sync_channel(4 * threads);
-    thread::scope(|scope| {
-        let begin = |_| {
-            let sender = sender.clone();
-            let (of_threads, stop) = (&of_threads, &stop);
-            scope.spawn(move || worker::work(solver, of_threads, &sender, stop))
-        };
-        let begun: Vec<_> = (0..threads).map(begin).collect();
-        drop(sender);
+    let stop = &stop;
+    with_pool(threads, |pool| {
+        let (sender, reports) = mpsc::sync_channel(4 * threads);
         let mut run = Run {
             store,
             solver,
@@ -90,14 +82,20 @@ pub fn run(
             fraction: 0.0,
             begun: Instant::now(),
         };
-        let outcome = run.work(&tasks, &reports, &stop);
-        // Threads that still walk, for nothing any more, hear that nobody listens.
+        let outcome = run.work(&Desk { pool, sender, stop }, &reports);
+        // Threads that still walk, for nothing any more, see that nobody reads their reports.
         stop.store(true, Ordering::Relaxed);
-        drop((tasks, reports));
-        // A panic has been told on standard error; here it is one error among others.
-        let ended = begun.into_iter().map(thread::ScopedJoinHandle::join).fold(Ok(()), Result::and);
-        ended.map_err(|_| RunError::Thread).and(outcome)
+        drop(reports);
+        // A panic has been reported on standard error; here it is one error among others.
+        if pool.has_panicked() { Err(RunError::Thread) } else { outcome }
     })
+}
+
+/// Where tasks are handed over.
+struct Desk<'a, 'work> {
+    pool: &'a Pool<'work>,
+    sender: SyncSender<Report>,
+    stop: &'work AtomicBool,
 }
 
 struct Run<'a> {
@@ -114,13 +112,8 @@ struct Run<'a> {
     begun: Instant,
 }
 
-impl Run<'_> {
-    fn work(
-        &mut self,
-        tasks: &Sender<Task>,
-        reports: &Receiver<Report>,
-        stop: &AtomicBool,
-    ) -> Result<RunOutcome, RunError> {
+impl<'work> Run<'work> {
+    fn work(&mut self, desk: &Desk<'_, 'work>, reports: &Receiver<Report>) -> Result<RunOutcome, RunError> {
         let mut interrupted = false;
         loop {
             self.decide()?;
@@ -130,11 +123,11 @@ impl Run<'_> {
             }
             if !interrupted && self.observer.interrupted() {
                 interrupted = true;
-                stop.store(true, Ordering::Relaxed);
+                desk.stop.store(true, Ordering::Relaxed);
             }
             let out_of_time = self.plan.time.is_some_and(|time| self.begun.elapsed() >= time);
             if !interrupted && !out_of_time {
-                self.hand_out(tasks)?;
+                self.hand_out(desk)?;
             }
             if self.busy == 0 {
                 return match (interrupted, out_of_time) {
@@ -157,13 +150,14 @@ impl Run<'_> {
         Ok(decisions.take(&mut self.agenda)?)
     }
 
-    fn hand_out(&mut self, tasks: &Sender<Task>) -> Result<(), RunError> {
+    fn hand_out(&mut self, desk: &Desk<'_, 'work>) -> Result<(), RunError> {
         while self.busy < self.threads {
             let Some(task) = next_task(&mut self.agenda, self.store, self.solver, self.plan)? else { break };
             if let Task::Evaluate(evaluation) = &task {
                 self.observer.working(&self.agenda.jobs[evaluation.job as usize].record);
             }
-            tasks.send(task).map_err(|_| RunError::Thread)?;
+            let (solver, sender, stop) = (self.solver, desk.sender.clone(), desk.stop);
+            desk.pool.hand(move || worker::work(solver, task, &sender, stop));
             self.busy += 1;
         }
         Ok(())

@@ -9,6 +9,7 @@ use hammerbeam_study::file::StudyFile;
 use tempfile::{TempDir, tempdir};
 
 use super::{fake::FakeSolver, *};
+use crate::{Observer, Progress, Quiet};
 
 const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 

@@ -2,9 +2,9 @@
 
 use std::{
     sync::{
-        Arc, Mutex,
+        Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc::{Receiver, SyncSender},
+        mpsc::SyncSender,
     },
     thread,
     time::{Duration, Instant},
@@ -105,34 +105,20 @@ pub(super) struct Stretch {
     pub cancelled: Arc<AtomicBool>,
 }
 
-/// Works until there are no more tasks or nobody listens.
-pub(super) fn work(
-    solver: &dyn Solver,
-    tasks: &Mutex<Receiver<Task>>,
-    reports: &SyncSender<Report>,
-    stop: &AtomicBool,
-) {
+/// Does a task and reports it, unless nobody reads reports any more.
+pub(super) fn work(solver: &dyn Solver, task: Task, reports: &SyncSender<Report>, stop: &AtomicBool) {
     let _alarm = Alarm(reports);
-    loop {
-        let task = match tasks.lock() {
-            Ok(tasks) => tasks.recv(),
-            Err(_) => return,
-        };
-        let heard = match task {
-            Err(_) => return,
-            Ok(Task::Evaluate(evaluation)) => {
-                let starts = evaluate(solver, &evaluation.what, stop);
-                // What was stopped on the way is asked again by the next run.
-                let stopped = starts.is_err() && stop.load(Ordering::Relaxed);
-                let report =
-                    if stopped { Report::Left } else { Report::Evaluated { job: evaluation.job, starts } };
-                reports.send(report).is_ok()
-            }
-            Ok(Task::Walk(task)) => walk(solver, &task, reports, stop),
-        };
-        if !heard {
-            return;
+    match task {
+        Task::Evaluate(evaluation) => {
+            let starts = evaluate(solver, &evaluation.what, stop);
+            // What was stopped on the way is asked again by the next run.
+            let stopped = starts.is_err() && stop.load(Ordering::Relaxed);
+            let report =
+                if stopped { Report::Left } else { Report::Evaluated { job: evaluation.job, starts } };
+            // If nobody reads it, nobody waits.
+            let _ = reports.send(report);
         }
+        Task::Walk(task) => walk(solver, &task, reports, stop),
     }
 }
 
@@ -157,15 +143,18 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
     }
 }
 
-/// Walks until the walk ends, its share is walked or it is told to leave; false if nobody listens any more.
-fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop: &AtomicBool) -> bool {
+/// Walks until the walk ends, its share is walked, it is to leave, or nobody reads reports any more.
+fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop: &AtomicBool) {
     let opened = match &task.from {
         From::Origin(origin) => solver.begin(origin, task.side),
         From::Memory(memory) => solver.resume(&memory.checkpoint, &memory.journal),
     };
     let mut walk = match opened {
         Ok(walk) => walk,
-        Err(message) => return reports.send(not_opened(task, message)).is_ok(),
+        Err(message) => {
+            let _ = reports.send(not_opened(task, message));
+            return;
+        }
     };
     let leave = || stop.load(Ordering::Relaxed) || task.cancelled.load(Ordering::Relaxed);
     let mut stored = task.stored;
@@ -176,7 +165,8 @@ fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop
         let reason = stretch(walk.as_mut(), &mut rows, (stored, task.budget), left.min(SEND_AT), &leave)
             .unwrap_or_else(|message| Some(StoredReason::failed(&message)));
         if task.cancelled.load(Ordering::Relaxed) {
-            return reports.send(Report::Left).is_ok();
+            let _ = reports.send(Report::Left);
+            return;
         }
         stored += rows.len() as u64;
         let last = reason.is_some() || leave() || rows.len() as u64 >= left;
@@ -190,11 +180,8 @@ fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop
             last,
             cancelled: Arc::clone(&task.cancelled),
         };
-        if reports.send(Report::Walked(stretch)).is_err() {
-            return false;
-        }
-        if last {
-            return true;
+        if reports.send(Report::Walked(stretch)).is_err() || last {
+            return;
         }
     }
 }

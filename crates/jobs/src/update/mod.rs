@@ -31,9 +31,11 @@
 //! | `problem.rs` | residuals and derivatives for the fit |
 //! | `starts.rs` | the best of fits from several starts |
 //! | `outcome.rs`, `finding.rs` | what comes out, in numbers and in words |
+//! | `document.rs` | the document and the files of an update |
 
 mod candidate;
 mod data;
+mod document;
 mod exact;
 mod finding;
 mod measured;
@@ -49,6 +51,7 @@ pub use data::{
     DampingDatum, DataError, Datum, EigenfrequencyDatum, FittedKey, FrequencyTable, Maximum, MeasuredOrbit,
     Observation, ResponseDatum, UpdateData,
 };
+pub use document::{UpdateReport, write_update};
 pub use finding::Finding;
 pub use outcome::{
     FURTHER_STARTS, FittedDatum, FittedParameter, Update, UpdateError, UpdateSettings, update,

@@ -1,9 +1,12 @@
 //! An update: the fit and everything that is known of its result.
 
+use std::path::PathBuf;
+
 use hammerbeam_fit::{
     FitEnd, FitError, Identifiability, Inference, Interval, LeastSquaresFit, LeastSquaresSettings,
     ProfileInterval, profile,
 };
+use hammerbeam_results::whole_file::WriteError;
 use hammerbeam_study::{
     StudyFile,
     number::{Number, replaced},
@@ -112,6 +115,13 @@ pub enum UpdateError {
     /// The fit failed.
     #[error("{0}")]
     Fit(#[from] FitError<CandidateError>),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The updated study would take the place of an input.
+    #[error("{} is an input of this update and is not overwritten: give another folder", study.display())]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    OverInput { study: PathBuf },
 }
 
 /// Fits the parameters of a study to data.

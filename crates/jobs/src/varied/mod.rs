@@ -20,7 +20,7 @@ use hammerbeam_study::{
     file::{Curve, Vary},
 };
 
-use crate::run::{Observer, VariedProgress};
+use crate::Observer;
 
 /// What came of the pieces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,23 +1,19 @@
 //! Pieces on many threads, each computed by one; what they give is stored as soon as it is there.
 
-use std::{
-    sync::{
-        atomic::{AtomicBool, AtomicUsize, Ordering},
-        mpsc::{self, RecvTimeoutError, Sender},
-    },
-    thread,
-    time::Duration,
+use std::sync::{
+    atomic::{AtomicBool, Ordering},
+    mpsc::{self, Sender},
 };
 
 use hammerbeam_results::store::StoreError;
 
-use super::{Failed, Found, VariedProgress, watch::Watch};
-use crate::run::Observer;
+use super::{Failed, Found, watch::Watch};
+use crate::{
+    Observer, VariedProgress,
+    pool::{PATIENCE, with_pool},
+};
 
-/// Time between two looks at the observer.
-const PATIENCE: Duration = Duration::from_millis(50);
-
-/// What threads tell.
+/// What threads report.
 pub(super) enum News {
     /// A new solution of a piece.
     Row { piece: usize, value: f64, frequency_hz: f64, fraction: f64 },
@@ -37,20 +33,26 @@ pub(super) fn compute_all(
     compute: impl Fn(usize, &Watch<'_>) -> Result<Found, Failed> + Sync,
     mut store: impl FnMut(usize, Result<Found, Failed>) -> Result<(), StoreError>,
 ) -> Result<bool, StoreError> {
-    let (stop, next) = (AtomicBool::new(false), AtomicUsize::new(0));
-    let (sender, news) = mpsc::channel();
+    let stop = AtomicBool::new(false);
+    let (stop, compute) = (&stop, &compute);
     let mut desk = Desk::new(names);
-    thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, names.len().max(1)) {
-            let sender = sender.clone();
-            scope.spawn(|| work(names.len(), &next, &stop, sender, &compute));
-        }
-        drop(sender);
+    with_pool(threads.min(names.len()), |pool| {
+        let (sender, news) = mpsc::channel();
         let mut result = Ok(());
-        // Threads end by themselves: when nothing is left, or when they hear that they are to stop.
+        let mut next = 0;
+        let mut busy = 0;
         loop {
             if observer.interrupted() {
                 stop.store(true, Ordering::Relaxed);
+            }
+            while busy < pool.threads().max(1) && next < names.len() && !stop.load(Ordering::Relaxed) {
+                let (piece, sender) = (next, sender.clone());
+                pool.hand(move || work(piece, stop, sender, compute));
+                next += 1;
+                busy += 1;
+            }
+            if busy == 0 {
+                return result.map(|()| desk.all_done());
             }
             match news.recv_timeout(PATIENCE) {
                 Ok(News::Row { piece, value, frequency_hz, fraction }) => {
@@ -58,6 +60,7 @@ pub(super) fn compute_all(
                     observer.varied(&desk.progress(piece, value, frequency_hz));
                 }
                 Ok(News::Done { piece, found }) => {
+                    busy -= 1;
                     if result.is_ok() && !matches!(found, Err(Failed::Interrupted)) {
                         result = store(piece, found);
                         desk.done(piece);
@@ -66,31 +69,22 @@ pub(super) fn compute_all(
                         stop.store(true, Ordering::Relaxed);
                     }
                 }
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return result.map(|()| desk.all_done()),
+                Err(_) => assert!(!pool.has_panicked(), "a thread has panicked"),
             }
         }
     })
 }
 
-/// Takes pieces one after the other until none is left or there is to be no more.
+/// Computes a piece and reports what came of it.
 fn work(
-    count: usize,
-    next: &AtomicUsize,
+    piece: usize,
     stop: &AtomicBool,
     news: Sender<News>,
     compute: &(impl Fn(usize, &Watch<'_>) -> Result<Found, Failed> + Sync),
 ) {
-    while !stop.load(Ordering::Relaxed) {
-        let piece = next.fetch_add(1, Ordering::Relaxed);
-        if piece >= count {
-            return;
-        }
-        let found = compute(piece, &Watch { piece, stop, news: &news });
-        if news.send(News::Done { piece, found }).is_err() {
-            return;
-        }
-    }
+    let found = compute(piece, &Watch { piece, stop, news: &news });
+    // Nobody may wait for it any more.
+    let _ = news.send(News::Done { piece, found });
 }
 
 /// What is done of each piece.
@@ -135,8 +129,10 @@ impl<'a> Desk<'a> {
 
 #[cfg(test)]
 mod tests {
+    use std::{sync::atomic::AtomicUsize, thread};
+
     use super::*;
-    use crate::run::Quiet;
+    use crate::Quiet;
 
     fn nothing(message: String) -> Found {
         Found { branches: Vec::new(), message: Some(message) }

@@ -56,13 +56,14 @@
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
 mod compare;
+mod document;
 mod recompute;
 mod report;
 mod sample;
 mod spectrum;
 mod unknown;
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use hammerbeam_motion::general::GeneralSettings;
 use hammerbeam_orbit::{PeriodicSolution, Side};
@@ -72,6 +73,9 @@ use hammerbeam_results::{
 };
 use hammerbeam_study::Model;
 
+use crate::{CountedProgress, Observer, PooledOrder};
+
+pub use document::VerifyReport;
 pub use report::{Disagreement, Quantity, Verification, Worst};
 
 use compare::{Comparison, compare};
@@ -122,9 +126,8 @@ struct Stored {
 
 /// Computes stored solutions again and compares.
 ///
-/// * `watch`: is told from any thread how many solutions of how many are done, and says whether to go on.
-///
-/// Returns `None` if `watch` said no.
+/// # Returns
+/// `None` if the observer said stop.
 ///
 /// # Errors
 /// The store refuses.
@@ -132,7 +135,7 @@ pub fn verify(
     store: &Store,
     model: &Model,
     settings: &VerifySettings,
-    watch: &(dyn Fn(u64, u64) -> bool + Sync),
+    observer: &mut dyn Observer,
 ) -> Result<Option<Verification>, StoreError> {
     let _snapshot = store.snapshot()?;
     let branches = store.branches()?;
@@ -143,8 +146,17 @@ pub fn verify(
     for batch in places.chunks(BATCH) {
         let solutions: Vec<Stored> = batch.iter().map(|place| place.read(store)).collect::<Result<_, _>>()?;
         let done = verification.sampled;
-        let go_on = |more: u64| watch(done + more, places.len() as u64);
-        let Some(results) = compare_all(model, &solutions, settings, &go_on) else { return Ok(None) };
+        let counted = |observer: &mut dyn Observer, more: usize| {
+            observer.counted(&CountedProgress {
+                done: done + more as u64,
+                total: Some(places.len() as u64),
+                things: "solutions",
+                place: &"",
+            });
+        };
+        let compare = |(): &mut (), stored: &Stored, _: &AtomicBool| compare_one(model, stored, settings);
+        let mut threads = PooledOrder::new(settings.jobs, observer);
+        let Some(results) = threads.each(&solutions, &|| (), &compare, counted) else { return Ok(None) };
         for (stored, result) in solutions.iter().zip(results) {
             verification.add(stored.branch, stored.solution.frequency_hz, result);
         }
@@ -199,41 +211,6 @@ fn places(store: &Store, branches: &[BranchRecord], chosen: &[u64]) -> Result<Ve
 }
 
 type Compared = Result<Vec<Comparison>, String>;
-
-/// Comparisons of each solution, in their order; `None` if stopped.
-fn compare_all(
-    model: &Model,
-    solutions: &[Stored],
-    settings: &VerifySettings,
-    go_on: &(dyn Fn(u64) -> bool + Sync),
-) -> Option<Vec<Compared>> {
-    let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
-    let work = || {
-        let mut results = Vec::new();
-        while !stopped.load(Ordering::Relaxed) {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(stored) = solutions.get(index) else { break };
-            results.push((index, compare_one(model, stored, settings)));
-            if !go_on(done.fetch_add(1, Ordering::Relaxed) as u64 + 1) {
-                stopped.store(true, Ordering::Relaxed);
-            }
-        }
-        results
-    };
-    let mut results: Vec<(usize, Compared)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..settings.jobs.max(1)).map(|_| scope.spawn(work)).collect();
-        let mut results = work();
-        for other in others {
-            results.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        }
-        results
-    });
-    if results.len() < solutions.len() {
-        return None;
-    }
-    results.sort_unstable_by_key(|(index, _)| *index);
-    Some(results.into_iter().map(|(_, result)| result).collect())
-}
 
 fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Compared {
     let (solution, tolerance) = (&stored.solution, settings.tolerance);

@@ -258,6 +258,13 @@ impl StoredReason {
     }
 }
 
+/// The reason in words.
+impl std::fmt::Display for StoredReason {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.pad(&self.message)
+    }
+}
+
 /// Kind of the end of a branch that goes to infinity.
 const UNBOUNDED: &str = "unbounded";
 

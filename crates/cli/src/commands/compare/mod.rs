@@ -1,108 +1,73 @@
 //! `hammerbeam compare`: measured points over computed branches.
 
-mod document;
-mod figure;
-mod measured;
-mod records;
-mod table;
 mod text;
 
 use std::path::PathBuf;
 
+use hammerbeam_drawing::{DrawSettings, draw_compared, draw_into};
 use hammerbeam_jobs::{
-    StoredBranches,
-    comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
+    PreparedStudy,
+    comparison::{
+        CompareReport, Filter, FitSettings, Fixed, MeasuredPoints, compare_results, read_measured,
+        write_amplitudes, write_compared,
+    },
 };
 use hammerbeam_results::{Store, whole_file::subfolder};
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 use hammerbeam_study::{Model, StudyFile};
 
-pub use document::comparison_document;
-pub use figure::draw;
-pub use records::frequency_in_name;
-pub use table::write_points;
 pub use text::{estimate, fit_notes, gaps};
 
 use crate::{
     compare_args::{CompareOptions, QuantityName},
     failure::Failure,
-    figures::Drawn,
     output::Output,
+    watch::Notices,
 };
-
-/// Distance of orbits that are computed again as a part of the middle of the frequency range, and their
-/// samples in an excitation period.
-const SPACING: f64 = 1e-3;
-const SAMPLES: usize = 4096;
-
-/// A quantity with its curves and what came of it.
-pub struct Compared {
-    pub curves: Curves,
-    pub comparison: Comparison,
-    /// Cut-off of the filter that the curves are behind (Hz), if there is one.
-    pub low_pass_hz: Option<f64>,
-    /// The point that was measured, if it is not the response point of the study.
-    pub point: Option<String>,
-    /// Range of the frequency of the study (Hz).
-    pub range_hz: [f64; 2],
-}
-
-impl Compared {
-    /// How many points are shifted beyond the range of the study, where nothing is computed or drawn.
-    fn beyond(&self) -> usize {
-        let [low, high] = self.range_hz;
-        self.comparison.points.iter().filter(|point| !(low..=high).contains(&point.shifted_hz)).count()
-    }
-}
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
-    let range_hz @ [low, high] = file.forced()?.frequency_hz;
+    file.forced()?;
     let (model, point) = observed(&file, options.point.as_deref())?;
-    let at_response_point = point == file.study.response.point;
+    let study = PreparedStudy { file, model };
     let folder = folder(options)?;
-    let measured = measured::read(&options.measured, options.reference.as_deref())?;
-    let quantities = quantities(options, &measured.points)?;
-    let branches = StoredBranches::open(&options.results, &file)?;
-    if branches.branches().is_empty() {
-        let results = options.results.display();
-        return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
-    }
+    let measured = read_measured(&options.measured, options.reference.as_deref())?;
+    let quantities = quantities(options, &measured)?;
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
-    let spacing_hz = SPACING * 0.5 * (low + high);
-    let mut compared = Vec::new();
-    for quantity in quantities {
-        let filter = filter.filter(|_| quantity != MeasuredQuantity::Force);
-        let observation = Observation { quantity, at_response_point, filter, spacing_hz, samples: SAMPLES };
-        let curves = curves(&branches, &model, &observation)?;
-        let comparison = compare(&measured.points, &curves, quantity, &settings(options, &measured.points))?;
-        let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
-        let of_point = quantity != MeasuredQuantity::Force && !at_response_point;
-        let point = of_point.then(|| point.clone());
-        compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
-    }
-    let mut drawn = Drawn::into(&folder)?;
-    drawn.frequency_unit = output.frequency_unit;
-    for one in &compared {
-        let name = format!("points_{}.csv", one.comparison.quantity.word());
-        write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;
-        drawn.files.push(name);
-        let name = format!("compare_{}", one.comparison.quantity.word());
-        draw(&file, one, &name, &mut drawn);
-    }
-    let amplitudes = table::write_amplitudes(&folder, &measured.points)?;
-    drawn.files.extend(amplitudes.iter().map(|amplitudes| amplitudes.name.clone()));
-    let notes = amplitudes.map_or_else(Vec::new, |amplitudes| amplitudes.notes);
-    let files = drawn.finish()?.names;
-    let mut document = document::document(options, &measured, (&compared, &point), (&folder, &files));
-    document["excitation_notes"] = serde_json::json!(notes);
-    output.give(&document, || {
-        let mut text = text::text(options, &measured, (&compared, &point), (&folder, &files));
-        notes.iter().for_each(|note| text.push_str(&format!("\nnote: {note}")));
-        text
-    })?;
+    let settings = settings(options, &measured.points);
+    let of = (&measured, quantities.as_slice());
+    let compared = compare_results((&study, &point), &options.results, of, filter, &settings)?;
+    let mut report = CompareReport {
+        results: options.results.clone(),
+        point,
+        files_measured: options.measured.clone(),
+        measured,
+        filter,
+        reach: options.reach,
+        compared,
+        folder: folder.clone(),
+        files: Vec::new(),
+        excitation_notes: Vec::new(),
+    };
+    let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
+    let mut notes = Vec::new();
+    let drawn = draw_into::<Failure>(&folder, settings, &mut Notices, |drawn| {
+        for one in &report.compared {
+            let name = write_compared(&folder, one)?;
+            drawn.files.push(name);
+            let name = format!("compare_{}", one.comparison.quantity.word());
+            draw_compared(&study.file, one, &name, drawn);
+        }
+        if let Some(amplitudes) = write_amplitudes(&folder, &report.measured.points)? {
+            drawn.files.push(amplitudes.name);
+            notes = amplitudes.notes;
+        }
+        Ok(())
+    });
+    (report.files, report.excitation_notes) = (drawn?.names, notes);
+    output.give(&report, || text::text(&report, options.out.is_some()))?;
     Ok(())
 }
 
@@ -145,21 +110,15 @@ fn settings(options: &CompareOptions, points: &[MeasuredPoint]) -> FitSettings {
 }
 
 /// Those asked for, else those measured.
-fn quantities(options: &CompareOptions, points: &[MeasuredPoint]) -> Result<Vec<MeasuredQuantity>, Failure> {
-    let all = [
-        MeasuredQuantity::Displacement,
-        MeasuredQuantity::Velocity,
-        MeasuredQuantity::Acceleration,
-        MeasuredQuantity::Force,
-    ];
-    let is_measured = |quantity: &MeasuredQuantity| points.iter().any(|p| p.maxima.of(*quantity).is_some());
+fn quantities(options: &CompareOptions, measured: &MeasuredPoints) -> Result<Vec<MeasuredQuantity>, Failure> {
+    let all = measured.quantities();
     if options.quantity.is_empty() {
-        return Ok(all.into_iter().filter(is_measured).collect());
+        return Ok(all);
     }
     let asked: Vec<MeasuredQuantity> = options.quantity.iter().map(|name| (*name).into()).collect();
-    match asked.iter().find(|quantity| !is_measured(quantity)) {
+    match asked.iter().find(|quantity| !all.contains(quantity)) {
         Some(missing) => {
-            let found: Vec<&str> = all.iter().filter(|q| is_measured(q)).map(|q| q.word()).collect();
+            let found: Vec<&str> = all.iter().map(|quantity| quantity.word()).collect();
             let (missing, found) = (missing.word(), found.join(", "));
             Err(Failure::BadInput(format!("--quantity: no {missing} was measured; there is {found}")))
         }

@@ -1,39 +1,32 @@
 //! A comparison in words.
 
-use std::path::Path;
-
-use hammerbeam_jobs::comparison::{Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
+use hammerbeam_jobs::comparison::{
+    CompareReport, ComparedQuantity, Estimate, Filter, Fit, Origin, PointOutcome, Residual, Verdict,
+};
 use hammerbeam_signal::MeasuredQuantity;
-
-use super::{Compared, measured::Measured};
-use crate::compare_args::CompareOptions;
 
 /// Unexplained points that are listed; all are in the table.
 const LISTED: usize = 20;
 
-pub fn text(
-    options: &CompareOptions,
-    measured: &Measured,
-    (compared, point): (&[Compared], &str),
-    (folder, files): (&Path, &[String]),
-) -> String {
-    let (count, results) = (measured.points.len(), options.results.display());
+/// * `has_own_folder`: whether the tables are elsewhere than in the results.
+pub fn text(report: &CompareReport, has_own_folder: bool) -> String {
+    let (count, results) = (report.measured.points.len(), report.results.display());
     let mut lines = vec![format!("{count} measured point(s) over {results}")];
-    if let Some(cut_off) = options.low_pass {
-        lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
+    if let Some(Filter { order, cut_off_hz }) = report.filter {
+        lines.push(format!("branches behind a low-pass filter of {cut_off_hz} Hz, order {order}"));
     }
-    compared.iter().for_each(|one| lines.extend(comparison(one, point)));
-    lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
-    lines.push(format!("in {}: {}", folder.display(), files.join(", ")));
-    if options.out.is_none() {
-        let results = options.results.display();
+    report.compared.iter().for_each(|one| lines.extend(comparison(one, &report.point)));
+    lines.extend(report.measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
+    lines.push(format!("in {}: {}", report.folder.display(), report.files.join(", ")));
+    if !has_own_folder {
         lines.push(format!("hammerbeam figure {results} --kind page lays these points over its page"));
     }
+    lines.extend(report.excitation_notes.iter().map(|note| format!("note: {note}")));
     lines.join("\n")
 }
 
 /// * `point`: where the sensor is; a contact force is at no point of the response.
-fn comparison(compared: &Compared, point: &str) -> Vec<String> {
+fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
     let comparison = &compared.comparison;
     let (fit, quantity) = (&comparison.fit, comparison.quantity);
     let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
@@ -101,7 +94,7 @@ pub fn gaps(gaps: usize) -> Option<String> {
 }
 
 /// That points are shifted beyond the range of the study.
-fn beyond(compared: &Compared) -> Option<String> {
+fn beyond(compared: &ComparedQuantity) -> Option<String> {
     let [low, high] = compared.range_hz;
     let beyond = compared.beyond();
     (beyond > 0).then(|| {

@@ -3,13 +3,11 @@
 use std::path::Path;
 
 use hammerbeam_figure::plain_number;
+use hammerbeam_jobs::comparison::{LaidWaveform, OverlayAdvice, OverlayNote};
 use hammerbeam_results::export::{Table, header, number};
 use serde_json::{Value, json};
 
-use super::{
-    Laid,
-    notes::{Laying, Note},
-};
+use super::Laid;
 use crate::{failure::Failure, overlay_args::OverlayOptions};
 
 impl Laid {
@@ -32,17 +30,22 @@ impl Laid {
 
     /// What the reader has to know, and can do.
     fn notes(&self) -> Vec<String> {
-        let laying = Laying {
+        let laid = LaidWaveform {
             overlay: &self.overlay,
             measured: &self.measured,
             classification: &self.classification,
             period_multiple: self.period_multiple,
         };
-        let text = |note: Note| match note.advice {
-            Some(advice) => format!("{}; {advice}", note.told),
-            None => note.told,
+        let text = |note: OverlayNote| match note.advice {
+            Some(OverlayAdvice::NegativeFactor) => {
+                format!("{}; --amplitude-factor takes a negative factor", note.text)
+            }
+            Some(OverlayAdvice::GiveMore) => {
+                format!("{}; give --at, --branch or --amplitude-factor", note.text)
+            }
+            None => note.text,
         };
-        laying.notes().into_iter().map(text).collect()
+        laid.notes().into_iter().map(text).collect()
     }
 }
 

@@ -1,13 +1,13 @@
 //! `hammerbeam overlay`: a recorded motion laid over the computed orbit that is most alike.
 
 mod give;
-mod notes;
 
 use std::path::Path;
 
 use hammerbeam_jobs::{
-    StoredBranches,
-    comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
+    Observer, StoredBranches,
+    comparison::{Filter, Overlay, OverlaySettings, Sought, frequency_in_name, nothing_alike, overlay},
+    pool::threads,
 };
 use hammerbeam_results::Store;
 use hammerbeam_signal::{
@@ -17,14 +17,13 @@ use hammerbeam_signal::{
 };
 use hammerbeam_study::StudyFile;
 
-pub use notes::{Laying, nothing_alike};
-
 use super::{
-    compare::{frequency_in_name, observed},
-    run::threads,
+    compare::observed,
     signal::{Input, open, quantity},
 };
-use crate::{failure::Failure, interrupt::Interrupt, output::Output, overlay_args::OverlayOptions};
+use crate::{
+    failure::Failure, interrupt::Interrupt, output::Output, overlay_args::OverlayOptions, watch::Watch,
+};
 
 /// Samples of a waveform in an excitation period.
 const SHOWN: usize = 1024;
@@ -65,8 +64,8 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let measured = folded(samples, (rate, 0.0), classification.frequency_hz, pieces)?;
     let branches = StoredBranches::open(&options.results, &file)?;
     let settings = settings_of(options, quantity, classification.frequency_hz);
-    let interrupt = Interrupt::listen(output)?;
-    let work = (threads(None), interrupt.flag());
+    let mut watch = Watch::new(Interrupt::listen(output)?);
+    let work: (usize, &mut dyn Observer) = (threads(None), &mut watch);
     let found = overlay((&model, &branches), (&measured, period_multiple), &settings, work)?;
     let overlay = found.ok_or_else(|| nothing(&branches, period_multiple, &settings))?;
     if let Some(told) = nothing_alike(&overlay) {

@@ -4,12 +4,12 @@ use std::{fmt::Write, path::Path};
 
 use hammerbeam_jobs::{
     comparison::{Filter, PointOutcome},
-    rig::{Filtered, FilteredBranch, FilteredRatio},
+    rig::{Filtered, FilteredBranch, FilteredRatio, RigReport},
 };
 use hammerbeam_results::whole_file::replace;
 use serde_json::Value;
 
-use super::{Found, signals, tables};
+use super::signals;
 use crate::{
     commands::compare::{estimate, fit_notes, gaps},
     failure::Failure,
@@ -19,7 +19,12 @@ use crate::{
 const SHOWN: usize = 20;
 
 /// Writes `report.md` and `report.json`.
-pub fn write(folder: &Path, found: &Found, document: &Value, files: &mut Vec<String>) -> Result<(), Failure> {
+pub fn write(
+    folder: &Path,
+    found: &RigReport,
+    document: &Value,
+    files: &mut Vec<String>,
+) -> Result<(), Failure> {
     let json = format!("{document:#}\n");
     for (name, text) in [("report.md", markdown(found)), ("report.json", json)] {
         replace(&folder.join(name), text.as_bytes())?;
@@ -29,7 +34,7 @@ pub fn write(folder: &Path, found: &Found, document: &Value, files: &mut Vec<Str
 }
 
 /// What the terminal shows.
-pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
+pub fn text(found: &RigReport, folder: &Path, files: &[String]) -> String {
     let mut lines = vec![format!(
         "{} points of the rig over {} solutions of {}",
         found.points.len(),
@@ -63,7 +68,7 @@ pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
     lines.join("\n")
 }
 
-fn markdown(found: &Found) -> String {
+fn markdown(found: &RigReport) -> String {
     let mut text = format!("# {}: a virtual rig\n\n", found.file.study.title);
     let rig = &found.rig;
     let _ = writeln!(
@@ -94,7 +99,7 @@ fn markdown(found: &Found) -> String {
     text
 }
 
-fn modes(text: &mut String, found: &Found) {
+fn modes(text: &mut String, found: &RigReport) {
     if found.modes.is_empty() {
         return;
     }
@@ -116,12 +121,12 @@ fn modes(text: &mut String, found: &Found) {
     text.push('\n');
 }
 
-fn excitation(text: &mut String, found: &Found) {
+fn excitation(text: &mut String, found: &RigReport) {
     text.push_str("## Figure 2: acceleration of the table\n\nAll frequencies are in `figure_02.csv`.\n\n| frequency (Hz) | computed (m/s²) | measured (m/s²) | measured over computed |\n|---|---|---|---|\n");
     let up: Vec<_> = found.points.iter().filter(|point| point.direction.word() == "up").collect();
     for point in up.iter().step_by((up.len() / 10).max(1)) {
         let hz = point.point.frequency_hz;
-        let computed = tables::table_acceleration(found, hz);
+        let computed = found.table_acceleration(hz);
         if let Some((_, measured)) = point.point.excitation {
             let _ =
                 writeln!(text, "| {hz:.2} | {computed:.2} | {measured:.2} | {:.3} |", measured / computed);
@@ -130,7 +135,7 @@ fn excitation(text: &mut String, found: &Found) {
     text.push('\n');
 }
 
-fn comparisons(text: &mut String, found: &Found) {
+fn comparisons(text: &mut String, found: &RigReport) {
     text.push_str(
         "## Figure 6: measured points over the branches\n\nPoints are shifted by a factor of the frequency and a factor of the value. Residuals are root mean squares of natural logarithms; 0.1 is about 10 %.\n\n\
          | what | frequency factor | amplitude factor | residual before | after | within reach | explained | too far | only unstable branches | no branch | aperiodic | doubtful |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -162,7 +167,7 @@ fn comparisons(text: &mut String, found: &Found) {
             let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
         }
     }
-    let [right, wrong, doubtful] = tables::agreement(found);
+    let [right, wrong, doubtful] = found.agreement();
     let _ = writeln!(
         text,
         "\nIn brackets: periodic points that meet a stable branch of their period.\n\n\
@@ -171,8 +176,8 @@ fn comparisons(text: &mut String, found: &Found) {
 }
 
 /// Exponents of the aperiodic points, as the paper checks its own.
-fn chaos(text: &mut String, found: &Found) {
-    let chaos = tables::chaos(found);
+fn chaos(text: &mut String, found: &RigReport) {
+    let chaos = found.chaos();
     if chaos.aperiodic == 0 {
         return;
     }
@@ -245,7 +250,7 @@ fn ratio(ratio: FilteredRatio) -> String {
     )
 }
 
-fn points(text: &mut String, found: &Found) {
+fn points(text: &mut String, found: &RigReport) {
     text.push_str("## Each point, filtered accelerations over computed ones\n\n| point | kind | period | of the states | measured (m/s²) | shifted (Hz) | shifted (m/s²) | verdict | branch | difference |\n|---|---|---|---|---|---|---|---|---|---|\n");
     let Some((_, _, comparison)) = found.comparisons.first() else { return };
     for (point, outcome) in found.points.iter().zip(&comparison.points) {

@@ -1,45 +1,8 @@
-//! The signals of a rig over the orbits that are most alike, in a table and as a document.
+//! The signals of a rig over the orbits that are most alike, in a table of the report.
 
 use std::fmt::Write;
 
-use hammerbeam_jobs::{comparison::Overlay, rig::SignalPair};
-use hammerbeam_signal::classify::{Classification, MotionClass};
-use serde_json::{Value, json};
-
-use super::tables;
-use crate::commands::overlay::{Laying, nothing_alike};
-
-/// The orbit under a signal, or why there is none.
-pub fn laid(signal: &SignalPair) -> Result<&Overlay, String> {
-    let none = || "no stable orbit of this period is near".to_owned();
-    let overlay = signal.computed.as_ref().ok_or_else(none)?;
-    nothing_alike(overlay).map_or(Ok(overlay), Err)
-}
-
-/// What has to be known of a signal and its orbit, as `overlay` tells it.
-fn notes(signal: &SignalPair) -> Vec<String> {
-    match laid(signal) {
-        Ok(overlay) => {
-            let laying = Laying {
-                overlay,
-                measured: &signal.measured,
-                classification: &signal.classification,
-                period_multiple: signal.period_multiple,
-            };
-            laying.notes().into_iter().map(|note| note.told).collect()
-        }
-        Err(reason) => vec![reason],
-    }
-}
-
-/// The kind of a motion in a word.
-fn classified(classification: &Classification) -> String {
-    match classification.motion {
-        MotionClass::Periodic { period_multiple } => format!("periodic, {period_multiple}"),
-        MotionClass::Aperiodic => "aperiodic".to_owned(),
-        MotionClass::Doubtful { .. } => "doubtful".to_owned(),
-    }
-}
+use hammerbeam_jobs::rig::{SignalPair, figure_name};
 
 /// The table, and notes to its rows.
 pub fn report(text: &mut String, signals: &[SignalPair]) {
@@ -48,16 +11,16 @@ pub fn report(text: &mut String, signals: &[SignalPair]) {
         let _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} |",
-            tables::figure_name(index),
+            figure_name(index),
             signal.measured_hz,
             signal.period_multiple,
-            classified(&signal.classification),
+            signal.measured_as(),
             computed(signal),
         );
     }
     for (index, signal) in signals.iter().enumerate() {
-        for note in notes(signal) {
-            let _ = writeln!(text, "\nNote, {}: {note}.", tables::figure_name(index));
+        for note in signal.notes() {
+            let _ = writeln!(text, "\nNote, {}: {note}.", figure_name(index));
         }
     }
     text.push('\n');
@@ -65,7 +28,7 @@ pub fn report(text: &mut String, signals: &[SignalPair]) {
 
 /// The cells of the orbit.
 fn computed(signal: &SignalPair) -> String {
-    let Ok(orbit) = laid(signal) else {
+    let Ok(orbit) = signal.laid() else {
         return format!("none | | | | | | | {:.0} | |", signal.largest_measured);
     };
     format!(
@@ -83,39 +46,14 @@ fn computed(signal: &SignalPair) -> String {
     )
 }
 
-/// A signal and its orbit; null without one.
-pub fn document((index, signal): (usize, &SignalPair)) -> Value {
-    let computed = laid(signal).ok().map(|orbit| {
-        json!({
-            "frequency_hz": orbit.frequency_hz,
-            "over_measured": orbit.frequency_hz / signal.measured_hz,
-            "branch": orbit.branch,
-            "row": orbit.row,
-            "tried": orbit.tried,
-            "skipped": orbit.skipped,
-            "correlation": orbit.alignment.correlation,
-            "lag_cycles": SignalPair::lag(orbit),
-            "amplitude_factor": orbit.factor,
-            "residual_before": orbit.residual_before,
-            "residual_after": orbit.residual_after,
-            "max_acceleration_m_s2": orbit.largest.0,
-            "max_filtered_acceleration_m_s2": orbit.largest.1,
-        })
-    });
-    json!({
-        "table": tables::figure_name(index),
-        "measured_hz": signal.measured_hz,
-        "period_multiple": signal.period_multiple,
-        "measured_as": classified(&signal.classification),
-        "max_measured_acceleration_m_s2": signal.largest_measured,
-        "computed": computed,
-        "notes": notes(signal),
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use hammerbeam_signal::waveform::{Alignment, Waveform};
+    use hammerbeam_jobs::{comparison::Overlay, rig::signal_document};
+    use hammerbeam_signal::{
+        classify::{Classification, MotionClass},
+        waveform::{Alignment, Waveform},
+    };
+    use serde_json::Value;
 
     use super::*;
 
@@ -172,7 +110,7 @@ mod tests {
             "2 more orbit(s) could not be gone over and are left out",
             "pieces of the record differ from their mean by 90.0 % of it",
         ];
-        let document = document((0, &signals[0]));
+        let document = signal_document((0, &signals[0]));
         let notes: Vec<&str> =
             document["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
         for told in told {
@@ -188,6 +126,6 @@ mod tests {
         report(&mut text, &signals);
         assert!(text.contains("nothing is alike: the largest correlation of 7 orbit(s)"), "{text}");
         assert!(!text.contains("5.000"), "{text}");
-        assert_eq!(document((0, &signals[0]))["computed"], Value::Null);
+        assert_eq!(signal_document((0, &signals[0]))["computed"], Value::Null);
     }
 }

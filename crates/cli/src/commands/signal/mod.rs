@@ -11,7 +11,7 @@ mod spectrum;
 
 pub use chain::quantity;
 pub use classify::word;
-pub use input::{Input, largest, open};
+pub use input::{Input, open};
 
 use crate::{failure::Failure, output::Output, signal_args::SignalCommand};
 

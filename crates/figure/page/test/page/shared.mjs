@@ -15,7 +15,7 @@ export const LIGHT = [{ name: "prefers-color-scheme", value: "light" }];
 export const DARK = [{ name: "prefers-color-scheme", value: "dark" }];
 
 let browser = null;
-let reason = pages.run === undefined ? "HAMMERBEAM_PAGES names no page: cargo test -p hammerbeam --test page runs this test" : "";
+let reason = pages.run === undefined ? "HAMMERBEAM_PAGES names no page: cargo test -p hammerbeam-cli --test tests -- page runs this test" : "";
 if (reason === "") {
     try {
         browser = await launch();

@@ -14,15 +14,15 @@
 //! |---|---|
 //! | `candidates.rs` | the orbits that are tried |
 //! | `laid.rs` | one of them laid under the measurement |
+//! | `notes.rs` | what has to be known of it |
 //! | `alike.rs` | the most alike one, and those that are as alike |
 
 mod alike;
 mod candidates;
 mod laid;
+mod notes;
 
-use std::sync::atomic::AtomicBool;
-
-use hammerbeam_attractor::in_order;
+use hammerbeam_attractor::InOrder;
 use hammerbeam_results::StoreError;
 use hammerbeam_signal::{
     MeasuredQuantity, SignalError,
@@ -34,9 +34,10 @@ use super::{
     Filter,
     course::{NoneSampled, Sampled, sampled},
 };
-use crate::StoredBranches;
+use crate::{Observer, PooledOrder, StoredBranches};
 pub use alike::Alike;
 use candidates::Candidate;
+pub use notes::{LaidWaveform, OverlayAdvice, OverlayNote, nothing_alike};
 
 /// Which orbits are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,11 +150,12 @@ pub fn overlay(
     (model, branches): (&Model, &StoredBranches),
     (measured, period_multiple): (&Waveform, u32),
     settings: &OverlaySettings,
-    (threads, stop): (usize, &AtomicBool),
+    (threads, observer): (usize, &mut dyn Observer),
 ) -> Result<Option<Overlay>, OverlayError> {
     let orbits = candidates::sought(model, branches, period_multiple, settings)?;
     let look = |(): &mut (), candidate: &Candidate| laid::laid(model, candidate, measured, settings);
-    let tried = in_order(&orbits, threads, stop, || (), look).ok_or(OverlayError::Interrupted)?;
+    let tried = PooledOrder::new(threads, observer).in_order(&orbits, &|| (), &look);
+    let tried = tried.ok_or(OverlayError::Interrupted)?;
     let (laid, skipped) = sampled(tried)?;
     let laid: Vec<Overlay> = laid.into_iter().flatten().collect();
     let tried = laid.len();

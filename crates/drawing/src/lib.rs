@@ -1,0 +1,323 @@
+//! Figures of a results folder, and the page that shows all of it.
+//!
+//! What is stored is read here and handed to the figure crate as plain rows. Orbits are computed again from
+//! their stored states, as far as a figure shows their motion.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `selection.rs` | what of a folder is drawn, and in which formats |
+//! | `drawn.rs` | files as they are drawn, on the threads of a pool |
+//! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
+//! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions that need not repeat |
+//! | [`orbit`] | one orbit over its period |
+//! | `compare.rs` | measured points over branches |
+//! | `page.rs`, `page/` | the page |
+//!
+//! # Example
+//! ```no_run
+//! use hammerbeam_drawing::{DrawSettings, DrawingError, FigureSelection, draw, draw_into};
+//! use hammerbeam_jobs::{PreparedStudy, Quiet};
+//! use hammerbeam_results::Store;
+//!
+//! let folder = std::path::Path::new("results");
+//! let store = Store::open(folder)?;
+//! let study = PreparedStudy::of_store(&store)?;
+//! let selection = FigureSelection::of(&study.file);
+//! let files = draw_into(folder, DrawSettings::default(), &mut Quiet, |drawn| {
+//!     draw(&store, (&study.file, &study.model), &selection, drawn)
+//! })?;
+//! println!("{:?}", files.names);
+//! # Ok::<(), DrawingError>(())
+//! ```
+
+mod compare;
+mod drawn;
+mod error;
+mod linear;
+mod motions;
+mod multipliers;
+pub mod orbit;
+mod page;
+mod selection;
+mod structure;
+mod varied;
+
+use hammerbeam_figure::{
+    Bifurcation, BifurcationCurve, BifurcationCurvePoint, CurveDiagram, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
+};
+use hammerbeam_orbit::Stability;
+use hammerbeam_results::{
+    Store, StoreError,
+    store::{PieceRecord, Row},
+};
+use hammerbeam_structure::ModeTables;
+use hammerbeam_study::{Model, StudyFile};
+
+pub use compare::draw_compared;
+pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, draw_into};
+pub use error::DrawingError;
+pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};
+
+/// Resolution of the PNG files, in pixels per inch, where none is asked for.
+pub const RESOLUTION: f64 = 300.0;
+
+/// Quantities of response diagrams, with the words that files have for them.
+const FIGURES: [(&str, ResponseQuantity); 4] = [
+    ("displacement", ResponseQuantity::Displacement),
+    ("acceleration", ResponseQuantity::Acceleration),
+    ("force", ResponseQuantity::ContactForce),
+    ("velocity", ResponseQuantity::ImpactVelocity),
+];
+
+/// Draws what is selected of a results folder, or some of it when the observer says stop.
+///
+/// The page comes first: it takes the longest, and while its file is put together the figures are drawn.
+///
+/// # Errors
+/// [`DrawingError`].
+pub fn draw(
+    store: &Store,
+    (file, model): (&StudyFile, &Model),
+    selection: &FigureSelection,
+    drawn: &mut Drawn<'_>,
+) -> Result<(), DrawingError> {
+    let (page, figures): (Vec<FigureKind>, Vec<FigureKind>) = FigureKind::ALL
+        .into_iter()
+        .filter(|kind| selection.kinds.contains(kind))
+        .partition(|kind| *kind == FigureKind::Page);
+    for kind in page.into_iter().chain(figures) {
+        if drawn.is_stopped() {
+            break;
+        }
+        let result = draw_kind(store, (file, model), (kind, selection), drawn);
+        unless_damaged(result, &format!("{kind:?}").to_lowercase(), drawn)?;
+    }
+    Ok(())
+}
+
+/// Where a stored solution is missing or cannot be read, the figures that need it are named with the reason,
+/// and the others are drawn.
+fn unless_damaged<T>(
+    result: Result<T, impl Into<DrawingError>>,
+    name: &str,
+    drawn: &mut Drawn<'_>,
+) -> Result<Option<T>, DrawingError> {
+    match result.map_err(Into::into) {
+        Ok(found) => Ok(Some(found)),
+        Err(error) if error.is_of_solutions() => {
+            drawn.refuse(name, error.to_string());
+            Ok(None)
+        }
+        Err(error) => Err(error),
+    }
+}
+
+fn draw_kind(
+    store: &Store,
+    (file, model): (&StudyFile, &Model),
+    (kind, selection): (FigureKind, &FigureSelection),
+    drawn: &mut Drawn<'_>,
+) -> Result<(), DrawingError> {
+    match kind {
+        FigureKind::Structure => draw_linear(drawn, file, model),
+        FigureKind::Response => draw_response(store, file, selection.scale, drawn)?,
+        FigureKind::Vary => varied::draw(store, selection.scale, drawn)?,
+        FigureKind::Curves => draw_curves(store, drawn)?,
+        FigureKind::Multipliers => multipliers::draw(store, drawn)?,
+        FigureKind::Orbits => {
+            let asked = (selection.orbits.as_slice(), selection.low_pass_hz);
+            orbit::draw_stored(store.folder(), (file, model), asked, drawn)?;
+        }
+        FigureKind::Sweeps => motions::draw_sweeps(store, drawn)?,
+        FigureKind::Exponents => {
+            motions::draw_exponents(store, drawn)?;
+            motions::draw_convergence(store, drawn)?;
+            motions::draw_sections(store, drawn)?;
+        }
+        FigureKind::Basins => motions::draw_basins(store, (file, model), drawn)?,
+        FigureKind::Page => page::draw(store, file, model, drawn)?,
+    }
+    Ok(())
+}
+
+/// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
+pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
+    let (study, tables): (_, &ModeTables) = (&file.study, &model.tables);
+    drawn.add("structure", structure::sketch(study, drawn.frequency_unit()));
+    drawn.add("modes", linear::modes(study, model, &drawn.narrow()));
+    if !tables.frequency_errors.is_empty() {
+        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables, &drawn.narrow()));
+    }
+    if let Some(excitation) = study.excitation.harmonic() {
+        drawn.add("excitation", linear::excitation(&study.title, excitation, &drawn.narrow()));
+    }
+}
+
+fn draw_response(
+    store: &Store,
+    file: &StudyFile,
+    scale: FigureScale,
+    drawn: &mut Drawn<'_>,
+) -> Result<(), DrawingError> {
+    let diagram = diagram(store, file.study.excitation.range_hz())?;
+    if diagram.curves.is_empty() {
+        return Ok(());
+    }
+    for (word, quantity) in quantities(&diagram.curves) {
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale, drawn)));
+    }
+    Ok(())
+}
+
+/// What there is to draw of branches, with the words that files have for it: where nothing is ever touched
+/// neither contact forces nor impact velocities.
+fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, ResponseQuantity)> {
+    let has = |value: fn(&ResponsePoint) -> f64| {
+        curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
+    };
+    let (has_forces, has_impacts) =
+        (has(|point| point.contact_force_n), has(|point| point.impact_velocity_m_s));
+    FIGURES.into_iter().filter(move |(_, quantity)| match quantity {
+        ResponseQuantity::ContactForce => has_forces,
+        ResponseQuantity::ImpactVelocity => has_impacts,
+        _ => true,
+    })
+}
+
+fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
+    let choice = match scale {
+        FigureScale::Automatic => ScaleChoice::Automatic,
+        FigureScale::Linear => ScaleChoice::Linear,
+        FigureScale::Logarithmic => ScaleChoice::Logarithmic,
+    };
+    ResponseSettings {
+        style: album.wide(),
+        displacement_scale: choice,
+        acceleration_scale: choice,
+        contact_scale: choice,
+    }
+}
+
+/// Draws the curves of bifurcations, one figure for each parameter that they are over.
+fn draw_curves(store: &Store, drawn: &mut impl Album) -> Result<(), DrawingError> {
+    let pieces: Vec<PieceRecord> = store.pieces()?.into_iter().filter(|piece| piece.is_curve).collect();
+    let mut parameters: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
+    parameters.sort_unstable();
+    parameters.dedup();
+    for parameter in parameters {
+        let mut curves = Vec::new();
+        for piece in pieces.iter().filter(|piece| piece.parameter == parameter) {
+            curves.extend(curves_of(store, piece)?);
+        }
+        if curves.iter().all(|curve| curve.points.is_empty()) {
+            continue;
+        }
+        let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
+        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&drawn.wide()));
+    }
+    Ok(())
+}
+
+fn curves_of(store: &Store, piece: &PieceRecord) -> Result<Vec<BifurcationCurve>, StoreError> {
+    let mut curves = Vec::new();
+    for branch in &piece.branches {
+        let bifurcation = match branch.kind.as_str() {
+            "flip" => Bifurcation::Flip,
+            "neimark-sacker" => Bifurcation::NeimarkSacker,
+            "grazing" => Bifurcation::Grazing,
+            _ => Bifurcation::Fold,
+        };
+        let mut points = Vec::new();
+        store.each_varied_row::<StoreError>((piece.id, branch.branch), |row| {
+            let name = codimension_two(&row.event);
+            points.push(BifurcationCurvePoint {
+                parameter: row.parameter,
+                frequency_hz: row.frequency_hz,
+                name,
+            });
+            Ok(())
+        })?;
+        curves.push(BifurcationCurve { bifurcation, period_multiple: branch.period_multiple, points });
+    }
+    Ok(curves)
+}
+
+/// Names of the points of codimension two among the events of a row.
+fn codimension_two(events: &str) -> String {
+    let name = |event: &str| match event {
+        "cusp" => Some("cusp".to_owned()),
+        "fold-flip" => Some("fold–flip".to_owned()),
+        "fold-neimark-sacker" => Some("fold–Neimark-Sacker".to_owned()),
+        "flip-neimark-sacker" => Some("flip–Neimark-Sacker".to_owned()),
+        "double-neimark-sacker" => Some("double Neimark-Sacker".to_owned()),
+        "degenerate-flip" => Some("degenerate flip".to_owned()),
+        "degenerate-branch-point" => Some("degenerate branch point".to_owned()),
+        "degenerate-neimark-sacker" => Some("degenerate Neimark-Sacker".to_owned()),
+        "grazing-fold" => Some("grazing–fold".to_owned()),
+        "grazing-flip" => Some("grazing–flip".to_owned()),
+        "grazing-neimark-sacker" => Some("grazing–Neimark-Sacker".to_owned()),
+        "double-grazing" => Some("double grazing".to_owned()),
+        "degenerate-grazing" => Some("degenerate grazing".to_owned()),
+        event => event.strip_prefix("resonance-").map(str::to_owned),
+    };
+    events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
+}
+
+/// A parameter as part of a file name.
+fn file_name(parameter: &str) -> String {
+    parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
+}
+
+/// A parameter in words, with its unit.
+fn axis_label(parameter: &str) -> String {
+    let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
+    let stop = owner.strip_prefix("stop.").map_or(String::new(), |stop| format!(" of stop {stop}"));
+    match key {
+        "amplitude_m" => "Excitation amplitude (m)".to_owned(),
+        "amplitude_n" => "Excitation amplitude (N)".to_owned(),
+        "gap_m" => format!("Gap{stop} (m)"),
+        "stiffness_n_m" => format!("Stiffness{stop} (N/m)"),
+        "stiffness_n_m15" => format!("Stiffness{stop} (N/m^1.5)"),
+        "stiffness_n_m3" => format!("Stiffness{stop} (N/m³)"),
+        "modal_ratio" => "Modal damping ratio (–)".to_owned(),
+        _ => parameter.to_owned(),
+    }
+}
+
+fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {
+    let mut curves = Vec::new();
+    for branch in store.branches()? {
+        let mut points = Vec::new();
+        store.each_row::<StoreError>(&branch, |row| {
+            points.push(point(&row));
+            Ok(())
+        })?;
+        curves.push(ResponseCurve { period_multiple: branch.period_multiple, points });
+    }
+    Ok(ResponseDiagram {
+        title: store.about("title")?,
+        parameter: String::new(),
+        curves,
+        frequency_range_hz: Some((low, high)),
+        chaotic_ranges_hz: motions::chaotic_ranges(store)?,
+        measured: Vec::new(),
+    })
+}
+
+fn point(row: &Row) -> ResponsePoint {
+    ResponsePoint {
+        frequency_hz: row.frequency_hz,
+        displacement_m: row.maxima.displacement,
+        acceleration_m_s2: row.maxima.acceleration,
+        contact_force_n: row.maxima.contact_force,
+        impact_velocity_m_s: row.maxima.impact_velocity,
+        stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
+        fold: row.events.fold,
+        grazing: row.events.grazing,
+        flip: row.events.flip,
+        neimark_sacker: row.events.neimark_sacker,
+        branch_point: row.events.branch_point,
+    }
+}

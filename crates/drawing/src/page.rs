@@ -1,0 +1,157 @@
+//! The page of a results folder: reads everything that is stored and hands it over as plain rows.
+
+mod choice;
+mod gallery;
+mod irregular;
+mod measured;
+mod orbits;
+mod shape;
+
+use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
+use hammerbeam_orbit::{Side, Stability};
+use hammerbeam_results::{
+    Store, StoreError,
+    store::{BranchRecord, RequestKind, Row, WalkRecord},
+};
+use hammerbeam_study::{Model, StudyFile};
+
+use super::{Album, Drawn, motions};
+use crate::DrawingError;
+
+/// Name of the file.
+pub const NAME: &str = "page.html";
+
+/// Draws the page, unless nothing of what it shows is stored or the user asks to stop.
+pub fn draw(
+    store: &Store,
+    file: &StudyFile,
+    model: &Model,
+    drawn: &mut Drawn<'_>,
+) -> Result<(), DrawingError> {
+    let records = store.branches()?;
+    if records.is_empty() && !has_more(store)? {
+        return Ok(());
+    }
+    let stored: Vec<Vec<Placed>> =
+        records.iter().map(|record| places(store, record)).collect::<Result<_, _>>()?;
+    let [low, high] = file.study.excitation.range_hz();
+    let mut page = Page {
+        title: store.about("title")?,
+        point: file.study.response.point.clone(),
+        frequency_range_hz: (low, high),
+        notice: notice(store, &records)?,
+        branches: records.iter().zip(&stored).map(|(record, places)| branch(record, places)).collect(),
+        multipliers: multipliers(store, &records, drawn)?,
+        structure: Some(shape::structure(file, model)),
+        motions: irregular::of_sweeps(store)?,
+        chaotic_ranges_hz: motions::chaotic_ranges(store)?,
+        sections: irregular::sections(store)?,
+        measured: measured::series(store.folder(), drawn),
+        figures: gallery::figures(store, (file, model), drawn)?,
+        ..Page::default()
+    };
+    let most = page.room_for_orbits();
+    page.orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
+    if !drawn.is_stopped() {
+        drawn.write(NAME, move || page.html());
+    }
+    Ok(())
+}
+
+/// Whether there is more than branches: motions, or solutions over other parameters.
+fn has_more(store: &Store) -> Result<bool, StoreError> {
+    for request in store.requests()? {
+        let is_empty = match request.kind {
+            // Nothing is drawn of a motion in time.
+            RequestKind::Simulation => true,
+            RequestKind::Sweep | RequestKind::Starts => store.settled(request.id)?.is_empty(),
+            RequestKind::Exponents => store.exponents(request.id)?.is_empty(),
+            RequestKind::Basins => store.basins(request.id)?.0.is_empty(),
+        };
+        if !is_empty {
+            return Ok(true);
+        }
+    }
+    Ok(store.pieces()?.iter().any(|piece| !piece.branches.is_empty()))
+}
+
+/// Multipliers of all solutions; those of a damaged one are named and left out.
+fn multipliers(
+    store: &Store,
+    records: &[BranchRecord],
+    drawn: &mut Drawn<'_>,
+) -> Result<MultiplierRecords, StoreError> {
+    let mut multipliers = MultiplierRecords::default();
+    for record in records {
+        store.each_multipliers::<StoreError>(record, |found| {
+            multipliers.push(&found.unwrap_or_else(|error| {
+                drawn.refuse("multipliers on the page", error.to_string());
+                Vec::new()
+            }));
+            Ok(())
+        })?;
+    }
+    Ok(multipliers)
+}
+
+/// A row with the place of its solution in the store.
+pub(super) struct Placed {
+    side: Side,
+    number: u32,
+    row: Row,
+}
+
+/// Rows of a branch, end to end.
+fn places(store: &Store, record: &BranchRecord) -> Result<Vec<Placed>, StoreError> {
+    let of = |side: Side| -> Result<Vec<Placed>, StoreError> {
+        let rows = store.walked(record.start, side)?.into_iter().enumerate();
+        Ok(rows.map(|(number, row)| Placed { side, number: number as u32, row }).collect())
+    };
+    let mut places = of(Side::Down)?;
+    places.reverse();
+    places.extend(of(Side::Up)?);
+    Ok(places)
+}
+
+fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
+    let end = |walk: &WalkRecord| {
+        walk.reason.as_ref().map_or_else(|| "not finished".to_owned(), |reason| reason.message.clone())
+    };
+    PageBranch {
+        id: record.id,
+        period_multiple: record.period_multiple,
+        ends: [end(&record.down), end(&record.up)],
+        solutions: places.iter().map(|placed| solution(&placed.row)).collect(),
+    }
+}
+
+fn solution(row: &Row) -> PageSolution {
+    PageSolution {
+        frequency_hz: row.frequency_hz,
+        displacement_m: row.maxima.displacement,
+        acceleration_m_s2: row.maxima.acceleration,
+        force_n: row.maxima.contact_force,
+        impact_velocity_m_s: row.maxima.impact_velocity,
+        contacts: row.maxima.contacts,
+        leading_multiplier: row.leading_multiplier,
+        stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
+        fold: row.events.fold,
+        flip: row.events.flip,
+        neimark_sacker: row.events.neimark_sacker,
+        branch_point: row.events.branch_point,
+        grazing: row.events.grazing,
+    }
+}
+
+/// What is not finished, in words; empty if everything is.
+fn notice(store: &Store, records: &[BranchRecord]) -> Result<String, StoreError> {
+    let walks = records.iter().flat_map(|record| [&record.up, &record.down]);
+    let open = walks.filter(|walk| walk.reason.is_none()).count();
+    let left = store.jobs()?.iter().filter(|job| job.outcome.is_none()).count();
+    if open == 0 && left == 0 {
+        return Ok(String::new());
+    }
+    let (walks, jobs) = ("sides of branches under way", "searches, flips and branch points left");
+    Ok(format!("The run was not finished when this page was drawn; {walks}: {open}; {jobs}: {left}."))
+}

@@ -1,0 +1,35 @@
+//! The examples of the crate: each is short, and runs.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests and examples")]
+
+#[path = "../examples/basins.rs"]
+mod basins;
+#[path = "../examples/branch_by_hand.rs"]
+mod branch_by_hand;
+#[path = "../examples/custom_sweep.rs"]
+mod custom_sweep;
+#[path = "../examples/lumped_rattle.rs"]
+mod lumped_rattle;
+#[path = "../examples/paper_beam.rs"]
+mod paper_beam;
+
+use std::{fs, path::Path};
+
+#[test]
+fn the_examples_run() {
+    lumped_rattle::main().unwrap();
+    paper_beam::main().unwrap();
+    branch_by_hand::main().unwrap();
+    custom_sweep::main().unwrap();
+    basins::main().unwrap();
+}
+
+#[test]
+fn no_example_is_longer_than_forty_lines() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(files.len(), 5);
+    for file in files {
+        let lines = fs::read_to_string(&file).unwrap().lines().count();
+        assert!(lines <= 40, "{}: {lines} lines", file.display());
+    }
+}

@@ -1,0 +1,147 @@
+//! A study with its model, ready for every job.
+
+use std::path::Path;
+
+use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_results::Store;
+use hammerbeam_study::{Model, StudyError, StudyFile};
+
+use crate::{
+    JobError, JobFolders, Observer, Quiet,
+    basins::{BasinsReport, BasinsRequest, basins},
+    exponents::{ExponentsReport, ExponentsRequest, exponents},
+    orbits::orbits,
+    pool::threads,
+    run::{RunReport, RunRequest, WholeRun, run_study},
+    simulate::{SimulationReport, SimulationRequest, simulate},
+    sweep::{SweepReport, SweepRequest, sweep},
+};
+
+/// A study and the model that it describes.
+#[derive(Debug, Clone)]
+pub struct PreparedStudy {
+    /// What the file says, with its text.
+    pub file: StudyFile,
+    /// The equations of motion, and what is observed.
+    pub model: Model,
+}
+
+impl PreparedStudy {
+    /// Builds the model of a study.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`]: something of the study does not fit its structure.
+    pub fn new(file: StudyFile) -> Result<Self, StudyError> {
+        let model = Model::build(&file)?;
+        Ok(Self { file, model })
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// [`StudyError`]: the file cannot be read, or its faults, all at once with their places.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, StudyError> {
+        Self::new(StudyFile::read(path.as_ref())?)
+    }
+
+    /// Reads a study from a text in the form of a study file.
+    ///
+    /// * `name`: names it in messages.
+    ///
+    /// # Errors
+    /// [`StudyError`]: its faults, all at once with their places.
+    pub fn parse(name: &str, text: impl Into<String>) -> Result<Self, StudyError> {
+        Self::new(StudyFile::parse(name, text.into())?)
+    }
+
+    /// The study whose results a store holds.
+    ///
+    /// # Errors
+    /// [`JobError::Store`], [`JobError::Study`].
+    pub fn of_store(store: &Store) -> Result<Self, JobError> {
+        Ok(Self::new(StudyFile::parse("study.toml", store.about("study")?)?)?)
+    }
+
+    /// Number of modes n; a state has 2n entries.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.model.system.dof()
+    }
+
+    /// Reports directions in which only stops hold the structure.
+    ///
+    /// # Errors
+    /// [`JobError::Drifts`]: nothing holds a direction, and then no periodic solution is isolated.
+    pub fn check_held(&self, observer: &mut dyn Observer) -> Result<(), JobError> {
+        let drifts = self.model.drifts();
+        if let Some(drift) = drifts.iter().find(|drift| !drift.held_by_stops) {
+            return Err(JobError::Drifts(drift.clone()));
+        }
+        drifts.iter().for_each(|drift| observer.notice(&format_args!("warning: {drift}")));
+        Ok(())
+    }
+
+    /// Refuses a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
+    ///
+    /// # Errors
+    /// [`JobError::FrequencyNotResolved`] with the highest frequency that may be asked for.
+    pub fn check_range(&self) -> Result<(), JobError> {
+        let [_, high_hz] = self.file.study.excitation.range_hz();
+        match self.model.resolved_hz().filter(|resolved| high_hz > *resolved) {
+            Some(resolved_hz) => Err(JobError::FrequencyNotResolved { high_hz, resolved_hz }),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs everything the study asks for into a results folder, on all cores: see
+    /// [`run_study`](crate::run::run_study).
+    ///
+    /// # Errors
+    /// [`JobError`]; what was stored before stays, and the same run goes on from there.
+    pub fn run(&self, out: impl AsRef<Path>) -> Result<RunReport, JobError> {
+        let request = RunRequest { out: out.as_ref(), from: &[], threads: threads(None) };
+        let WholeRun { store, report } = run_study(self, request, &mut Quiet)?;
+        store.finish()?;
+        Ok(report)
+    }
+
+    /// All periodic solutions of a period at a frequency that are found.
+    ///
+    /// # Errors
+    /// [`JobError`]: nothing could be looked for.
+    pub fn orbits(&self, frequency_hz: f64, period_multiple: u32) -> Result<Vec<PeriodicSolution>, JobError> {
+        Ok(orbits(self, frequency_hz, period_multiple, &mut Quiet)?.orbits)
+    }
+
+    /// A motion in time: see [`simulate`](crate::simulate::simulate).
+    ///
+    /// # Errors
+    /// [`JobError`].
+    pub fn simulate(&self, request: &SimulationRequest) -> Result<SimulationReport, JobError> {
+        simulate(self, request, JobFolders::default(), &mut Quiet)
+    }
+
+    /// Settled motions over the frequency: see [`sweep`](crate::sweep::sweep).
+    ///
+    /// # Errors
+    /// [`JobError`].
+    pub fn sweep(&self, request: &SweepRequest) -> Result<SweepReport, JobError> {
+        sweep(self, request, JobFolders::default(), threads(None), &mut Quiet)
+    }
+
+    /// Lyapunov exponents: see [`exponents`](crate::exponents::exponents).
+    ///
+    /// # Errors
+    /// [`JobError`].
+    pub fn exponents(&self, request: &ExponentsRequest) -> Result<ExponentsReport, JobError> {
+        exponents(self, request, JobFolders::default(), &mut Quiet)
+    }
+
+    /// Basins of attraction: see [`basins`](crate::basins::basins).
+    ///
+    /// # Errors
+    /// [`JobError`].
+    pub fn basins(&self, request: &BasinsRequest) -> Result<BasinsReport, JobError> {
+        basins(self, request, JobFolders::default(), threads(None), &mut Quiet)
+    }
+}
