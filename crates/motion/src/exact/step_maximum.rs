@@ -159,7 +159,8 @@ impl ExactIntegrator {
     /// on the velocity, of the force itself.
     pub(super) fn largest_force(&mut self, course: &Course, peaks: Peaks) -> f64 {
         peaks.largest_exact(0.0, |peak| {
-            let law = self.laws[peak.output].clone();
+            // With its whole force: the piece that a run is in last need not be that of the step.
+            let law = self.system.elements()[peak.output].law.clone();
             if law.depends_on_velocity() {
                 self.exact_damped_force(course, peak)
             } else {

@@ -271,23 +271,3 @@ fn pieces_of_a_force_meet_at_its_kinks() {
         }
     }
 }
-
-#[test]
-fn a_second_gap_is_finite_and_positive() {
-    for found in [0.0, -1e-9, f64::INFINITY] {
-        let refused = LawError::Constant { what: "second gap", found, allowed: "more than 0 m" };
-        assert_eq!(TwoSlopeStop::with_gap(1.0, (found, 2.0), 0.0), Err(refused));
-    }
-    assert!(TwoSlopeStop::with_gap(1.0, (f64::NAN, 2.0), 0.0).is_err());
-    assert!(TwoSlopeStop::with_gap(1.0, (1.0, 0.0), 0.0).is_err());
-    assert!(TwoSlopeStop::with_gap(0.0, (1.0, 1.0), 0.0).is_err());
-}
-
-/// A preload below and above the force at the kink: 3 N/m up to 0.5 m, then 8 N/m.
-#[test]
-fn a_preload_of_two_slopes_is_the_force_on_the_undeformed_structure() {
-    for preload in [0.0, 1.2, 1.5, 7.5] {
-        let stop = TwoSlopeStop::with_preload(3.0, (0.5, 8.0), preload).unwrap();
-        assert_close(-stop.force(0.0, 0.0).value, preload, "preload");
-    }
-}
