@@ -26,6 +26,7 @@ source_suffix = {".md": "markdown"}
 std_logging.getLogger("sphinx").addFilter(lambda record: "toctree glob pattern" not in str(record.msg))
 
 # Nothing is fetched from a network, neither while building nor while reading.
+highlight_language = "text"
 html_theme = "furo"
 html_theme_options = {"top_of_page_buttons": []}
 html_copy_source = False

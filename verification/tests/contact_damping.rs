@@ -2,8 +2,8 @@
 //! the beam, whose measured modal damping, 0.003, is a fifth of the 0.015 that their main case has. Law:
 //! Lankarani and Nikravesh, J. Mech. Des. 112 (1990), 369-376.
 //!
-//! The numbers are our own, read off branches over 34 to 45 Hz (docs/validation/conclusions.md); what is asserted is
-//! that orbits found afresh at the peaks have them, and their order.
+//! The numbers are our own, read off branches over 34 to 45 Hz (docs/validation/conclusions.md); what
+//! is asserted is that orbits found afresh at the peaks have them, and their order.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use crate::common::{Rig, hertz, paper_beam_with};

@@ -1,6 +1,7 @@
 //! Every attractor that an integrator finds which shares nothing with the library is on a branch of a run
 //! with the search as it is by default: machines of different kinds, periods 1 to 4
-//! ([docs](../../docs/validation/completeness.md)). `HAMMERBEAM_EXTENSIVE=1` looks at all of them, at more frequencies.
+//! ([docs](../../docs/validation/completeness.md)). `HAMMERBEAM_EXTENSIVE=1` looks at all of them, at more
+//! frequencies.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
 use crate::common::extensive;

@@ -1,12 +1,14 @@
 //! The study file: what a study says, and how it is read from TOML.
 //!
 //! One file per table of the study file. Each holds plain data, in SI units, and the reader that asks the
-//! table for its keys; `docs/reference/study-file.md` lists them all. What needs the assembled model (a cut-off below
-//! the first mode, the number of modal damping ratios) is checked when the model is built, see
+//! table for its keys; `docs/reference/study-file.md` lists them all. What needs the assembled model (a
+//! cut-off below the first mode, the number of modal damping ratios) is checked when the model is built, see
 //! [`crate::Model`].
 
 mod amplitude;
 mod beam;
+#[cfg(test)]
+mod book;
 mod continuation;
 mod damping;
 mod excitation;
