@@ -10,6 +10,7 @@ mod figures;
 mod initial;
 mod interrupt;
 mod kept;
+mod matrix_report;
 mod memory;
 mod motion_args;
 mod numbers;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::New(options) => commands::new::run(options, output),
         Command::Check(options) => commands::check::run(options, output),
         Command::Modes(options) => commands::modes::run(options, output),
+        Command::Import(options) => commands::import::run(options, output),
         Command::Run(options) => commands::run::run(options, output),
         Command::Orbit(options) => commands::orbit::run(options, output),
         Command::Simulate(options) => commands::simulate::run(options, output),

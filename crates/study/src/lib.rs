@@ -64,6 +64,7 @@ pub use document::{Problem, Report, unit::hertz};
 pub use export::{export_csv, export_states};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
+pub use model::matrix_study;
 pub use model::{
     Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
     UndampedMode,

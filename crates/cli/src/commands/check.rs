@@ -6,14 +6,14 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
-        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
-        MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
+        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, Matrices,
+        ModalRatio, MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
     },
     rig::changed_study,
 };
 use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, drift, failure::Failure, kept::counted, output::Output};
+use crate::{args::StudyOptions, drift, failure::Failure, kept::counted, matrix_report, output::Output};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
@@ -46,6 +46,7 @@ fn document(study: &Study, model: &Model) -> Value {
         "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
         "response_point": study.response.point,
         "period_multiples": study.response.period_multiples,
+        "matrices": model.matrices.as_ref().map(matrix_report::document),
         "study": study,
     })
 }
@@ -113,6 +114,7 @@ fn text(study: &Study, model: &Model, unit: FrequencyUnit) -> String {
     lines.push(match &study.structure {
         Structure::Beam(beam) => beam_text(beam),
         Structure::Lumped(lumped) => lumped_text(lumped),
+        Structure::Matrices(matrices) => matrices_text(matrices, model),
     });
     lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof(), unit)));
     let frequencies: Vec<String> = eigenfrequencies_hz(model).iter().take(8).map(|f| shown(*f)).collect();
@@ -170,6 +172,15 @@ fn beam_text(beam: &Beam) -> String {
     text
 }
 
+fn matrices_text(matrices: &Matrices, model: &Model) -> String {
+    let points: Vec<&str> = matrices.points.iter().map(|point| point.name.as_str()).collect();
+    let mut lines = vec![format!("structure    matrices with points {}", points.join(", "))];
+    if let Some(report) = &model.matrices {
+        lines.extend(matrix_report::lines(report));
+    }
+    lines.join("\n")
+}
+
 fn lumped_text(lumped: &Lumped) -> String {
     let masses: Vec<String> =
         lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
@@ -217,6 +228,7 @@ fn dampers(structure: &Structure) -> usize {
         Structure::Lumped(lumped) => {
             lumped.dampers.iter().filter(|damper| damper.damping_n_s_m > 0.0).count()
         }
+        Structure::Matrices(_) => 0,
         Structure::Beam(beam) => {
             let of_points =
                 beam.points.iter().flat_map(|point| [point.damper_n_s_m, point.rotational_damper_n_m_s_rad]);

@@ -137,6 +137,12 @@ pub(crate) const RADIUS: Quantity =
     Quantity::new("m", Including(1e-9), Including(1e4)).hints("is the unit m?", "write \"flat\" for a plane");
 /// Position along a beam; the beam's own length bounds it further.
 pub(crate) const POSITION: Quantity = Quantity::new("m", Including(0.0), Open);
+/// What brings numbers of a file to SI units.
+pub(crate) const FACTOR: Quantity = Quantity::new("", Excluding(0.0), Including(1e30));
+/// Part of a direction in space.
+pub(crate) const DIRECTION: Quantity = Quantity::new("", Including(-1e30), Including(1e30));
+/// Memory for factors of matrices.
+pub(crate) const MEMORY_GB: Quantity = Quantity::new("GB", Including(0.01), Including(1e5));
 /// A mass that must be there.
 pub(crate) const MASS: Quantity = Quantity::new("kg", Excluding(0.0), Including(1e12));
 /// A mass added to a beam.
