@@ -12,6 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use hammerbeam_matrices::parse_matrices;
 use hammerbeam_results::{Store, StoreError, export_csv, summary::summarise};
 use hammerbeam_signal::{RecordOptions, points, read};
 use hammerbeam_study::StudyFile;
@@ -32,13 +33,15 @@ pub enum Reader {
     Signal,
     /// A table of measured points.
     Points,
+    /// Matrices of a finite element program, in any format.
+    Matrices,
     /// A results database.
     Results,
 }
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Study, Self::Signal, Self::Points, Self::Results];
+    pub const ALL: [Self; 5] = [Self::Study, Self::Signal, Self::Points, Self::Matrices, Self::Results];
 
     /// Name, also of its folder in the corpus.
     #[must_use]
@@ -47,6 +50,7 @@ impl Reader {
             Self::Study => "study",
             Self::Signal => "signal",
             Self::Points => "points",
+            Self::Matrices => "matrices",
             Self::Results => "results",
         }
     }
@@ -61,6 +65,7 @@ impl Reader {
                 read::parse(bytes).is_ok_and(|raw| raw.validate(&RecordOptions::default()).is_ok())
             }
             Self::Points => points::parse(bytes).is_ok(),
+            Self::Matrices => parse_matrices(bytes, None).is_ok(),
             Self::Results => everything_stored(folder, bytes).is_ok(),
         }
     }
@@ -156,6 +161,7 @@ pub fn corpus(reader: Reader, root: &Path) -> std::io::Result<Vec<Vec<u8>>> {
     let folders: &[&str] = match reader {
         Reader::Study => &["studies", "verification/studies", &own],
         Reader::Signal => &["crates/signal/tests/fixtures", &own],
+        Reader::Matrices => &["crates/matrices/tests/fixtures", &own],
         Reader::Points | Reader::Results => &[&own],
     };
     let mut paths: Vec<PathBuf> = Vec::new();

@@ -13,7 +13,7 @@ fn no_reader_fails_on_damaged_input() {
     let folder = tempfile::tempdir().unwrap();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     // Results databases need a run first: the example has them.
-    for reader in [Reader::Study, Reader::Signal, Reader::Points] {
+    for reader in [Reader::Study, Reader::Signal, Reader::Points, Reader::Matrices] {
         let inputs = corpus(reader, &root).unwrap();
         assert!(!inputs.is_empty(), "{reader:?} has no corpus");
         let mut random = Random::new(11);

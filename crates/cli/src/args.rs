@@ -47,6 +47,8 @@ pub enum Command {
     Check(StudyOptions),
     /// Print the eigenfrequencies: unreduced, of the reduction basis, and reduced
     Modes(ModesOptions),
+    /// Convert matrices of a finite element program, or the structure of a study, into a bundle of files
+    Import(ImportOptions),
     /// Compute everything a study asks for into a results folder; started again, it goes on where it was
     Run(RunOptions),
     /// Compute the periodic solutions at one frequency
@@ -104,6 +106,69 @@ pub struct ModesOptions {
     /// the excitation are drawn
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct ImportOptions {
+    /// Files of the program (stiffness, mass, damping, labels of rows, nodes), known by their names and content;
+    /// or a study, whose structure is exported
+    pub files: Vec<PathBuf>,
+
+    /// Folder, made if it is not there, for K.mtx, M.mtx, C.mtx, dofs.csv, nodes.csv and lines.csv
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// The file of the stiffness matrix
+    #[arg(long, value_name = "FILE")]
+    pub stiffness: Option<PathBuf>,
+
+    /// The file of the mass matrix
+    #[arg(long, value_name = "FILE")]
+    pub mass: Option<PathBuf>,
+
+    /// The file of the damping matrix
+    #[arg(long, value_name = "FILE")]
+    pub damping: Option<PathBuf>,
+
+    /// The file that says what rows are: .dof, .csv, or .pch and .asm with EXTRN
+    #[arg(long, value_name = "FILE")]
+    pub dofs: Option<PathBuf>,
+
+    /// The file of nodes: .csv, .inp, or bulk data with GRID
+    #[arg(long, value_name = "FILE")]
+    pub nodes: Option<PathBuf>,
+
+    /// Name of the stiffness matrix in its file [default: found out]
+    #[arg(long, value_name = "NAME")]
+    pub stiffness_matrix: Option<String>,
+
+    /// Name of the mass matrix in its file [default: found out]
+    #[arg(long, value_name = "NAME")]
+    pub mass_matrix: Option<String>,
+
+    /// Format of the matrices [default: found out]
+    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(hammerbeam_matrices::MatrixFormat::names()))]
+    pub format: Option<String>,
+
+    /// Factor that brings the stiffness to N/m
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
+    pub stiffness_factor: f64,
+
+    /// Factor that brings the mass to kg
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
+    pub mass_factor: f64,
+
+    /// Factor that brings the damping to N s/m
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
+    pub damping_factor: f64,
+
+    /// Factor that brings places of nodes to m
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
+    pub length_factor: f64,
+
+    /// Memory that factors of the matrices may take [GB]
+    #[arg(long, value_name = "GB", default_value_t = 4.0, value_parser = positive)]
+    pub memory_gb: f64,
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ mod failure;
 mod initial;
 mod interrupt;
 mod kept;
+mod matrix_report;
 mod memory;
 mod motion_args;
 mod numbers;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::New(options) => commands::new::run(options, output),
         Command::Check(options) => commands::check::run(options, output),
         Command::Modes(options) => commands::modes::run(options, output),
+        Command::Import(options) => commands::import::run(options, output),
         Command::Run(options) => commands::run::run(options, output),
         Command::Orbit(options) => commands::orbit::run(options, output),
         Command::Simulate(options) => commands::simulate::run(options, output),

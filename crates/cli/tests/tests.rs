@@ -32,6 +32,7 @@ mod rig;
 mod run;
 mod same_bytes;
 mod signal;
+mod structures;
 mod unbounded;
 mod unwritable;
 mod update;

@@ -23,6 +23,9 @@ pub fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, Figu
         Structure::Lumped(lumped) => {
             (0u32..).zip(&lumped.masses).map(|(k, mass)| (f64::from(k), mass.name.clone())).collect()
         }
+        Structure::Matrices(matrices) => {
+            (0u32..).zip(&matrices.points).map(|(k, point)| (f64::from(k), point.name.clone())).collect()
+        }
     };
     let stops = study.stops.iter().flat_map(|stop| {
         let name = match &stop.place {
@@ -50,7 +53,7 @@ pub fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, Figu
         places: model.outline.iter().map(|place| place.at).collect(),
         ends: match &study.structure {
             Structure::Beam(beam) => [beam.left, beam.right].map(held),
-            Structure::Lumped(_) => [(false, false); 2],
+            Structure::Lumped(_) | Structure::Matrices(_) => [(false, false); 2],
         },
         points,
         stops: stops.collect(),
@@ -83,6 +86,9 @@ fn position(study: &Study, name: &str) -> Option<f64> {
     match (&study.structure, name) {
         (Structure::Lumped(lumped), _) => {
             lumped.masses.iter().position(|mass| mass.name == name).map(|k| k as f64)
+        }
+        (Structure::Matrices(matrices), _) => {
+            matrices.points.iter().position(|point| point.name == name).map(|k| k as f64)
         }
         (Structure::Beam(_), "left") => Some(0.0),
         (Structure::Beam(beam), "right") => Some(beam.length_m),

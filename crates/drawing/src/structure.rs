@@ -24,6 +24,12 @@ pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError>
             let style = if is_narrow { Style::single_column() } else { Style::double_column() };
             (SketchLayout::Lumped(sketched_masses(lumped)), style)
         }
+        // Of matrices nothing is known but the points.
+        Structure::Matrices(matrices) => {
+            let masses = matrices.points.iter().map(|point| point.name.clone()).collect();
+            let layout = SketchLumped { masses, links: Vec::new() };
+            (SketchLayout::Lumped(layout), Style::double_column())
+        }
     };
     let mut forces: Vec<String> = study.force_points().map(str::to_owned).collect();
     forces.sort_unstable();

@@ -2,11 +2,12 @@
 
 use std::{collections::BTreeMap, f64::consts::TAU};
 
+use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::{Drift, Model, Study, UndampedInContact, UndampedMode};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use crate::{JobError, Observer, PreparedStudy, rig::changed_study};
+use crate::{JobError, Observer, PreparedStudy, matrix_document::matrix_document, rig::changed_study};
 
 /// What is known of a study.
 #[derive(Debug, Clone)]
@@ -21,6 +22,8 @@ pub struct CheckReport<'a> {
     pub undamped_in_contact: Vec<UndampedInContact>,
     /// Directions that nothing holds, or only stops.
     pub drifts: Vec<Drift>,
+    /// What was found in the matrices of the structure, if it consists of such.
+    pub matrices: Option<&'a MatrixReport>,
 }
 
 /// Looks at a study, and whether its rig makes one too; directions that nothing holds, or only stops, are
@@ -42,6 +45,7 @@ pub fn check<'a>(study: &'a PreparedStudy, observer: &mut dyn Observer) -> Resul
         undamped_modes: model.undamped_modes(),
         undamped_in_contact: model.undamped_in_contact(),
         drifts,
+        matrices: model.matrices.as_ref(),
     })
 }
 
@@ -64,6 +68,7 @@ impl Serialize for CheckReport<'_> {
             "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
             "response_point": study.response.point,
             "period_multiples": study.response.period_multiples,
+            "matrices": self.matrices.map(matrix_document),
             "study": study,
         });
         document.serialize(serializer)

@@ -62,10 +62,21 @@ impl Damping {
         frequencies: &[f64],
         damper_strains: MatRef<'_, f64>,
     ) -> Result<Mat<f64>, StructureError> {
+        self.matrix_with(frequencies, (damper_strains.transpose() * damper_strains).as_ref())
+    }
+
+    /// `C` [1/s] of modes with frequencies `w` and `Phi^T C_d Phi` of the discrete dampers.
+    ///
+    /// # Errors
+    /// A constant that is negative or not finite, or ratios that are not one for each mode.
+    pub(crate) fn matrix_with(
+        &self,
+        frequencies: &[f64],
+        product: MatRef<'_, f64>,
+    ) -> Result<Mat<f64>, StructureError> {
         let ratios = self.ratios(frequencies.len())?;
         let alpha = not_negative("Rayleigh damping alpha", self.rayleigh_alpha)?;
         let beta = not_negative("Rayleigh damping beta", self.rayleigh_beta)?;
-        let product = damper_strains.transpose() * damper_strains;
         let mut matrix = Mat::from_fn(ratios.len(), ratios.len(), |i, j| product[(i.max(j), i.min(j))]);
         for (mode, (&w, ratio)) in frequencies.iter().zip(ratios).enumerate() {
             matrix[(mode, mode)] += 2.0 * ratio * w + alpha + beta * w * w;

@@ -67,9 +67,77 @@ pub enum StructureError {
     /// Masses so different that their matrix is not positive in floating point.
     #[error("the mass matrix of {size} coordinates is not positive definite")]
     MassNotPositive { size: usize },
+    /// The factors of a sparse matrix do not fit into the memory that is allowed.
+    #[error(
+        "the factors of {size} coordinates would take {:.1} GB, allowed are {:.1} GB", 
+        *needed_bytes as f64 / 1e9, *limit_bytes as f64 / 1e9
+    )]
+    TooMuchMemory { size: usize, needed_bytes: u64, limit_bytes: u64 },
+    /// A larger structure has to say up to which frequency its modes are kept.
+    #[error(
+        "all modes of {found} coordinates are asked for, allowed are {allowed}; give a reduction with a cut-off"
+    )]
+    TooManyCoordinates { found: usize, allowed: usize },
+    /// So many modes are no reduction.
+    #[error("{found} modes lie below the cut-off frequency, allowed are {allowed}; choose a lower one")]
+    TooManyModes { found: usize, allowed: usize },
+    /// The stiffness matrix has negative eigenvalues, by more than rounding.
+    #[error(
+        "the stiffness matrix is not positive semi-definite: {negative} modes grow faster than {below_hz:.3} Hz \
+         would oscillate"
+    )]
+    StiffnessNotPositive { negative: usize, below_hz: f64 },
+    /// A motion that has neither mass nor stiffness.
+    #[error("coordinate {coordinate} can move without mass and without stiffness: a mechanism")]
+    Mechanism { coordinate: usize },
+    /// The same with the row by its label.
+    #[error("{row} can move without mass and without stiffness: a mechanism, or a row to be held")]
+    MasslessMechanism { row: String },
+    /// More motions without strain than rigid bodies have.
+    #[error(
+        "{found} motions bend nothing, but {parts} part(s) have {} as rigid bodies: a mechanism that moves {row}",
+        6 * parts
+    )]
+    TooManyRigidModes { found: usize, parts: usize, row: String },
+    /// The mass matrix has negative eigenvalues, by more than rounding.
+    #[error("the mass matrix has {negative} negative eigenvalues, must have none")]
+    MassNegative { negative: usize },
+    /// Matrices of one structure must have the same rows.
+    #[error("the {what} has {found} rows, the stiffness has {expected}")]
+    RowCount { what: &'static str, found: usize, expected: usize },
+    /// A row beyond the last one.
+    #[error("{what} is at row {row}, there are {rows} rows")]
+    NoSuchRow { what: String, row: usize, rows: usize },
+    /// Nodes that no row has.
+    #[error("{what} is at nodes that no row has: {}", nodes.join(", "))]
+    NoSuchNodes { what: String, nodes: Vec<String> },
+    /// A label that no row has.
+    #[error("{what} is at {label}, which no row has")]
+    NoSuchLabel { what: String, label: String },
+    /// A label that several rows have.
+    #[error("{label} stands for several rows, {}; name the one by its row", counted(rows))]
+    LabelTwice { label: String, rows: Vec<usize> },
+    /// Nodes and directions can only be found with labels.
+    #[error("it is not known which node and direction each row is; give `dofs`")]
+    NoLabels,
+    /// A structure of matrices is no beam.
+    #[error("the structure is given as matrices")]
+    NotForMatrices,
+    /// Two interface points move alike, whatever happens.
+    #[error("points of the interface depend on one another, or do not move")]
+    DependentInterface,
+    /// Constraint modes need a structure that is held.
+    #[error(
+        "fixed-interface reduction needs a structure without rigid-body modes, this one has {rigid_modes}"
+    )]
+    NotHeld { rigid_modes: usize },
     /// The singular value iteration did not end.
     #[error("the eigenmodes of {size} coordinates did not converge")]
     ModesNotConverged { size: usize },
+}
+
+fn counted(rows: &[usize]) -> String {
+    rows.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// `value`, if finite and positive.

@@ -31,7 +31,8 @@
 //!
 //! Stiffness is kept as `K = G^T G` and modes come from singular values, because an assembled `K` loses
 //! the low modes of a fine mesh: the eigenvalues of a cantilever of 200 elements spread over twelve decades.
-//! All matrices are dense.
+//! These matrices are dense. [`Matrices`] of finite element programs are sparse, and have no `G`: see there, and
+//! `sparse/mod.rs` for the mathematics.
 //!
 //! This crate knows nothing of time, contact or excitation frequency: it ends in a
 //! [`ReducedModel`], the modal form that the motion crate takes over.
@@ -60,6 +61,7 @@
 mod beam;
 mod damping;
 mod error;
+mod export;
 mod lumped;
 mod modes;
 mod names;
@@ -69,6 +71,7 @@ mod reduce;
 mod reduced_model;
 mod reduction;
 mod section;
+mod sparse;
 mod strain;
 mod structure;
 mod tables;
@@ -76,11 +79,16 @@ mod tables;
 pub use beam::{Beam, BeamChange, BeamPoint, Boundary, End, PointChange};
 pub use damping::{Damping, ModalRatios};
 pub use error::StructureError;
+pub use export::ExportedMatrices;
 pub use lumped::{Connection, GROUND, Lumped, LumpedMass};
 pub use plausible::{PLAUSIBLE_DENSITY, PLAUSIBLE_YOUNGS_MODULUS};
 pub use reduce::{OutlinePoint, Reduced};
 pub use reduced_model::{PointOutput, ReducedModel, SupportInput};
 pub use reduction::Reduction;
 pub use section::Section;
+pub use sparse::{
+    Along, Direction, Entry, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport,
+    MatrixSurvey, PointPlace, RowKind, RowLabel, RowSet, SupportRows, SymmetricMatrix,
+};
 pub use structure::Structure;
 pub use tables::{FlexibilityError, FrequencyError, ModeTables};

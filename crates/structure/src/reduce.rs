@@ -199,7 +199,7 @@ fn projected(shapes: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
 }
 
 /// Refuses a model whose numbers left the range of floating point: the input was absurd in size.
-fn check_finite(model: &ReducedModel) -> Result<(), StructureError> {
+pub(crate) fn check_finite(model: &ReducedModel) -> Result<(), StructureError> {
     for (mode, &w) in model.natural_frequencies.iter().enumerate() {
         finite(&format!("eigenfrequency {}", mode + 1), w)?;
         finite(&format!("square of eigenfrequency {}", mode + 1), w * w)?;

@@ -143,6 +143,11 @@ impl Structure {
         (0..self.held.len()).filter(|index| !self.held[*index] && !self.is_prescribed(*index)).collect()
     }
 
+    /// Coordinates that ends or the ground hold, ascending.
+    pub(crate) fn held_coordinates(&self) -> Vec<usize> {
+        (0..self.held.len()).filter(|index| self.held[*index]).collect()
+    }
+
     /// Free and prescribed coordinates, ascending: the component whose support is let go.
     pub(crate) fn released_coordinates(&self) -> Vec<usize> {
         (0..self.held.len()).filter(|index| !self.held[*index] || self.is_prescribed(*index)).collect()

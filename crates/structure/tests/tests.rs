@@ -6,6 +6,7 @@ mod common;
 mod damping;
 mod derivatives;
 mod invariants;
+mod matrices;
 mod refused_input;
 mod support_motion;
 mod supports_that_differ;

@@ -36,6 +36,7 @@ pub mod number;
 pub use document::{Problem, Report, unit::hertz};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
+pub use model::matrix_study;
 pub use model::{
     Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
     UndampedMode,

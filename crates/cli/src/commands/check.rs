@@ -6,15 +6,19 @@ use hammerbeam_jobs::{
     check::{CheckReport, check},
 };
 use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
+use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::{
     Study, UndampedInContact, UndampedMode,
     file::{
-        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, ModalRatio,
-        MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, StopRest, Structure,
+        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, Matrices,
+        ModalRatio, MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, StopRest,
+        Structure,
     },
 };
 
-use crate::{args::StudyOptions, failure::Failure, kept::counted, output::Output, watch::Notices};
+use crate::{
+    args::StudyOptions, failure::Failure, kept::counted, matrix_report, output::Output, watch::Notices,
+};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let study = PreparedStudy::read(&options.study)?;
@@ -68,6 +72,7 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
     lines.push(match &study.structure {
         Structure::Beam(beam) => beam_text(beam),
         Structure::Lumped(lumped) => lumped_text(lumped),
+        Structure::Matrices(matrices) => matrices_text(matrices, report.matrices),
     });
     lines.push(format!("reduction    {}", reduction_text(&study.reduction, dof, unit)));
     let frequencies: Vec<String> = report.eigenfrequencies_hz.iter().take(8).map(|f| shown(*f)).collect();
@@ -125,6 +130,15 @@ fn beam_text(beam: &Beam) -> String {
     text
 }
 
+fn matrices_text(matrices: &Matrices, report: Option<&MatrixReport>) -> String {
+    let points: Vec<&str> = matrices.points.iter().map(|point| point.name.as_str()).collect();
+    let mut lines = vec![format!("structure    matrices with points {}", points.join(", "))];
+    if let Some(report) = report {
+        lines.extend(matrix_report::lines(report));
+    }
+    lines.join("\n")
+}
+
 fn lumped_text(lumped: &Lumped) -> String {
     let masses: Vec<String> =
         lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
@@ -172,6 +186,7 @@ fn dampers(structure: &Structure) -> usize {
         Structure::Lumped(lumped) => {
             lumped.dampers.iter().filter(|damper| damper.damping_n_s_m > 0.0).count()
         }
+        Structure::Matrices(_) => 0,
         Structure::Beam(beam) => {
             let of_points =
                 beam.points.iter().flat_map(|point| [point.damper_n_s_m, point.rotational_damper_n_m_s_rad]);

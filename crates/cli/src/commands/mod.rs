@@ -6,6 +6,7 @@ pub mod compare;
 pub mod completions;
 pub mod export;
 pub mod figure;
+pub mod import;
 pub mod lyapunov;
 pub mod man;
 pub mod modes;

@@ -2,12 +2,14 @@
 
 use hammerbeam_drawing::{DrawSettings, draw_into, draw_linear};
 use hammerbeam_figure::FrequencyUnit;
+use hammerbeam_jobs::matrix_document;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
 use crate::{
     args::ModesOptions,
     failure::Failure,
+    matrix_report,
     output::{Output, six_decimals},
     watch::Notices,
 };
@@ -45,6 +47,7 @@ fn document(model: &Model) -> Value {
         "fixed_interface_hz": tables.fixed_interface_hz,
         "reduced_relative_error": errors,
         "mass_normalised_shapes": shapes,
+        "matrices": model.matrices.as_ref().map(matrix_document),
         "static_flexibility": tables.flexibility_errors.iter().map(flexibility).collect::<Vec<_>>(),
     })
 }
@@ -85,7 +88,9 @@ fn text(model: &Model, unit: FrequencyUnit) -> String {
         ),
         format!("mode {:>16} {:>16} {:>16} {:>12}", "clamped", interface.0, "reduced", "error"),
     ];
-    let rows = tables.reduced_hz.len().max(interface.1.len()).max(SHOWN).min(tables.clamped_hz.len());
+    let known = tables.clamped_hz.len();
+    let shown = if model.matrices.is_some() { known } else { SHOWN };
+    let rows = tables.reduced_hz.len().max(interface.1.len()).max(shown).min(known);
     let cell = |values: &[f64], row: usize| {
         values.get(row).map_or(String::new(), |value| six_decimals(unit.factor() * value))
     };
@@ -108,6 +113,9 @@ fn text(model: &Model, unit: FrequencyUnit) -> String {
             "static flexibility at {}: {:.6e} m/N unreduced, {:.6e} m/N reduced, error {:+.2e}",
             error.point, error.full, error.reduced, error.relative
         ));
+    }
+    if let Some(report) = &model.matrices {
+        lines.extend(matrix_report::lines(report));
     }
     lines.extend(shapes_text(model));
     lines.join("\n")

@@ -17,6 +17,7 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
             .find(|point| (point.at_m - at).abs() <= 1e-9 * beam.length_m)
             .map(|point| &point.name),
         Structure::Lumped(lumped) => lumped.masses.get(at as usize).map(|mass| &mass.name),
+        Structure::Matrices(matrices) => matrices.points.get(at as usize).map(|point| &point.name),
     };
     let places = model.outline.iter().map(|place| PagePlace {
         name: name_at(place.at).cloned().unwrap_or_default(),
@@ -25,7 +26,7 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         support_ratios: place.support_ratios.clone(),
     });
     let links = match &study.structure {
-        Structure::Beam(_) => Vec::new(),
+        Structure::Beam(_) | Structure::Matrices(_) => Vec::new(),
         Structure::Lumped(lumped) => {
             let mass = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
             let ends =
@@ -97,6 +98,9 @@ fn levels(element: &LocalElement, model: &Model, name: &str, other: Option<&Stri
 fn place(file: &StudyFile, model: &Model, name: &str) -> Option<u32> {
     let at = match (&file.study.structure, name) {
         (Structure::Lumped(lumped), _) => lumped.masses.iter().position(|mass| mass.name == name)? as f64,
+        (Structure::Matrices(matrices), _) => {
+            matrices.points.iter().position(|point| point.name == name)? as f64
+        }
         (Structure::Beam(_), "left") => 0.0,
         (Structure::Beam(beam), "right") => beam.length_m,
         (Structure::Beam(beam), _) => beam.points.iter().find(|point| point.name == name)?.at_m,

@@ -6,7 +6,7 @@ use hammerbeam_study::{
     Study,
     file::{
         Amplitude, Approach, Beam, BeamPoint, Excitation, ExcitationKind, FixedTo, GapMeasured, Load, Lumped,
-        MovingSupport, Place, Side, Stop, StopLaw, StopRest, Structure,
+        Matrices, MatrixFiles, MovingSupport, Place, Side, Stop, StopLaw, StopRest, Structure,
     },
 };
 
@@ -18,11 +18,22 @@ pub fn of(study: &Study, unit: FrequencyUnit) -> Vec<String> {
     let mut lines = match &study.structure {
         Structure::Beam(beam) => beam_words(beam),
         Structure::Lumped(lumped) => lumped_words(lumped),
+        Structure::Matrices(matrices) => matrix_words(matrices),
     };
     lines.extend(study.stops.iter().map(|stop| stop_words(stop, &study.excitation)));
     lines.push(excitation_words(study, unit));
     lines.extend(study.loads.iter().map(|load| load_words(load, &study.excitation)));
     lines
+}
+
+fn matrix_words(matrices: &Matrices) -> Vec<String> {
+    let name = |file: &std::path::Path| {
+        file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    };
+    let of = |files: &MatrixFiles| {
+        format!("Matrices: {}, {}.", name(&files.stiffness.file.path), name(&files.mass.file.path))
+    };
+    matrices.components.iter().map(of).collect()
 }
 
 fn beam_words(beam: &Beam) -> Vec<String> {

@@ -250,7 +250,7 @@ pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) ->
         }
     }
     note(&transaction, "title", &file.study.title)?;
-    note(&transaction, "study", &file.text)?;
+    note(&transaction, "study", &file.text_with_whole_paths())?;
     let writer = 1 + writer(&transaction)?;
     note(&transaction, WRITER, &writer.to_string())?;
     transaction.commit()?;

@@ -32,6 +32,12 @@ pub const DENSITY: Quantity = Quantity::new("kg/m^3", Including(10.0), Including
 );
 /// Position along a beam; the beam's own length bounds it further.
 pub const POSITION: Quantity = Quantity::new("m", Including(0.0), Open);
+/// What brings numbers of a file to SI units.
+pub const FACTOR: Quantity = Quantity::new("", Excluding(0.0), Including(1e30));
+/// Part of a direction in space.
+pub const DIRECTION: Quantity = Quantity::new("", Including(-1e30), Including(1e30));
+/// Memory for factors of matrices.
+pub const MEMORY_GB: Quantity = Quantity::new("GB", Including(0.01), Including(1e5));
 /// A mass that must be there.
 pub const MASS: Quantity = Quantity::new("kg", Excluding(0.0), Including(1e12));
 /// A mass added to a beam.

@@ -4,6 +4,7 @@ use std::{
     cell::{Cell, RefCell},
     collections::BTreeMap,
     ops::Range,
+    path::{Path, PathBuf},
 };
 
 use super::Problem;
@@ -18,9 +19,20 @@ pub struct Reading {
     problems: RefCell<Vec<Problem>>,
     places: RefCell<BTreeMap<String, Range<usize>>>,
     count: Cell<usize>,
+    folder: PathBuf,
 }
 
 impl Reading {
+    /// Reads a document that names files relative to a folder.
+    pub(crate) fn in_folder(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), ..Self::default() }
+    }
+
+    /// The folder of files that the document names.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Notes a fault at a place.
     pub fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
         self.count.set(self.count.get() + 1);

@@ -13,8 +13,10 @@ mod continuation;
 mod damping;
 mod excitation;
 mod figures;
+mod file_checksum;
 mod load;
 mod lumped;
+mod matrices;
 mod names;
 mod parameter;
 mod read_formula;
@@ -37,7 +39,13 @@ pub use damping::{Damping, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};
 pub use figures::{DrawnOrbit, Figures};
 pub use load::Load;
+
 pub use lumped::{Damper, Lumped, Mass, Spring};
+pub(crate) use matrices::MatrixProblem;
+pub use matrices::{
+    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    PointPlaceEntry, RowSetEntry,
+};
 pub use parameter::{DampingKey, ParameterKind, VariedParameter};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;

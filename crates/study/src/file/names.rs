@@ -13,6 +13,8 @@ pub(super) struct Names {
     ends: Vec<(&'static str, Option<End>)>,
     /// Whether the ground is a support that can move.
     ground: bool,
+    /// Supports by name, of a structure that has such.
+    supports: Option<Vec<String>>,
 }
 
 /// Names with a meaning of their own.
@@ -25,6 +27,31 @@ impl Names {
 
     pub(super) fn add_ground(&mut self) {
         self.ground = true;
+    }
+
+    /// The structure has supports with names of their own.
+    pub(super) fn add_supports(&mut self) {
+        self.supports = Some(Vec::new());
+    }
+
+    /// Adds a support; whether its name is new, not empty and not reserved.
+    pub(super) fn add_support(&mut self, value: &Value<'_>, name: &str) -> bool {
+        let supports = self.supports.get_or_insert_default();
+        let taken = supports.iter().chain(&self.points).any(|other| other == name);
+        // The ends of a beam and the ground are what supports are called elsewhere.
+        let reserved = ["space", "support"];
+        if taken || name.trim().is_empty() || reserved.contains(&name) {
+            let help = format!("allowed: a name of its own, not one of {}", reserved.join(", "));
+            value.problem(format!("`name` is \"{name}\", which is taken, empty or reserved"), vec![help]);
+            return false;
+        }
+        supports.push(name.to_owned());
+        true
+    }
+
+    /// Adds a point that the study does not name itself.
+    pub(super) fn add_point(&mut self, name: &str) {
+        self.points.push(name.to_owned());
     }
 
     /// Points, masses and beam ends.
@@ -51,6 +78,10 @@ impl Names {
 
     /// A reference to what can be moved by the excitation: a held beam end, a point, a mass, the ground.
     pub(super) fn support(&self, value: &Value<'_>) -> Option<String> {
+        if let Some(supports) = &self.supports {
+            let known: Vec<&str> = supports.iter().map(String::as_str).collect();
+            return self.known(value, &known, "a support of this structure");
+        }
         let mut known = self.observable();
         known.extend(self.ground.then_some("ground"));
         let name = self.known(value, &known, "a support of this structure")?;
@@ -92,7 +123,7 @@ impl Names {
 
     /// Without the kind of the structure there are no names, and references are not judged.
     fn kind_is_known(&self) -> bool {
-        self.ground || !self.ends.is_empty()
+        self.ground || !self.ends.is_empty() || self.supports.is_some()
     }
 }
 

@@ -206,6 +206,7 @@ fn of_dampers(structure: &Structure) -> Vec<Known> {
             };
             beam.points.iter().enumerate().flat_map(of_point).collect()
         }
+        Structure::Matrices(_) => Vec::new(),
     }
 }
 

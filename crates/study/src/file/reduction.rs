@@ -36,7 +36,7 @@ const METHODS: [(&str, ReductionMethod); 4] = [
     ("none", ReductionMethod::None),
 ];
 
-/// A beam has to say how it is reduced; lumped masses are not reduced unless they say so.
+/// A beam and matrices have to say how they are reduced; lumped masses are not reduced unless they say so.
 pub(super) fn read(root: &Table<'_>, structure: Option<&Structure>) -> Option<Reduction> {
     let lumped = matches!(structure, Some(Structure::Lumped(_)));
     if !root.has("reduction") && (lumped || structure.is_none()) {

@@ -132,7 +132,8 @@ impl StudyFile {
     }
 
     fn parse_with(name: &str, text: String, pieces: bool) -> Result<Self, StudyError> {
-        let reading = Reading::default();
+        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+        let reading = Reading::in_folder(folder);
         let study = read_text(&text, &reading, pieces);
         let (problems, left_out, places) = reading.into_parts();
         match study {
@@ -147,6 +148,19 @@ impl StudyFile {
     /// [`StudyError::Unforced`].
     pub fn forced(&self) -> Result<&HarmonicExcitation, StudyError> {
         self.study.excitation.harmonic().ok_or_else(|| StudyError::Unforced { name: self.name.clone() })
+    }
+
+    /// The text, in which the files of a structure are named from the root, so that it can be read from elsewhere.
+    #[must_use]
+    pub fn text_with_whole_paths(&self) -> String {
+        let Structure::Matrices(matrices) = &self.study.structure else { return self.text.clone() };
+        let mut text = self.text.clone();
+        for file in matrices.files() {
+            let path = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
+            // A literal string takes any path but one with a quote.
+            text = text.replace(&format!("\"{}\"", file.written), &format!("'{}'", path.display()));
+        }
+        text
     }
 
     /// A fault of a key that was found after reading.

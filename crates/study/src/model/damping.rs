@@ -5,9 +5,8 @@
 //! of the study in which this constant is one and all others are zero.
 
 use hammerbeam_motion::DampingPart;
-use hammerbeam_structure::StructureError;
 
-use super::structure::reduce;
+use super::structure::{ReduceError, reduce};
 use crate::file::{Damping, DampingKey, ModalRatio, ParameterKind, Structure, Study};
 
 /// The constants of the damping that vary in a study, each once, in the order of their first appearance.
@@ -26,11 +25,7 @@ pub(super) fn varied_keys(study: &Study) -> Vec<DampingKey> {
 /// What a unit of a constant adds.
 ///
 /// * `interface`: the points at which forces act, as for the reduction of the study.
-pub(super) fn part(
-    study: &Study,
-    key: DampingKey,
-    interface: &[String],
-) -> Result<DampingPart, StructureError> {
+pub(super) fn part(study: &Study, key: DampingKey, interface: &[String]) -> Result<DampingPart, ReduceError> {
     let mut alone = study.clone();
     constants(&mut alone, |other, value| *value = if other == key { 1.0 } else { 0.0 });
     let model = reduce(&alone, interface)?.model;
@@ -76,5 +71,7 @@ fn constants(study: &mut Study, mut show: impl FnMut(DampingKey, &mut f64)) {
                 show(DampingKey::RotationalDamper { point }, &mut given.rotational_damper_n_m_s_rad);
             }
         }
+        // The matrix of damping has no constants to vary.
+        Structure::Matrices(_) => {}
     }
 }

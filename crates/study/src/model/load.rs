@@ -106,3 +106,20 @@ pub(super) fn rest(load: &Load, model: &ReducedModel) -> Result<Vec<f64>, usize>
     }
     Ok(rest)
 }
+
+/// Refuses gravity on a structure that does not know which way is down.
+///
+/// # Errors
+/// The fault at the load.
+pub(super) fn check_direction(file: &StudyFile) -> Result<(), StudyError> {
+    let file::Structure::Matrices(matrices) = &file.study.structure else { return Ok(()) };
+    let gravity = file.study.loads.iter().position(|load| matches!(load, file::Load::Gravity { .. }));
+    match (gravity, matrices.acceleration_direction) {
+        (Some(load), None) => {
+            let help = "allowed: with `acceleration_direction = \"-z\"`, say, in [structure]".to_owned();
+            let message = "the structure is given as matrices, and no direction of gravity".to_owned();
+            Err(file.fault(&format!("load[{load}]"), message, vec![help]))
+        }
+        _ => Ok(()),
+    }
+}

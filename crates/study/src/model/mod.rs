@@ -4,6 +4,7 @@ mod crossing;
 mod damping;
 mod drift;
 mod element;
+mod export;
 mod family;
 mod initial;
 mod load;
@@ -16,15 +17,17 @@ use std::sync::Arc;
 
 use hammerbeam_motion::{Parameter, ParameterError, PointMotion, System, SystemError};
 use hammerbeam_orbit::Response;
-use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
+use hammerbeam_structure::{MatrixReport, ModeTables, OutlinePoint, ReducedModel, StructureError};
 
 pub use drift::Drift;
+pub use export::matrix_study;
 pub use initial::{PointStart, PointStartError, PointStartKind};
 pub use parameter::StudyParameter;
 pub use undamped::UndampedMode;
 pub use undamped_in_contact::UndampedInContact;
 
 use family::{Reference, StudyFamily};
+use structure::ReduceError;
 
 use crate::{
     file::{DampingKey, ParameterKind, Place, Study, StudyError, StudyFile, VariedParameter},
@@ -45,6 +48,8 @@ pub struct Model {
     pub tables: ModeTables,
     /// The shape of the whole structure.
     pub outline: Vec<OutlinePoint>,
+    /// What was found in the matrices of the structure, if it has such.
+    pub matrices: Option<MatrixReport>,
     /// Constants of the damping that vary: parts 1, 2, ... of the damping of the system.
     damping_keys: Vec<DampingKey>,
     /// Other numbers that vary: the families of the system.
@@ -64,8 +69,9 @@ impl Model {
     fn like(file: &StudyFile, reference: Option<&Reference>) -> Result<Self, StudyError> {
         let study = &file.study;
         let interface = interface(study);
-        let mut reduced =
-            structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
+        let (mut reduced, matrices) =
+            structure::reduce_and_report(study, &interface).map_err(|error| reduce_fault(file, &error))?;
+        load::check_direction(file)?;
         if let Some(reference) = reference {
             let fault = |message| file.fault("structure", message, Vec::new());
             family::turn_like(&mut reduced, study, reference).map_err(fault)?;
@@ -84,8 +90,7 @@ impl Model {
         let mut system = system.map_err(|error| system_fault(file, &error))?;
         let damping_keys = damping::varied_keys(study);
         for &key in &damping_keys {
-            let part =
-                damping::part(study, key, &interface).map_err(|error| structure_fault(file, &error))?;
+            let part = damping::part(study, key, &interface).map_err(|error| reduce_fault(file, &error))?;
             let fault = |error: ParameterError| file.fault("damping", error.to_string(), Vec::new());
             system = system.with_damping_part(part).map_err(fault)?;
         }
@@ -98,7 +103,7 @@ impl Model {
         }
         let (tables, outline) = (reduced.tables, reduced.outline);
         let number_keys = numbers.into_iter().map(|(key, _)| key).collect();
-        let model = Self { system, response, tables, outline, damping_keys, number_keys };
+        let model = Self { system, response, tables, outline, matrices, damping_keys, number_keys };
         model.check_varied(file)?;
         Ok(model)
     }
@@ -210,11 +215,27 @@ fn response_point(study: &Study, model: &ReducedModel) -> Response {
     Response { shape: point.shape.clone(), support_ratios: point.support_ratios.clone() }
 }
 
+/// The fault of a structure, or of a file of it, at the key that is to blame.
+fn reduce_fault(file: &StudyFile, error: &ReduceError) -> StudyError {
+    match error {
+        ReduceError::Structure(error) => structure_fault(file, error),
+        ReduceError::Files(problem) => {
+            file.fault(&format!("structure.{}", problem.key), problem.message.clone(), Vec::new())
+        }
+    }
+}
+
 /// The fault of a structure at the key that is to blame.
 fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
     let key = match error {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
-        StructureError::LumpedIsNotReduced => "reduction.method",
+        StructureError::LumpedIsNotReduced
+        | StructureError::NotHeld { .. }
+        | StructureError::TooManyCoordinates { .. } => "reduction.method",
+        StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
+        StructureError::RowCount { what: "mass", .. } => "structure.mass",
+        StructureError::RowCount { what: "damping", .. } => "structure.damping",
+        StructureError::NoLabels => "structure.kind",
         StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
         StructureError::MovedTwice { .. } => "excitation.support",
         _ => "structure",

@@ -1,23 +1,77 @@
 //! The structure of a study in the terms of the structure crate.
 
 use hammerbeam_structure as linear;
-use linear::{Connection, LumpedMass, ModalRatios, Reduced, StructureError};
+use linear::{Connection, LumpedMass, MatrixReport, ModalRatios, Reduced, StructureError};
 
-use crate::file::{Damping, Lumped, ModalRatio, ReductionMethod, Structure, Study};
+use crate::file::{Damping, Lumped, Matrices, MatrixProblem, ModalRatio, ReductionMethod, Structure, Study};
+
+/// Why there is no reduced structure.
+#[derive(Debug)]
+pub(super) enum ReduceError {
+    /// The structure, its supports or its reduction are wrong.
+    Structure(StructureError),
+    /// A file of matrices is.
+    Files(MatrixProblem),
+}
+
+impl From<StructureError> for ReduceError {
+    fn from(error: StructureError) -> Self {
+        Self::Structure(error)
+    }
+}
 
 /// Assembles, supports and reduces the structure of a study.
-pub(super) fn reduce(study: &Study, interface: &[String]) -> Result<Reduced, StructureError> {
-    let structure = match &study.structure {
-        Structure::Beam(beam) => beam.descriptor()?.structure()?,
-        Structure::Lumped(lumped) => lumped_descriptor(lumped).structure()?,
-    };
+pub(super) fn reduce(study: &Study, interface: &[String]) -> Result<Reduced, ReduceError> {
+    reduce_and_report(study, interface).map(|(reduced, _)| reduced)
+}
+
+/// The same, with what is to be said of matrices.
+pub(super) fn reduce_and_report(
+    study: &Study,
+    interface: &[String],
+) -> Result<(Reduced, Option<MatrixReport>), ReduceError> {
+    if let Structure::Matrices(matrices) = &study.structure {
+        return reduce_matrices(study, matrices, interface);
+    }
+    let structure = linear_structure(study)?;
     let supports = study.excitation.supports();
     let moving: Vec<Vec<&str>> =
         supports.into_iter().map(|places| places.iter().map(String::as_str).collect()).collect();
     let moving: Vec<&[&str]> = moving.iter().map(Vec::as_slice).collect();
     let supported = structure.with_support_motions(&moving)?;
     let interface: Vec<&str> = interface.iter().map(String::as_str).collect();
-    supported.reduce(&reduction(study), &damping(&study.damping), &interface)
+    Ok((supported.reduce(&reduction(study), &damping(&study.damping), &interface)?, None))
+}
+
+/// The beam or the masses of a study.
+///
+/// # Errors
+/// [`StructureError`], also of a study that has matrices.
+pub(super) fn linear_structure(study: &Study) -> Result<linear::Structure, StructureError> {
+    match &study.structure {
+        Structure::Beam(beam) => beam.descriptor()?.structure(),
+        Structure::Lumped(lumped) => lumped_descriptor(lumped).structure(),
+        Structure::Matrices(_) => Err(StructureError::NotForMatrices),
+    }
+}
+
+fn reduce_matrices(
+    study: &Study,
+    matrices: &Matrices,
+    interface: &[String],
+) -> Result<(Reduced, Option<MatrixReport>), ReduceError> {
+    let linear = matrices.descriptor().map_err(ReduceError::Files)?;
+    let groups: Vec<Vec<&str>> = study
+        .excitation
+        .supports()
+        .into_iter()
+        .map(|names| names.iter().map(String::as_str).collect())
+        .collect();
+    let groups: Vec<&[&str]> = groups.iter().map(Vec::as_slice).collect();
+    let interface: Vec<&str> = interface.iter().map(String::as_str).collect();
+    let (reduced, report) =
+        linear.reduce(&groups, &reduction(study), &damping(&study.damping), &interface)?;
+    Ok((reduced, Some(report)))
 }
 
 fn lumped_descriptor(lumped: &Lumped) -> linear::Lumped {

@@ -1,0 +1,65 @@
+//! What was found in matrices, as text.
+
+use hammerbeam_structure::MatrixReport;
+
+use crate::kept::counted;
+
+/// A box with less than this mass for its volume [kg/m^3] is told of: units may be mixed.
+const LIGHT: f64 = 0.1;
+/// The same for more.
+const HEAVY: f64 = 3e4;
+
+/// The lines of `check` and `import`.
+pub fn lines(report: &MatrixReport) -> Vec<String> {
+    let mut lines = vec![format!(
+        "rows         {} of the matrices, {} left, {} of them without mass",
+        report.rows,
+        counted(report.coordinates as u64, "coordinate"),
+        report.massless
+    )];
+    let removed = [
+        (report.joined, "shared with another component"),
+        (report.empty_rows, "without entries"),
+        (report.lagrange_rows, "of Lagrange multipliers"),
+        (report.fixed_rows, "held"),
+    ];
+    let removed: Vec<String> = removed
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    if !removed.is_empty() {
+        lines.push(format!("left out     {}", removed.join(", ")));
+    }
+    lines.push(format!(
+        "rigid body   {} in {}, |K phi| / (|K| |phi|) at most {:.1e}",
+        counted(report.rigid_modes as u64, "motion"),
+        counted(report.parts as u64, "part"),
+        report.rigid_residual
+    ));
+    if let Some(mass) = report.mass {
+        lines.push(format!(
+            "mass         {:.6e} kg along x, {:.6e} along y, {:.6e} along z",
+            mass[0], mass[1], mass[2]
+        ));
+    }
+    if let Some([x, y, z]) = report.centre {
+        lines.push(format!("centre       {x:.6} m, {y:.6} m, {z:.6} m"));
+    }
+    lines.extend(doubtful_units(report));
+    lines
+}
+
+/// A mass that no material gives to a body of that size.
+pub fn doubtful_units(report: &MatrixReport) -> Option<String> {
+    let (mass, extent) = (report.mass?, report.extent?);
+    let longest = extent.iter().fold(0.0_f64, |longest, length| longest.max(*length));
+    let density = mass.iter().fold(0.0_f64, |largest, mass| largest.max(*mass)) / longest.powi(3);
+    let is_usual = (LIGHT..=HEAVY).contains(&density);
+    (!is_usual && density.is_finite()).then(|| {
+        format!(
+            "units        the mass is {density:.1e} kg/m^3 of a cube as long as the structure: are mass, stiffness and \
+             lengths in kg, N/m and m? `mass_factor`, `stiffness_factor` and `length_factor` bring them there"
+        )
+    })
+}

@@ -1,0 +1,177 @@
+//! Structures given as matrices, through the command: `modes`, `check`, `import`.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use serde_json::Value;
+
+fn hammerbeam() -> assert_cmd::Command {
+    assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+}
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../matrices/tests/fixtures").join(name)
+}
+
+/// Files of public projects, where a checkout has them beside it.
+fn shared(name: &str) -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/structures").join(name);
+    if !folder.is_dir() {
+        #[expect(clippy::print_stderr, reason = "a test that did not run says so")]
+        {
+            eprintln!("skipped: {} is not there", folder.display());
+        }
+        return None;
+    }
+    Some(folder)
+}
+
+/// The frequencies that `modes` prints of a study with this structure, as texts.
+fn printed(structure: &str, cut_off_hz: f64) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    let reduction = format!("[reduction]\nmethod = \"truncation\"\ncut_off_hz = {cut_off_hz:?}\n");
+    fs::write(&study, format!("[structure]\nkind = \"matrices\"\n{structure}\n{reduction}")).unwrap();
+    let output = hammerbeam().arg("modes").arg(&study).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    let table =
+        text.lines().skip(2).take_while(|line| line.trim_start().starts_with(|c: char| c.is_ascii_digit()));
+    table.map(|line| line.split_whitespace().nth(1).unwrap().to_owned()).collect()
+}
+
+/// Frequencies as far as they are known, after so many zeros.
+#[track_caller]
+fn assert_known(printed: &[String], rigid: usize, known: &[&str]) {
+    assert!(printed[..rigid].iter().all(|frequency| frequency == "0.000000"), "{printed:?}");
+    for (found, known) in printed[rigid..].iter().zip(known) {
+        let decimals = known.split('.').nth(1).map_or(0, str::len) as i32;
+        let half = 0.501 * 10.0_f64.powi(-decimals);
+        let difference = found.parse::<f64>().unwrap() - known.parse::<f64>().unwrap();
+        assert!(difference.abs() <= half, "{found} instead of {known}");
+    }
+}
+
+fn files(folder: &Path, entries: &[(&str, &str)]) -> String {
+    entries.iter().map(|(key, name)| format!("{key} = '{}'\n", folder.join(name).display())).collect()
+}
+
+#[test]
+fn frequencies_of_the_bar_are_those_that_calculix_printed() {
+    let structure =
+        files(&fixture(""), &[("stiffness", "bar.sti"), ("mass", "bar.mas"), ("dofs", "bar.dof")]);
+    let found = printed(&structure, 5000.0);
+    assert_eq!(found.len(), 6);
+    assert_known(&found, 0, &["526.8666", "526.8666", "1967.433", "3267.506", "4124.436", "4124.436"]);
+}
+
+#[test]
+fn known_frequencies_of_public_files() {
+    if let Some(folder) = shared("abaqus") {
+        let names = [
+            ("stiffness", "blockC3D8_STIF1.mtx"),
+            ("mass", "blockC3D8_MASS1.mtx"),
+            ("dofs", "blockC3D8.inp"),
+        ];
+        assert_known(&printed(&files(&folder, &names), 500.0), 6, &["438.775166"]);
+        let names = [("stiffness", "rotorDiscTestSTIF1.mtx"), ("mass", "rotorDiscTestMASS1.mtx")];
+        let rotor = files(&folder, &names) + "stiffness_factor = 1e-2\n";
+        let known = ["104.637013", "104.637013", "187.824", "212.330", "224.552", "238.688"];
+        assert_known(&printed(&rotor, 250.0), 6, &known);
+    }
+    if let Some(folder) = shared("calculix") {
+        let names = [("stiffness", "b32.sti"), ("mass", "b32.mas"), ("dofs", "b32.dof")];
+        assert_known(&printed(&files(&folder, &names), 2000.0), 0, &["221.9151", "429.9326", "1444.921"]);
+    }
+    if let Some(folder) = shared("nastran-punch") {
+        let name = "sol103_swept_plane.pch1";
+        let plane = files(&folder, &[("stiffness", name), ("mass", name)]);
+        assert_known(&printed(&plane, 6.0), 3, &["1.339207", "3.406026", "5.610046"]);
+    }
+    if let Some(folder) = shared("nastran-op4") {
+        let component = |name: &str| {
+            let [matrices, order] = ["op4", "pch"].map(|extension| format!("{name}.{extension}"));
+            let files = files(&folder, &[("stiffness", &matrices), ("mass", &matrices), ("dofs", &order)]);
+            format!("[[structure.component]]\nname = \"{name}\"\n{files}")
+        };
+        let found = printed(&(component("inboard") + &component("outboard")), 44.0);
+        assert_known(&found, 6, &["1.698800", "1.767487", "1.857720", "3.419612"]);
+        assert_known(&found[22..], 0, &["43.08660"]);
+    }
+}
+
+#[test]
+fn a_bundle_has_the_same_frequencies_as_the_files_that_it_is_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let bundle = folder.path().join("bar");
+    let output = hammerbeam()
+        .args(["--json", "import"])
+        .args(["bar.sti", "bar.mas", "bar.dof", "bar.inp"].map(fixture))
+        .arg("--out")
+        .arg(&bundle)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&report["matrices"]["rows"], &report["matrices"]["rigid_modes"]), (&90.into(), &0.into()));
+    assert_eq!(report["files"], serde_json::json!(["K.mtx", "M.mtx", "dofs.csv", "nodes.csv"]));
+    // 18 motions of the nodes have no mass.
+    assert_eq!(report["mass_rank"], 72);
+    let names = [("stiffness", "K.mtx"), ("mass", "M.mtx"), ("dofs", "dofs.csv"), ("nodes", "nodes.csv")];
+    let direct = files(&fixture(""), &[("stiffness", "bar.sti"), ("mass", "bar.mas")]);
+    assert_eq!(printed(&files(&bundle, &names), 5000.0), printed(&direct, 5000.0));
+}
+
+/// The paper's beam, and the study that reads it back.
+#[test]
+fn the_beam_of_a_study_exported_and_read_back_has_the_same_modes() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/beam-with-stop.toml");
+    hammerbeam().arg("import").arg(&study).arg("--out").arg(folder.path()).assert().success();
+    let modes = |study: &Path| -> Value {
+        let output = hammerbeam().args(["--json", "modes"]).arg(study).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let (beam, back) = (modes(&study), modes(&folder.path().join("study.toml")));
+    for table in ["reduced_hz", "free_interface_hz"] {
+        let [beam, back] = [&beam, &back].map(|document| document[table].as_array().unwrap().clone());
+        assert_eq!(beam.len(), back.len(), "{table}");
+        for (beam, back) in beam.iter().zip(&back) {
+            let (beam, back) = (beam.as_f64().unwrap(), back.as_f64().unwrap());
+            assert!((beam - back).abs() <= 1e-9 * beam, "{table}: {beam} {back}");
+        }
+    }
+}
+
+#[track_caller]
+fn refused(structure: &str, parts: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    let text = format!("[structure]\nkind = \"matrices\"\n{structure}\n[reduction]\nmethod = \"none\"\n");
+    fs::write(&study, text).unwrap();
+    fs::write(folder.path().join("K.mtx"), "1 1 2.0\n1 2 -1.0\n2 1 -1.5\n2 2 2.0\n").unwrap();
+    fs::write(folder.path().join("S.mtx"), "1 1 2.0\n2 1 -1.0\n2 2 2.0\n").unwrap();
+    fs::write(folder.path().join("M.mtx"), "1 1 1.0\n2 2 1.0\n").unwrap();
+    fs::write(folder.path().join("three.mtx"), "1 1 1.0\n2 2 1.0\n3 3 1.0\n").unwrap();
+    fs::write(folder.path().join("nan.mtx"), "1 1 1.0\n2 2 nan\n").unwrap();
+    fs::write(folder.path().join("dofs.csv"), "row,node,direction,kind,name\n1,1,x,physical,\n").unwrap();
+    let output = hammerbeam().arg("modes").arg(&study).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "\"{part}\" is missing in:\n{message}");
+    }
+}
+
+#[test]
+fn files_that_do_not_fit_are_refused_with_their_place() {
+    refused("stiffness = \"K.mtx\"\nmass = \"M.mtx\"", &["not symmetric", "row 2, column 1", "stiffness = "]);
+    refused("stiffness = \"S.mtx\"\nmass = \"three.mtx\"", &["3 rows", "has 2", "mass = "]);
+    refused("stiffness = \"S.mtx\"\nmass = \"nan.mtx\"", &["nan.mtx, line 2", "finite"]);
+    refused("stiffness = \"S.mtx\"\nmass = \"gone.mtx\"", &["cannot read", "gone.mtx"]);
+    refused("stiffness = \"S.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.csv\"", &["labels has 1 rows"]);
+    refused("stiffness = \"S.mtx\"\nmass = \"M.mtx\"\nmas = 3", &["`mas`", "did you mean"]);
+}
