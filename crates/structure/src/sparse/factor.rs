@@ -9,7 +9,7 @@ use faer::{
     Conj, Mat, MatMut, Par, Side,
     dyn_stack::{MemBuffer, MemStack},
     linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization},
-    prelude::ReborrowMut,
+    prelude::{Reborrow, ReborrowMut},
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
         linalg::cholesky::{
@@ -161,6 +161,23 @@ impl Factors<'_> {
             Par::Seq,
             MemStack::new(&mut memory),
         );
+    }
+
+    /// The same with one step of refinement: low modes of fine meshes need it.
+    pub fn solve_refined(&self, mut right: MatMut<'_, f64>) {
+        let given = right.rb().to_owned();
+        self.solve(right.rb_mut());
+        let mut correction = given;
+        for column in 0..right.ncols() {
+            let solution: Vec<f64> = right.rb().col(column).iter().copied().collect();
+            let product = self.times(&solution);
+            correction.col_as_slice_mut(column).iter_mut().zip(product).for_each(|(to, from)| *to -= from);
+        }
+        self.solve(correction.as_mut());
+        for column in 0..right.ncols() {
+            let addition = correction.col_as_slice(column);
+            right.rb_mut().col_mut(column).iter_mut().zip(addition).for_each(|(to, from)| *to += from);
+        }
     }
 
     /// `K - sigma M` times a vector.

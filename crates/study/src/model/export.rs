@@ -63,7 +63,9 @@ fn tables(file: &StudyFile, exported: &ExportedMatrices) -> String {
     let along = |label: &RowLabel| if label.direction.to_string() == "y" { "y" } else { "x" };
     let mut write = |line: String| writeln!(text, "{line}").expect("a text takes all that is written");
     for (name, row) in &exported.points {
-        if !moving.contains(&name) && !exported.held.contains(row) {
+        // Ends have no names of their own among the points of matrices.
+        let is_end = matches!(name.as_str(), "left" | "right");
+        if !is_end && !moving.contains(&name) && !exported.held.contains(row) {
             write(format!("\n[[structure.point]]\nname = \"{name}\"\nrow = {}", row + 1));
         }
     }
