@@ -37,8 +37,7 @@
 //! | `chain/` | what an instrument would have shown of a computed motion |
 //! | `random.rs` | noise from a seed |
 //!
-//! The formulas stand in these files and, for users, in `docs/how-to/process-signals.md`. Errors are
-//! [`SignalError`].
+//! The formulas stand in these files and, for users, in `docs/how-to/process-signals.md`. Errors are [`SignalError`].
 
 pub mod chain;
 pub mod classify;
