@@ -3,6 +3,7 @@
 
 mod angular;
 mod bad_input;
+mod book;
 mod borders;
 mod both_sides;
 mod common;
