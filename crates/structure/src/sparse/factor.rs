@@ -181,7 +181,7 @@ impl Factors<'_> {
     }
 
     /// `K - sigma M` times a vector.
-    fn times(&self, vector: &[f64]) -> Vec<f64> {
+    pub fn times(&self, vector: &[f64]) -> Vec<f64> {
         let (stiff, heavy) = (self.pencil.stiffness.times(vector), self.pencil.mass.times(vector));
         stiff.iter().zip(&heavy).map(|(stiff, heavy)| stiff - self.shift * heavy).collect()
     }

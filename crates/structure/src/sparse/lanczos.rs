@@ -7,8 +7,14 @@
 //! is their residual. Past a length the basis is replaced by its best approximations, and goes on.
 //!
 //! `M` is never factored: it may be singular, and then `x^T M x` is a norm only of what has mass. Starting
-//! from `A r` keeps the vectors free of massless motion, up to rounding; a last `phi = A phi / theta` takes that
-//! away as well.
+//! from `A r` keeps the vectors free of massless motion, up to rounding; a last `phi = A phi` takes that away as
+//! well.
+//!
+//! The answers of `A` are off by the rounding of the solutions, relative to the largest `theta`, and so are its
+//! eigenpairs: those of small `theta` most. So the modes found, `X`, end with one step of Rayleigh and Ritz in
+//! the matrices themselves, `X^T (K - sigma M) X y = (lambda - sigma) X^T M X y`. What `phi^T K phi` says of a
+//! mode `phi = X y` is then off by the square of what the modes were off, and by the rounding of `K`. That is
+//! why [`RESIDUAL`] need not be near rounding, which solutions of stiff meshes do not reach.
 //!
 //! How many modes there are up to a cut-off is known before from the pivots of `K - sigma M` there, so the
 //! search ends when it has all of them. A block that brings nothing new is replaced by a random one, which
@@ -25,10 +31,7 @@ use super::{factor::Factors, matrix::SymmetricMatrix, random::Random};
 /// Vectors of a block: as many as a body has rigid motions.
 const BLOCK: usize = 6;
 /// Residual of a mode relative to its `theta`: the error of `lambda` is of the order of its square.
-const RESIDUAL: f64 = 1e-10;
-/// The same after so many restarts: rounding of the solutions of stiff meshes lets residuals sink no further, and
-/// frequencies are then right to some 1e-9.
-const RESIDUAL_AT_LAST: (usize, f64) = (2, 1e-8);
+const RESIDUAL: f64 = 1e-8;
 /// A vector of which orthogonalisation leaves this part or less is spanned by the others.
 const DEPENDENT: f64 = 1e-11;
 /// Part of the cut-off that an eigenvalue beside it may be off by.
@@ -59,21 +62,17 @@ pub(super) fn lowest_modes(
         return Some(LowestModes { values: Vec::new(), shapes: Mat::zeros(mass.size(), 0) });
     }
     let mut basis = KrylovBasis::new(factors, mass);
-    let mut restarts = 0;
     for _ in 0..PATIENCE * (1 + count.div_ceil(BLOCK)) {
         basis.grow();
         let ritz = basis.approximations()?;
-        let (enough, at_last) = RESIDUAL_AT_LAST;
-        let allowed = if restarts < enough { RESIDUAL } else { at_last };
-        if ritz.converged(count, allowed) {
+        if ritz.converged(count) {
             if 1.0 / ritz.theta[count - 1] + shift <= highest * (1.0 + BEYOND) {
-                return Some(basis.modes(&ritz, shift, count));
+                return basis.modes(&ritz, shift, count);
             }
             basis.add_random_block();
         }
         if basis.length() > 8 * count + 50 * BLOCK {
             basis.restart(&ritz, count + 4 * BLOCK);
-            restarts += 1;
         }
     }
     None
@@ -87,10 +86,10 @@ struct Approximations {
 }
 
 impl Approximations {
-    fn converged(&self, count: usize, allowed: f64) -> bool {
+    fn converged(&self, count: usize) -> bool {
         self.theta.len() >= count
             && (0..count)
-                .all(|which| self.theta[which] > 0.0 && self.residuals[which] <= allowed * self.theta[which])
+                .all(|which| self.theta[which] > 0.0 && self.residuals[which] <= RESIDUAL * self.theta[which])
     }
 }
 
@@ -235,16 +234,39 @@ impl<'a> KrylovBasis<'a> {
         self.applied = keep;
     }
 
-    /// The first `count` approximations as modes, freed of massless motion.
-    fn modes(&self, ritz: &Approximations, shift: f64, count: usize) -> LowestModes {
+    /// The first `count` approximations as modes, freed of massless motion, by the step of Rayleigh and Ritz;
+    /// `None` if the vectors depend on one another.
+    fn modes(&self, ritz: &Approximations, shift: f64, count: usize) -> Option<LowestModes> {
         let rough = self.combined(&ritz.vectors, count);
         let mut shapes = self.operator(rough.as_ref());
         for which in 0..count {
             let size = norm(self.mass, shapes.col_as_slice(which));
             shapes.col_as_slice_mut(which).iter_mut().for_each(|entry| *entry /= size);
         }
-        LowestModes { values: ritz.theta[..count].iter().map(|theta| 1.0 / theta + shift).collect(), shapes }
+        let mut stiff = Mat::zeros(self.mass.size(), count);
+        for which in 0..count {
+            stiff.col_as_slice_mut(which).copy_from_slice(&self.factors.times(shapes.col_as_slice(which)));
+        }
+        let heavy = self.mass.times_columns(shapes.as_ref());
+        let (stiff, heavy) = (shapes.transpose() * stiff, shapes.transpose() * heavy);
+        let lower = heavy.llt(Side::Lower).ok()?.L().to_owned();
+        // `L^-1 S L^-T`, whose eigenvectors u give `y = L^-T u`.
+        let half = solved_lower(&lower, &stiff);
+        let standard = solved_lower(&lower, &half.transpose().to_owned());
+        let standard = Mat::from_fn(count, count, |i, j| 0.5 * (standard[(i, j)] + standard[(j, i)]));
+        let eigen = standard.self_adjoint_eigen(Side::Lower).ok()?;
+        let mut turned = eigen.U().to_owned();
+        lower.transpose().solve_upper_triangular_in_place(turned.as_mut());
+        let values = ritz.theta[..count].iter().map(|theta| 1.0 / theta + shift).collect();
+        Some(LowestModes { values, shapes: shapes * turned })
     }
+}
+
+/// `L^-1 B`.
+fn solved_lower(lower: &Mat<f64>, right: &Mat<f64>) -> Mat<f64> {
+    let mut answer = right.clone();
+    lower.solve_lower_triangular_in_place(answer.as_mut());
+    answer
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
