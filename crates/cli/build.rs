@@ -1,7 +1,7 @@
 //! The commit that a release is built from, for `hammerbeam --version`.
 //!
-//! Only releases name it: a build for development would be made anew with every commit. Outside a repository, as in
-//! a package, there is none.
+//! Only releases name it: a build for development would be made anew with every commit. Outside a repository,
+//! as in a package, there is none.
 
 use std::{env, process::Command};
 

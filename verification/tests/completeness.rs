@@ -50,8 +50,8 @@ fn results() -> &'static Mutex<(Results, TempDir)> {
     })
 }
 
-/// The study of the whole check ([docs](../../docs/validation/completeness.md)) over a part of the range; with
-/// four search frequencies to the hertz.
+/// The study of the whole check ([docs](../../docs/validation/completeness.md)) over a part of the range;
+/// with four search frequencies to the hertz.
 fn beam() -> String {
     let whole = include_str!("../../studies/beam-with-stop-completeness.toml");
     let parts = [

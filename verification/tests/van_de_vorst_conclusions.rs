@@ -1,5 +1,5 @@
-//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers. docs/validation/conclusions.md
-//! has the tables.
+//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers.
+//! docs/validation/conclusions.md has the tables.
 //!
 //! The peaks are those of an independent adaptive Runge-Kutta integration of the full equations, read off to
 //! a tenth of a hertz and a hundredth of a millimetre; the tolerances are these digits and twice these

@@ -110,8 +110,8 @@ pub struct ModesOptions {
 
 #[derive(Debug, Args)]
 pub struct ImportOptions {
-    /// Files of the program (stiffness, mass, damping, labels of rows, nodes), known by their names and content;
-    /// or a study, whose structure is exported
+    /// Files of the program (stiffness, mass, damping, labels of rows, nodes), known by their names and
+    /// content; or a study, whose structure is exported
     pub files: Vec<PathBuf>,
 
     /// Folder, made if it is not there, for K.mtx, M.mtx, C.mtx, dofs.csv, nodes.csv and lines.csv
@@ -218,7 +218,8 @@ pub struct UpdateOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Data file: the parameters to fit, and what was measured; docs/how-to/fit-to-measurements.md has its keys
+    /// Data file: the parameters to fit, and what was measured; docs/how-to/fit-to-measurements.md has its
+    /// keys
     pub data: PathBuf,
 
     /// Folder, made if it is not there, for the updated study (updated.toml) and the result (update.json)

@@ -60,8 +60,8 @@ impl Output {
     }
 }
 
-/// Tells something beside the results, on standard error. Where that cannot be written nobody listens, and the
-/// work goes on.
+/// Tells something beside the results, on standard error. Where that cannot be written nobody listens, and
+/// the work goes on.
 pub fn tell(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
 }

@@ -108,13 +108,14 @@ pub struct DrawnFiles {
     pub lacking: Vec<String>,
 }
 
-/// Draws into a folder, made if it is not there, until the observer says stop; reports what could not be drawn.
+/// Draws into a folder, made if it is not there, until the observer says stop; reports what could not be
+/// drawn.
 ///
 /// * `add`: adds what is drawn.
 ///
 /// # Errors
-/// Those of `add`; else the first file that could not be written, or [`DrawingError::Interrupted`] with how far
-/// it has come.
+/// Those of `add`; else the first file that could not be written, or [`DrawingError::Interrupted`] with how
+/// far it has come.
 pub fn draw_into<E: From<DrawingError>>(
     folder: &Path,
     settings: DrawSettings,

@@ -1,4 +1,5 @@
-//! Basins of attraction of a hardening Duffing oscillator where two motions are stable, as a picture of letters.
+//! Basins of attraction of a hardening Duffing oscillator where two motions are stable, as a picture of
+//! letters.
 
 #![allow(clippy::print_stdout, missing_docs, reason = "an example shows what it finds")]
 

@@ -1,5 +1,5 @@
-//! A sweep of our own: how far a mass between impacts swings at 0.2 Hz, over the gap of its rigid stop. Each motion
-//! begins where the one before has settled.
+//! A sweep of our own: how far a mass between impacts swings at 0.2 Hz, over the gap of its rigid stop. Each
+//! motion begins where the one before has settled.
 
 #![allow(clippy::print_stdout, missing_docs, reason = "an example shows what it finds")]
 

@@ -1,5 +1,5 @@
-//! A gear wheel that rattles: a mass on a spring with a tooth 5 mm away. All its periodic motions at 1.8 Hz, and
-//! their Floquet multipliers.
+//! A gear wheel that rattles: a mass on a spring with a tooth 5 mm away. All its periodic motions at 1.8 Hz,
+//! and their Floquet multipliers.
 
 #![allow(clippy::print_stdout, missing_docs, reason = "an example shows what it finds")]
 

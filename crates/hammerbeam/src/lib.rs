@@ -14,9 +14,9 @@
 //! | basins of attraction | [`Study::basins`] |
 //! | figures of a results folder, and its page | [`drawing`] |
 //!
-//! Each of these has a function in the module of its name that takes a results folder, a number of threads and
-//! an [`Observer`] as well: it reports how far the work is, and stops it. What is stored goes on from there
-//! with the same bits.
+//! Each of these has a function in the module of its name that takes a results folder, a number of threads
+//! and an [`Observer`] as well: it reports how far the work is, and stops it. What is stored goes on from
+//! there with the same bits.
 //!
 //! # Units
 //! SI everywhere: metres, seconds, kilograms, newtons; frequencies in hertz where a name ends in `_hz`.

@@ -37,8 +37,8 @@ impl PreparedStudy {
 }
 
 impl BranchRows {
-    /// Why the branch ended, once all rows are taken: [`StoredReason`] is its text, and shows whether it ended
-    /// where it should.
+    /// Why the branch ended, once all rows are taken: [`StoredReason`] is its text, and shows whether it
+    /// ended where it should.
     #[must_use]
     pub fn end(&self) -> Option<StoredReason> {
         self.end.as_ref().map(StoredReason::of)

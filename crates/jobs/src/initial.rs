@@ -60,8 +60,8 @@ fn allowed(last: Option<u32>) -> String {
 }
 
 impl InitialState {
-    /// The modal state that is meant: one in front of every rigid stop, and in no contact whose law depends on
-    /// the speed of its impact.
+    /// The modal state that is meant: one in front of every rigid stop, and in no contact whose law depends
+    /// on the speed of its impact.
     ///
     /// * `map`: of the system at the frequency.
     /// * `results`: folder whose branches are meant.

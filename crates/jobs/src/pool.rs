@@ -170,8 +170,8 @@ impl<'a> PooledOrder<'a> {
         Self { threads, observer }
     }
 
-    /// See [`InOrder::in_order`]; the work is given a flag that is raised when the observer says stop, and the
-    /// observer is handed over with the number of items whenever one more is done.
+    /// See [`InOrder::in_order`]; the work is given a flag that is raised when the observer says stop, and
+    /// the observer is handed over with the number of items whenever one more is done.
     pub fn each<T: Sync, W, R: Send>(
         &mut self,
         items: &[T],

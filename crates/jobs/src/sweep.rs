@@ -255,8 +255,8 @@ impl Work<'_> {
     }
 
     /// The state that the motions found so far have come to. Within a contact whose law depends on the speed
-    /// of its impact it does not say how that began: then the sweep is gone over once more from the last state
-    /// that does.
+    /// of its impact it does not say how that began: then the sweep is gone over once more from the last
+    /// state that does.
     fn last_state(&self, sweeper: &mut Sweeper, initial: Vec<f64>) -> Result<Vec<f64>, JobError> {
         let mut states = self.found.iter().map(|motion| &motion.point.state).enumerate().rev();
         let last = states.find(|(_, state)| sweeper.can_begin(state));

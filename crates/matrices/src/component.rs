@@ -60,8 +60,8 @@ const DAMPING: Wanted = Wanted {
 /// Reads a component.
 ///
 /// # Errors
-/// [`MatrixError`] with file and place: what cannot be read, matrices that are not symmetric or differ in their
-/// number of rows.
+/// [`MatrixError`] with file and place: what cannot be read, matrices that are not symmetric or differ in
+/// their number of rows.
 pub fn read_component(files: &ComponentFiles) -> Result<MatrixComponent, MatrixError> {
     let mut source = Source { format: files.format, last: None };
     let stiffness = source.matrix(&files.stiffness, STIFFNESS)?;

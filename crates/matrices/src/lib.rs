@@ -15,8 +15,8 @@
 //! byte ([`MatrixError`]).
 //!
 //! The bundle is a folder: `K.mtx` and `M.mtx`, where there is damping `C.mtx` (Matrix Market, symmetric),
-//! `dofs.csv` (`row,node,direction,kind,name`), `nodes.csv` (`node,x,y,z`), `lines.csv` (`node,node`); all in SI
-//! units. See `docs/how-to/structures.md`.
+//! `dofs.csv` (`row,node,direction,kind,name`), `nodes.csv` (`node,x,y,z`), `lines.csv` (`node,node`); all in
+//! SI units. See `docs/how-to/structures.md`.
 //!
 //! ```
 //! let text = b"%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n";

@@ -1,5 +1,5 @@
-//! Files of public projects, where a checkout has them beside it (`../shared/structures`): the frequencies that
-//! are known of them.
+//! Files of public projects, where a checkout has them beside it (`../shared/structures`): the frequencies
+//! that are known of them.
 
 use std::path::{Path, PathBuf};
 

@@ -50,8 +50,8 @@
 //! r_particular)`, `V+ = E V + P f' dr`. Where the force is continuous, nothing jumps as a contact opens or
 //! closes; where it begins with the jump `-c r'` of a damper, `V+ = (1 - c B C) V`. One further column can be
 //! the derivative by a [`Parameter`] `p` of the system. The particular solution is linear in the scale of the
-//! excitation; a gap shifts the argument of its law, `dr -> dr - 1`; any other constant of a law has the direct
-//! part `f_p` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W f_p) + f_p`, for a stiffness `F/k`.
+//! excitation; a gap shifts the argument of its law, `dr -> dr - 1`; any other constant of a law has the
+//! direct part `f_p` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W f_p) + f_p`, for a stiffness `F/k`.
 //! Damping of the structure changes the system matrix by `dA` and so acts on the whole motion: `ds/dt = A s +
 //! dA x + ...`. Each part of x, the particular, the free and the forced one, drives its part of s in closed
 //! form, with `dE`, `dX`, `dW` and `dP`, the changes of the matrices of a step, for coupled modes too

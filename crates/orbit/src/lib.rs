@@ -25,7 +25,8 @@
 //! - `checkpoint.rs`: storing a walk
 //! - `cut.rs`: phases at which an orbit may start
 //! - `corner/`: grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides
-//! - `stop.rs`, `stop_text.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again at once
+//! - `stop.rs`, `stop_text.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again
+//!   at once
 //! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
 //!   stable, marginal, unstable
 //! - `stability.rs`, `located.rs`: test functions of flips and Neimark-Sacker points; what is known of an

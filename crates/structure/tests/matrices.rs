@@ -120,8 +120,8 @@ fn paper_beam() -> Structure {
     beam.structure().unwrap()
 }
 
-/// The stiffness is assembled and rounded, so low modes agree to the rounding of stiff elements and not to the
-/// last digit: `eps |phi|^T |K| |phi| / w^2` is 1e-8 at worst for the first, and much less in fact.
+/// The stiffness is assembled and rounded, so low modes agree to the rounding of stiff elements and not to
+/// the last digit: `eps |phi|^T |K| |phi| / w^2` is 1e-8 at worst for the first, and much less in fact.
 #[test]
 fn the_beam_of_the_paper_is_the_same_as_matrices() {
     let structure = paper_beam();
@@ -169,8 +169,8 @@ fn masses_between_springs_are_the_same_as_matrices() {
     assert_alike(&found.model, &expected.model, 1e-12);
 }
 
-/// A chain of `n` unit masses on unit springs, both ends held: `w_k = 2 sin(k pi / (2 n + 2))`. Two chains that
-/// nothing joins have every mode twice, and are too long to be solved whole.
+/// A chain of `n` unit masses on unit springs, both ends held: `w_k = 2 sin(k pi / (2 n + 2))`. Two chains
+/// that nothing joins have every mode twice, and are too long to be solved whole.
 #[test]
 fn modes_by_lanczos_are_those_of_the_closed_form_and_doubled_ones_are_found() {
     let n = 500;
@@ -192,8 +192,8 @@ fn modes_by_lanczos_are_those_of_the_closed_form_and_doubled_ones_are_found() {
     }
 }
 
-/// A bar of `n` springs in a row, a mass at every second joint: the massless ones double the compliance, so it is
-/// a free chain of half as many masses on half as stiff springs. One mode is a rigid-body one.
+/// A bar of `n` springs in a row, a mass at every second joint: the massless ones double the compliance, so
+/// it is a free chain of half as many masses on half as stiff springs. One mode is a rigid-body one.
 #[test]
 fn rigid_bodies_and_massless_coordinates_are_no_trouble_to_lanczos() {
     let (masses, size) = (451, 901);

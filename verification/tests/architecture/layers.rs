@@ -7,6 +7,7 @@ use super::{crate_folders, read};
 /// All crates by their folders, the lowest first: each may depend on those before it.
 const LAYERS: &[&str] = &[
     "structure",
+    "matrices",
     "fit",
     "signal",
     "motion",
@@ -17,6 +18,7 @@ const LAYERS: &[&str] = &[
     "results",
     "figure",
     "jobs",
+    "drawing",
     "hammerbeam",
     "cli",
     "testkit",
@@ -26,7 +28,7 @@ const LAYERS: &[&str] = &[
 /// Crates that must not know others though these are lower, for the reason of the table in `ARCHITECTURE.md`.
 const STRANGERS: &[(&str, &[&str])] = &[
     ("fit", &["structure"]),
-    ("signal", &["structure"]),
+    ("signal", &["structure", "matrices"]),
     ("motion", &["fit", "signal"]),
     ("path", &["structure", "fit", "signal", "motion"]),
     ("orbit", &["fit", "signal"]),

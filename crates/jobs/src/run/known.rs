@@ -61,8 +61,8 @@ pub(super) fn passes(
     first_before(store, solver, rows, (at, || store.solution_of_key(key)))
 }
 
-/// The same for a solution of which frequency and maxima are known, and which is fetched where they allow that
-/// it lies there.
+/// The same for a solution of which frequency and maxima are known, and which is fetched where they allow
+/// that it lies there.
 fn first_before(
     store: &Store,
     solver: &dyn Solver,

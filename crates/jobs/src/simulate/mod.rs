@@ -1,8 +1,8 @@
 //! A motion in time, with every contact.
 //!
-//! With a results folder it goes into the store chunk by chunk, and on from the last one if it is asked again.
-//! Tables and report are made of the chunks alone, those of the store first, so that they have the same bytes
-//! however often the job was stopped.
+//! With a results folder it goes into the store chunk by chunk, and on from the last one if it is asked
+//! again. Tables and report are made of the chunks alone, those of the store first, so that they have the
+//! same bytes however often the job was stopped.
 
 mod recorder;
 mod report;

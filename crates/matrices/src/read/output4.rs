@@ -3,8 +3,8 @@
 //! A file is a sequence of matrices; each is a header, its columns, and a column beyond the last one. A
 //! column is dense (a first row and the values from there), or strings of values with their own first rows:
 //! with one word `65536 (length + 1) + row` before each string, or, if the number of rows is written as a
-//! negative one (BIGMAT), with two words, `length + 1` and row. Lengths count words of 4 bytes: a double value
-//! has two of them (in files of 8 byte words one).
+//! negative one (BIGMAT), with two words, `length + 1` and row. Lengths count words of 4 bytes: a double
+//! value has two of them (in files of 8 byte words one).
 //!
 //! Form 6 is symmetric, with both triangles; 1 is square; others are rectangular. Types 1 and 2 are real
 //! numbers of 4 and 8 bytes, 3 and 4 complex ones, which are passed over.

@@ -15,7 +15,8 @@
 //!
 //! **Letting go** where the pressing force vanishes continuously changes nothing in the sensitivities. Where
 //! it falls to `lambda_j < 0` by a jump, at a touch or an impact, whether that sticks or not, that comes
-//! `dt = -dr/v` later for a neighbour, the stop presses no more from then on, and `V+ = V + B_j lambda_j dr/v`.
+//! `dt = -dr/v` later for a neighbour, the stop presses no more from then on, and
+//! `V+ = V + B_j lambda_j dr/v`.
 //!
 //! Forces of other elements act through all of it: they are in the acceleration that presses, and in the
 //! pressing forces (`pressing.rs`).

@@ -1,7 +1,7 @@
 //! Lagrange rows: recognised, and eliminated with one coordinate each.
 //!
-//! A multiplier has no mass and no stiffness of its own: its row of `K` is a condition `sum_j b_j y_j = 0`. Of
-//! each condition the coordinate with the largest coefficient is expressed by the others.
+//! A multiplier has no mass and no stiffness of its own: its row of `K` is a condition `sum_j b_j y_j = 0`.
+//! Of each condition the coordinate with the largest coefficient is expressed by the others.
 
 use std::collections::BTreeMap;
 

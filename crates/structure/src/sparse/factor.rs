@@ -188,8 +188,8 @@ impl Factors<'_> {
 
     /// Whether the factors are those of this matrix: a solution must be hardly changed by correcting it.
     ///
-    /// With `L D L^T = A + E` the correction is `A^-1 E x`, and while `|A^-1 E| < 1` the pivots of `A + E` have
-    /// the signs of those of `A`.
+    /// With `L D L^T = A + E` the correction is `A^-1 E x`, and while `|A^-1 E| < 1` the pivots of `A + E`
+    /// have the signs of those of `A`.
     fn is_reliable(&self) -> bool {
         let mut random = Random::new(1);
         let mut solution = Mat::from_fn(self.pencil.size(), 1, |_, _| random.next());

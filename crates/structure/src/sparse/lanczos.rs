@@ -2,19 +2,19 @@
 //!
 //! With a shift `sigma` below all eigenvalues the operator `A = (K - sigma M)^-1 M` is symmetric in the inner
 //! product `x^T M y`, its eigenvalues are `theta = 1 / (lambda - sigma)`, largest for the lowest modes, and 0
-//! for what has no mass. A basis `V`, `V^T M V = 1`, grows by the blocks `A V_last`, made orthogonal to all of
-//! it twice. The eigenpairs of `V^T M A V` are the approximations; the norm of what `A` leaves outside of `V`
-//! is their residual. Past a length the basis is replaced by its best approximations, and goes on.
+//! for what has no mass. A basis `V`, `V^T M V = 1`, grows by the blocks `A V_last`, made orthogonal to all
+//! of it twice. The eigenpairs of `V^T M A V` are the approximations; the norm of what `A` leaves outside of
+//! `V` is their residual. Past a length the basis is replaced by its best approximations, and goes on.
 //!
 //! `M` is never factored: it may be singular, and then `x^T M x` is a norm only of what has mass. Starting
-//! from `A r` keeps the vectors free of massless motion, up to rounding; a last `phi = A phi` takes that away as
-//! well.
+//! from `A r` keeps the vectors free of massless motion, up to rounding; a last `phi = A phi` takes that away
+//! as well.
 //!
-//! The answers of `A` are off by the rounding of the solutions, relative to the largest `theta`, and so are its
-//! eigenpairs: those of small `theta` most. So the modes found, `X`, end with one step of Rayleigh and Ritz in
-//! the matrices themselves, `X^T (K - sigma M) X y = (lambda - sigma) X^T M X y`. What `phi^T K phi` says of a
-//! mode `phi = X y` is then off by the square of what the modes were off, and by the rounding of `K`. That is
-//! why [`RESIDUAL`] need not be near rounding, which solutions of stiff meshes do not reach.
+//! The answers of `A` are off by the rounding of the solutions, relative to the largest `theta`, and so are
+//! its eigenpairs: those of small `theta` most. So the modes found, `X`, end with one step of Rayleigh and
+//! Ritz in the matrices themselves, `X^T (K - sigma M) X y = (lambda - sigma) X^T M X y`. What `phi^T K phi`
+//! says of a mode `phi = X y` is then off by the square of what the modes were off, and by the rounding of
+//! `K`. That is why [`RESIDUAL`] need not be near rounding, which solutions of stiff meshes do not reach.
 //!
 //! How many modes there are up to a cut-off is known before from the pivots of `K - sigma M` there, so the
 //! search ends when it has all of them. A block that brings nothing new is replaced by a random one, which
@@ -50,8 +50,8 @@ pub(super) struct LowestModes {
 /// The `count` lowest eigenpairs; `None` if they did not converge.
 ///
 /// * `factors`: of `K - sigma M` with `sigma` below all eigenvalues.
-/// * `highest`: what no `lambda` of them exceeds, by the count of pivots. A converged one beyond it says that one
-///   below is missing, of a multiplicity that the blocks do not hold; a random block then finds it.
+/// * `highest`: what no `lambda` of them exceeds, by the count of pivots. A converged one beyond it says that
+///   one below is missing, of a multiplicity that the blocks do not hold; a random block then finds it.
 pub(super) fn lowest_modes(
     factors: &Factors<'_>,
     mass: &SymmetricMatrix,

@@ -9,10 +9,11 @@
 //! * **No mode is missed.** The signs of the pivots of `K - sigma M` at the cut-off count the modes below it
 //!   ([`factor`]); the search ends when it has all of them, doubled ones included ([`pencil_modes`]).
 //! * **Rows are not always a node and a direction.** Rows of multipliers are conditions, and are eliminated;
-//!   rows without entries are left out; components share the rows of common nodes ([`assemble`]). All of it is
-//!   one map `y = T x`, and the matrices of what is left are `T^T K T`, `T^T M T`, `T^T C T` ([`map`]).
-//! * **`K` is assembled and rounded**, so low modes carry the rounding of large entries: an entry that is off by
-//!   a part `e` moves `w^2` by up to `e |phi|^T |K| |phi|`. What is smaller than that is a rigid-body mode.
+//!   rows without entries are left out; components share the rows of common nodes ([`assemble`]). All of it
+//!   is one map `y = T x`, and the matrices of what is left are `T^T K T`, `T^T M T`, `T^T C T` ([`map`]).
+//! * **`K` is assembled and rounded**, so low modes carry the rounding of large entries: an entry that is off
+//!   by a part `e` moves `w^2` by up to `e |phi|^T |K| |phi|`. What is smaller than that is a rigid-body
+//!   mode.
 //!
 //! Static answers beside the kept modes, which free interfaces need, are in [`statics`], the reduction in
 //! [`reduce`].

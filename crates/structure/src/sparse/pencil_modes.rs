@@ -5,8 +5,9 @@
 //! modes have to be found. Small structures are solved whole and dense: `K - sigma M = L L^T`, and the
 //! eigenvalues `theta` of `L^-1 M L^-T`; those that are zero belong to what has no mass.
 //!
-//! Two ways lead to an eigenvalue: `1 / theta + sigma`, and `phi^T K phi`. The one is off by the rounding of the
-//! largest `theta`, `eps theta_1 / theta^2`, the other by that of `K`, `eps |phi|^T |K| |phi|`; the better one is taken.
+//! Two ways lead to an eigenvalue: `1 / theta + sigma`, and `phi^T K phi`. The one is off by the rounding of
+//! the largest `theta`, `eps theta_1 / theta^2`, the other by that of `K`, `eps |phi|^T |K| |phi|`; the
+//! better one is taken.
 //!
 //! A mode is a rigid-body one if its eigenvalue is nothing but rounding: entries with a relative error `e`
 //! change `phi^T K phi` by `e |phi|^T |K| |phi|` at most.

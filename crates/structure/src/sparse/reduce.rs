@@ -5,10 +5,10 @@
 //! trial shape and the static answer to the forces that it leaves.
 //!
 //! The basis `T = [Phi_k Psi]` has the kept modes and, for each interface load, what the deleted modes answer
-//! to it, made orthonormal in `K`. In it `K` is `diag(w_k^2, 1)` and `M` is `diag(1, H)`, `H = Psi^T M Psi`. Free
-//! supports are prescribed again by `c p = u`, as for beams. An interface row without mass may leave a `Psi`
-//! without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the cut-off and keeps the
-//! static flexibility as it is.
+//! to it, made orthonormal in `K`. In it `K` is `diag(w_k^2, 1)` and `M` is `diag(1, H)`, `H = Psi^T M Psi`.
+//! Free supports are prescribed again by `c p = u`, as for beams. An interface row without mass may leave a
+//! `Psi` without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the cut-off and
+//! keeps the static flexibility as it is.
 
 use std::f64::consts::TAU;
 
@@ -60,8 +60,9 @@ impl Matrices {
     /// * `interface`: names of the points with local elements or forces.
     ///
     /// # Errors
-    /// Names, rows or nodes that are not there, matrices that do not fit together, stiffness or mass that is not
-    /// positive semi-definite, mechanisms, a cut-off below the first elastic mode, and what takes too much memory.
+    /// Names, rows or nodes that are not there, matrices that do not fit together, stiffness or mass that is
+    /// not positive semi-definite, mechanisms, a cut-off below the first elastic mode, and what takes too
+    /// much memory.
     pub fn reduce(
         &self,
         moving: &[&[&str]],
@@ -329,8 +330,8 @@ impl Prepared {
         Ok((modes.frequencies, over_all(&modes.shapes, self.assembled.map.columns()), modes.kept_hz))
     }
 
-    /// Turns each mode so that it is positive at the first interface point where it moves, else where it moves
-    /// most.
+    /// Turns each mode so that it is positive at the first interface point where it moves, else where it
+    /// moves most.
     fn orient(&self, shapes: &mut Mat<f64>, loads: &[(String, Weights)]) {
         for mode in 0..shapes.ncols() {
             let shape = shapes.col_as_slice(mode);

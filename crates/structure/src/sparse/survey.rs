@@ -111,7 +111,8 @@ impl Pencil {
     }
 }
 
-/// Rank and number of negative eigenvalues of a mass matrix, by the pivots of `M -+ e D` with its diagonal `D`.
+/// Rank and number of negative eigenvalues of a mass matrix, by the pivots of `M -+ e D` with its diagonal
+/// `D`.
 fn definiteness(
     mass: &SymmetricMatrix,
     limit_bytes: u64,

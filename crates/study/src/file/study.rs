@@ -150,7 +150,8 @@ impl StudyFile {
         self.study.excitation.harmonic().ok_or_else(|| StudyError::Unforced { name: self.name.clone() })
     }
 
-    /// The text, in which the files of a structure are named from the root, so that it can be read from elsewhere.
+    /// The text, in which the files of a structure are named from the root, so that it can be read from
+    /// elsewhere.
     #[must_use]
     pub fn text_with_whole_paths(&self) -> String {
         let Structure::Matrices(matrices) = &self.study.structure else { return self.text.clone() };

@@ -7,7 +7,8 @@ use hammerbeam_structure::{ExportedMatrices, RowLabel};
 use super::structure::linear_structure;
 use crate::file::{Structure, StudyError, StudyFile};
 
-/// The matrices of a study's beam or masses, and the text of the study that reads them from the files `K.mtx`,
+/// The matrices of a study's beam or masses, and the text of the study that reads them from the files
+/// `K.mtx`,
 /// `M.mtx`, `C.mtx` and `dofs.csv` beside it.
 ///
 /// # Errors
