@@ -23,6 +23,10 @@ const NEARLY_DOUBLE: f64 = 1e-4;
 const BOUND_BESIDE: f64 = 5e-6;
 /// Distance from a fold or a grazing point [Hz].
 const BESIDE: f64 = 2e-4;
+/// What rounding leaves open of the frequency of an orbit, relative to it. Where a Hertz contact all but opens,
+/// multipliers change so fast (2e5 per relative change of the frequency at 19.474527 Hz, a corner of the
+/// branch without an event) that they are known to no more than this share of the change.
+const OPEN: f64 = 3e-13;
 
 type Multiplier = [f64; 2];
 
@@ -35,6 +39,15 @@ fn subject() -> &'static (System, Response) {
 struct Subject {
     orbit: PeriodicSolution,
     beside: bool,
+    /// What two computations of its multipliers may differ by.
+    bound: f64,
+}
+
+/// How much the largest multiplier changes from one orbit to the other, relative to it and to the change of
+/// the frequency.
+fn rate(one: &PeriodicSolution, other: &PeriodicSolution) -> f64 {
+    let change = (largest(one) - largest(other)).abs() / largest(one).max(1.0);
+    change * one.frequency_hz / (one.frequency_hz - other.frequency_hz).abs()
 }
 
 /// Orbits along the harmonic branch: some forty spread evenly over its rows, the most unstable ones below 25
@@ -55,7 +68,12 @@ fn subjects() -> &'static [Subject] {
             (rows[k].solution.frequency_hz - rows[j].solution.frequency_hz).abs() < BESIDE
         };
         let beside = |k: usize| (0..rows.len()).any(|j| special(j) && near(k, j));
-        let subject = |k: usize| Subject { orbit: rows[k].solution.clone(), beside: beside(k) };
+        let subject = |k: usize| {
+            let [before, orbit, after] = [k - 1, k, k + 1].map(|k| &rows[k].solution);
+            let rate = rate(orbit, before).max(rate(orbit, after));
+            let bound = if beside(k) { BOUND_BESIDE } else { BOUND.max(OPEN * rate) };
+            Subject { orbit: orbit.clone(), beside: beside(k), bound }
+        };
         chosen.into_iter().map(subject).collect()
     })
 }
@@ -135,11 +153,12 @@ fn assert_unchanged(orbit: &PeriodicSolution, bound: f64, settings: &OrbitSettin
 
 fn assert_all_unchanged(settings: &OrbitSettings, what: &str) {
     let mut above = 0;
-    for Subject { orbit, beside } in subjects() {
-        let bound = if *beside { BOUND_BESIDE } else { BOUND };
-        above += usize::from(assert_unchanged(orbit, bound, settings, what) > BOUND);
+    for Subject { orbit, bound, .. } in subjects() {
+        above += usize::from(assert_unchanged(orbit, *bound, settings, what) > BOUND);
     }
     let beside = subjects().iter().filter(|subject| subject.beside).count();
+    let raised = subjects().iter().filter(|subject| !subject.beside && subject.bound > BOUND).count();
+    assert!(raised <= 3, "{raised} orbits change too fast away from folds and grazing points");
     // Even there most keep the general bound.
     assert!(beside >= 38 && 2 * above < beside, "{what}: {above} of {beside} above the bound");
 }
