@@ -86,7 +86,7 @@ fn assert_only_exempted<K: Ord + Debug + Copy>(
         match allowed.iter().find(|(name, ..)| name == offender) {
             None => faults.push(format!("{offender:?}: {count}, none is exempted")),
             Some((_, most, _)) if count > most => {
-                faults.push(format!("{offender:?}: {count}, exempted are {most}"))
+                faults.push(format!("{offender:?}: {count}, exempted are {most}"));
             }
             Some((_, most, _)) if count < most => {
                 faults.push(format!("{offender:?}: lower its exemption from {most} to {count}"));

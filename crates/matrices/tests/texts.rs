@@ -13,7 +13,7 @@ fn one(text: &str) -> FileMatrix {
 fn values(matrix: &FileMatrix) -> Vec<(u32, u32, f64)> {
     let mut values: Vec<_> =
         matrix.entries.iter().map(|entry| (entry.row, entry.column, entry.value)).collect();
-    values.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    values.sort_by_key(|value| (value.0, value.1));
     values
 }
 
@@ -122,8 +122,8 @@ const HARWELL: &str = "A small matrix                                           
 
 #[test]
 fn harwell_boeing_in_fixed_columns() {
-    let text = HARWELL.replace("    \x20", "     ");
-    let matrix = one(&text);
+    let text = HARWELL;
+    let matrix = one(text);
     assert_eq!(values(&matrix), [(0, 0, 4.0), (1, 1, 5.0), (2, 0, -1.0), (2, 2, 6.0)]);
     assert_eq!((matrix.name.as_str(), matrix.one_triangle), ("KEY", true));
     refused(&text.replace("RSA", "PSA"), &["line 3", "pattern"]);

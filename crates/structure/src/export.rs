@@ -39,7 +39,7 @@ impl Structure {
         let squared = |strains: Mat<f64>| symmetric(&(strains.transpose() * &strains));
         let damping = squared(self.assembly.damping.columns(&all));
         let label = |coordinate: usize| match self.kind {
-            Kind::Beam if coordinate % 2 == 0 => (coordinate / 2, Direction::Translation(1)),
+            Kind::Beam if coordinate.is_multiple_of(2) => (coordinate / 2, Direction::Translation(1)),
             Kind::Beam => (coordinate / 2, Direction::Rotation(2)),
             Kind::Lumped => (coordinate, Direction::Translation(0)),
         };

@@ -111,8 +111,7 @@ fn coordinates<R: BufRead>(
     digits: &mut Digits,
 ) -> Result<Vec<Entry>, PlacedFault> {
     let mut entries = Vec::new();
-    loop {
-        let Some(line) = lines.next()? else { break };
+    while let Some(line) = lines.next()? {
         let read = entry(line, sizes, digits);
         entries.extend(read.map_err(|fault| fault.at(lines.place()))?);
     }

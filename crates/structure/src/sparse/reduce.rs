@@ -53,6 +53,16 @@ struct Prepared {
     points: Vec<(String, Weights)>,
 }
 
+/// What a reduction leaves.
+struct ReducedModes {
+    /// `w` [rad/s].
+    frequencies: Vec<f64>,
+    /// Shapes over all coordinates x, one column a mode.
+    shapes: Mat<f64>,
+    /// Frequencies of the modes of the basis [Hz].
+    kept_hz: Vec<f64>,
+}
+
 impl Matrices {
     /// Reduces the structure and brings it to mass-normalised modal coordinates relative to its supports.
     ///
@@ -79,14 +89,11 @@ impl Matrices {
         let (full, factors) = prepared.modes(&prepared.supported, cut_off_hz, precision)?;
         let statics = Statics::new(&prepared.supported, &full, factors);
         let loads = prepared.interface(interface)?;
-        let (frequencies, mut shapes, kept_hz) = match reduction {
+        let ReducedModes { frequencies, mut shapes, kept_hz } = match reduction {
             Reduction::Truncation { .. } => {
                 ensure_elastic(&prepared.supported, &full, cut_off_hz)?;
-                (
-                    full.frequencies.clone(),
-                    over_all(&full.shapes, prepared.assembled.map.columns()),
-                    Vec::new(),
-                )
+                let shapes = over_all(&full.shapes, prepared.assembled.map.columns());
+                ReducedModes { frequencies: full.frequencies.clone(), shapes, kept_hz: Vec::new() }
             }
             Reduction::FixedInterface { .. } => {
                 prepared.fixed_interface(&full, &statics, &loads, (cut_off_hz, self.memory_limit_bytes))?
@@ -106,7 +113,6 @@ impl Matrices {
             reduced_hz: model.natural_frequencies.iter().map(|w| w / TAU).collect(),
             frequency_errors: frequency_errors(&full, &model, cut_off_hz),
             flexibility_errors: prepared.flexibility_errors(&statics, &model, &loads),
-            ..ModeTables::default()
         };
         let outline = model.points.iter().enumerate().map(|(at, point)| OutlinePoint {
             at: at as f64,
@@ -272,24 +278,21 @@ impl Prepared {
         names.iter().map(find).collect()
     }
 
-    /// Frequencies, shapes over all coordinates x, and frequencies [Hz] of the modes that were kept.
+    /// By free-interface modes and residual flexibility.
     fn free_interface(
         &self,
         full: &PencilModes,
         statics: &Statics<'_>,
         loads: &[(String, Weights)],
         cut_off_hz: f64,
-    ) -> Result<(Vec<f64>, Mat<f64>, Vec<f64>), StructureError> {
+    ) -> Result<ReducedModes, StructureError> {
         let (free, all) = (self.assembled.free, self.assembled.map.columns());
         if free == all || !cut_off_hz.is_finite() {
             ensure_elastic(&self.supported, full, cut_off_hz)?;
             let basis = Basis::new(&self.supported, full, statics, loads, free);
             let (frequencies, shapes) = basis.modes(&[])?;
-            return Ok((
-                frequencies,
-                over_all(&shapes, all),
-                full.frequencies.iter().map(|w| w / TAU).collect(),
-            ));
+            let kept_hz = full.frequencies.iter().map(|w| w / TAU).collect();
+            return Ok(ReducedModes { frequencies, shapes: over_all(&shapes, all), kept_hz });
         }
         let released = Pencil::new(self.assembled.stiffness.clone(), self.assembled.mass.clone(), u64::MAX)?;
         let (modes, factors) = self.modes(&released, cut_off_hz, self.assembled.joined.precision)?;
@@ -303,7 +306,8 @@ impl Prepared {
         for &row in &prescribed {
             shapes.row_mut(row).iter_mut().for_each(|entry| *entry = 0.0);
         }
-        Ok((frequencies, shapes, modes.frequencies.iter().map(|w| w / TAU).collect()))
+        let kept_hz = modes.frequencies.iter().map(|w| w / TAU).collect();
+        Ok(ReducedModes { frequencies, shapes, kept_hz })
     }
 
     /// The same by fixed-interface modes and constraint modes; cut-off frequency [Hz] and memory [bytes].
@@ -313,7 +317,7 @@ impl Prepared {
         statics: &Statics<'_>,
         loads: &[(String, Weights)],
         (cut_off_hz, limit_bytes): (f64, u64),
-    ) -> Result<(Vec<f64>, Mat<f64>, Vec<f64>), StructureError> {
+    ) -> Result<ReducedModes, StructureError> {
         if full.rigid() > 0 {
             return Err(StructureError::NotHeld { rigid_modes: full.rigid() });
         }
@@ -327,7 +331,8 @@ impl Prepared {
             limit_bytes,
         };
         let modes = fixed.modes()?;
-        Ok((modes.frequencies, over_all(&modes.shapes, self.assembled.map.columns()), modes.kept_hz))
+        let shapes = over_all(&modes.shapes, self.assembled.map.columns());
+        Ok(ReducedModes { frequencies: modes.frequencies, shapes, kept_hz: modes.kept_hz })
     }
 
     /// Turns each mode so that it is positive at the first interface point where it moves, else where it
@@ -338,8 +343,8 @@ impl Prepared {
             let largest = shape.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
             let at =
                 |weights: &Weights| weights.iter().map(|&(row, weight)| weight * shape[row]).sum::<f64>();
-            let at_points = loads.iter().map(|(_, weights)| at(weights));
-            let reference = at_points.filter(|value| value.abs() > AT_REST * largest).next();
+            let mut at_points = loads.iter().map(|(_, weights)| at(weights));
+            let reference = at_points.find(|value| value.abs() > AT_REST * largest);
             let most = || shape.iter().copied().find(|entry| entry.abs() >= 0.999 * largest);
             if reference.or_else(most).is_some_and(|value| value < 0.0) {
                 shapes.col_mut(mode).iter_mut().for_each(|entry| *entry = -*entry);
