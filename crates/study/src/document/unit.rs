@@ -6,7 +6,7 @@
 //! else.
 //!
 //! A key of the study file that ends in an SI unit (`length_m`) has a form without it (`length`) that takes
-//! such a text; [`SUFFIXES`] says which ends these are.
+//! such a text; `SUFFIXES` says which ends these are.
 
 use std::f64::consts::{PI, TAU};
 
