@@ -23,9 +23,10 @@ const NEARLY_DOUBLE: f64 = 1e-4;
 const BOUND_BESIDE: f64 = 5e-6;
 /// Distance from a fold or a grazing point [Hz].
 const BESIDE: f64 = 2e-4;
-/// What rounding leaves open of the frequency of an orbit, relative to it. Where a Hertz contact all but
-/// opens, multipliers change so fast (2e5 per relative change of the frequency at 19.474527 Hz, a corner of the
-/// branch without an event) that they are known to no more than this share of the change.
+/// What rounding leaves open of the frequency of an orbit, relative to it.
+///
+/// Where a Hertz contact all but opens, multipliers change so fast that they are known to no more than this
+/// share of the change: 2e5 per relative change of the frequency at 19.474527 Hz, a corner without an event.
 const OPEN: f64 = 3e-13;
 
 type Multiplier = [f64; 2];
