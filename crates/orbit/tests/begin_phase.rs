@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::unit_mass;
+use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
@@ -29,7 +29,7 @@ fn oscillator(phase: f64) -> (System, Response) {
 
 /// The same under a constant force besides.
 fn pressed(phase: f64, constant: f64) -> (System, Response) {
-    let model = unit_mass(0.04);
+    let model = unit_mass(1.0, 0.04);
     let force = |order, amplitude, phase| HarmonicForce {
         shape: vec![1.0],
         harmonic: Harmonic { order, amplitude, phase },

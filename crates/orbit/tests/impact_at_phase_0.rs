@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::unit_mass;
+use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::RigidStop};
 use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
 
@@ -40,7 +40,7 @@ fn oscillator(phase: f64) -> (System, Response) {
     let law = Law::Rigid(RigidStop::with_gap(RESTITUTION, GAP).unwrap());
     let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     (
-        System::new(unit_mass(0.0), &load, vec![stop]).unwrap(),
+        System::new(unit_mass(1.0, 0.0), &load, vec![stop]).unwrap(),
         Response { shape: vec![1.0], support_ratios: vec![0.0] },
     )
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::unit_mass;
+use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
     law::{HertzStop, RestitutionModel, RestitutionStop, RigidStop},
@@ -38,7 +38,7 @@ fn pressed(stops: &[(&str, Law)]) -> (System, Response) {
         support_ratios: vec![0.0],
         law: law.clone(),
     };
-    let system = System::new(unit_mass(DAMPING), &load, stops.iter().map(stop).collect()).unwrap();
+    let system = System::new(unit_mass(1.0, DAMPING), &load, stops.iter().map(stop).collect()).unwrap();
     (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
@@ -127,7 +127,7 @@ fn a_weight_that_presses_more_than_the_force_lifts_is_refused_with_a_reason() {
     let load = Load { support: vec![], forces: vec![heavy(0, 10.0 * FORCE), heavy(1, 0.01 * FORCE)] };
     let stop =
         LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law: remembering() };
-    let system = System::new(unit_mass(DAMPING), &load, vec![stop]).unwrap();
+    let system = System::new(unit_mass(1.0, DAMPING), &load, vec![stop]).unwrap();
     let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     let settings = OrbitSettings::for_range((0.5, 1.5));
     let refused = find_start(&system, &response, FREQUENCY, 1, &settings).unwrap_err();

@@ -10,7 +10,7 @@ use hammerbeam_orbit::{
 };
 use hammerbeam_structure::ReducedModel;
 
-use crate::common::unit_mass;
+use hammerbeam_testkit::structures::unit_mass;
 
 /// Range of the frequency around 1 rad/s [Hz].
 const RANGE: (f64, f64) = (0.06, 0.3);
@@ -19,7 +19,7 @@ const NATURAL: f64 = 1.0 / TAU;
 
 /// `x'' + damping x' + x = cos w t`, and a stop of stiffness 5 at the gap if there is one.
 fn oscillator(damping: f64, gap: Option<f64>) -> (System, Response) {
-    let model: ReducedModel = unit_mass(damping);
+    let model: ReducedModel = unit_mass(1.0, damping);
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let stop = |gap| LocalElement {

@@ -1,7 +1,7 @@
 //! A walk that is stored and taken up again goes on with the same bits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use crate::common::unit_mass;
+use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, Response, Segments, Side, find_start,
@@ -9,7 +9,7 @@ use hammerbeam_orbit::{
 
 /// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a Hertz stop at a gap, driven by a force.
 fn oscillator() -> (System, Response) {
-    let model = unit_mass(0.04);
+    let model = unit_mass(1.0, 0.04);
     let force =
         HarmonicForce { shape: vec![1.0], harmonic: Harmonic { order: 1, amplitude: 0.2, phase: 0.0 } };
     let load = Load { support: Vec::new(), forces: vec![force] };

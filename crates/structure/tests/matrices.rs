@@ -99,24 +99,8 @@ fn assert_alike(found: &ReducedModel, expected: &ReducedModel, tolerance: f64) {
 }
 
 fn paper_beam() -> Structure {
-    let contact = BeamPoint {
-        name: "contact".into(),
-        at: 0.2432157,
-        mass: 0.03756,
-        rotary_inertia: 1.59e-8,
-        damper: 0.3,
-        ..BeamPoint::default()
-    };
-    let beam = Beam {
-        length: 0.2579822,
-        elements: 44,
-        section: Section::rectangle(0.0298, 0.002).unwrap(),
-        youngs_modulus: 2.1e11,
-        density: 7800.0,
-        left: End::Clamped,
-        right: End::Free,
-        points: vec![contact],
-    };
+    let mut beam = crate::common::paper_beam();
+    beam.points[0].damper = 0.3;
     beam.structure().unwrap()
 }
 

@@ -14,6 +14,7 @@ use std::{
 };
 
 use assert_cmd::Command;
+pub use hammerbeam_testkit::{Random, extensive};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -22,21 +23,6 @@ pub fn database(path: impl AsRef<Path>) -> rusqlite::Connection {
     let connection = rusqlite::Connection::open(path).unwrap();
     hammerbeam_results::store::add_checksums(&connection).unwrap();
     connection
-}
-
-/// Whether whole sets are asked for instead of samples.
-pub fn extensive() -> bool {
-    std::env::var("HAMMERBEAM_EXTENSIVE").is_ok_and(|value| value == "1")
-}
-
-/// Numbers from 0 to 1, the same ones for the same seed.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 /// A beam with a stop, as in the studies folder.

@@ -6,54 +6,17 @@ pub mod differences;
 
 use std::f64::consts::TAU;
 
-use faer::Mat;
 use hammerbeam_motion::{
-    Flow, Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    Flow, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
-    law::{
-        Formula, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop,
-        RigidStop,
-    },
 };
-use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
-
-/// The six-dof beam of the reference table "In modal coordinates of the reduced clamped beam".
-pub fn beam_model(damping_ratio: f64) -> ReducedModel {
-    let frequencies = [17.49546, 137.27615, 414.31135, 843.22742, 1538.84987, 3945.26664];
-    let shape = vec![3.719882, 1.767674, 1.071971, 0.656816, 0.374580, 1.326146];
-    let inertia = vec![0.326581, -0.160943, 0.092436, -0.064797, 0.065038, -0.029896];
-    let natural_frequencies: Vec<f64> = frequencies.iter().map(|f| TAU * f).collect();
-    ReducedModel {
-        damping: modal_damping(&natural_frequencies, damping_ratio),
-        natural_frequencies,
-        points: vec![PointOutput { name: "contact".into(), shape, support_ratios: vec![1.0] }],
-        supports: vec![SupportInput { inertia, damping: vec![0.0; 6] }],
-        uniform_acceleration: vec![0.0; 6],
-    }
-}
-
-/// Diagonal damping matrix of one damping ratio for all modes.
-pub fn modal_damping(natural_frequencies: &[f64], ratio: f64) -> Mat<f64> {
-    let n = natural_frequencies.len();
-    Mat::from_fn(n, n, |i, j| if i == j { 2.0 * ratio * natural_frequencies[i] } else { 0.0 })
-}
-
-/// The beam with a stop below the contact point that rides on the support.
-pub fn beam_with(damping_ratio: f64, law: Law) -> System {
-    let model = beam_model(damping_ratio);
-    let shape: Vec<f64> = model.points[0].shape.iter().map(|phi| -phi).collect();
-    let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }.into()],
-        ..Load::default()
-    };
-    System::new(model, &load, vec![element(&shape, 0.0, law)]).unwrap()
-}
-
-/// The beam of the paper.
-pub fn paper_beam() -> System {
-    beam_with(0.015, hertz(4.5e9, 0.0))
-}
+use hammerbeam_structure::{ReducedModel, SupportInput};
+pub use hammerbeam_testkit::{
+    laws::{cubic, damped, formula, hertz, hunt_crossley, remembering, rigid},
+    structures::{diagonal, modal_damping, modes as model, paper_modes as beam_model},
+    systems::{element, force, modal_beam as paper_beam, modal_beam_with as beam_with, shaken},
+};
 
 /// A uniform clamped-free beam of `n` modes, the first at 17.5 Hz, with a stop near its end that rides on the
 /// shaken support.
@@ -64,59 +27,10 @@ pub fn uniform_beam(n: usize) -> System {
         (0..n).map(|i| 3.0 * (0.05 * root(i)).cos() * if i % 2 == 0 { -1.0 } else { 1.0 }).collect();
     let inertia: Vec<f64> = (0..n).map(|i| 0.33 / (i as f64 + 1.0).powi(2)).collect();
     let model = ReducedModel {
-        damping: modal_damping(&natural_frequencies, 0.015),
-        natural_frequencies,
-        points: vec![],
         supports: vec![SupportInput { inertia, damping: vec![0.0; n] }],
-        uniform_acceleration: vec![0.0; n],
+        ..model(&natural_frequencies, modal_damping(&natural_frequencies, 0.015))
     };
-    let load =
-        Load { support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }.into()], ..Load::default() };
-    System::new(model, &load, vec![element(&shape, 0.0, hertz(1e8, 0.0))]).unwrap()
-}
-
-/// A model without support motion.
-pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
-    ReducedModel {
-        natural_frequencies: natural_frequencies.to_vec(),
-        damping,
-        points: vec![],
-        supports: vec![],
-        uniform_acceleration: vec![0.0; natural_frequencies.len()],
-    }
-}
-
-pub fn diagonal(values: &[f64]) -> Mat<f64> {
-    Mat::from_fn(values.len(), values.len(), |i, j| if i == j { values[i] } else { 0.0 })
-}
-
-/// A rigid stop.
-pub fn rigid(restitution: f64, gap: f64) -> Law {
-    Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap())
-}
-
-/// A cubic spring.
-pub fn cubic(stiffness: f64) -> Law {
-    Law::Power(PowerSpring::cubic(stiffness).unwrap())
-}
-
-/// A force that resists by a formula.
-pub fn formula(text: &str) -> Law {
-    Law::Formula(Formula::new(text, &[]).unwrap())
-}
-
-/// A harmonic force in modal coordinates.
-pub fn force(shape: &[f64], order: u32, amplitude: f64, phase: f64) -> HarmonicForce {
-    HarmonicForce { shape: shape.to_vec(), harmonic: Harmonic { order, amplitude, phase } }
-}
-
-/// A Hertz stop with a gap.
-pub fn hertz(stiffness: f64, gap: f64) -> Law {
-    Law::Hertz(HertzStop::with_gap(stiffness, gap).unwrap())
-}
-
-pub fn element(shape: &[f64], support_ratio: f64, law: Law) -> LocalElement {
-    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratios: vec![support_ratio], law }
+    System::new(model, &shaken(1e-3), vec![element(&shape, 0.0, hertz(1e8, 0.0))]).unwrap()
 }
 
 pub fn integrator(system: &System) -> ExactIntegrator {
@@ -211,20 +125,4 @@ pub fn assert_agreement(system: &System, stretch: &Stretch, state: &[f64], bound
     let error = difference(system, stretch, &alone, &found);
     assert!(error.state <= 10.0 * bound, "{what}: with and without sensitivities {error:?}");
     exact.touches().iter().sum()
-}
-
-/// A linear stop with a damper.
-pub fn damped(stiffness: f64, damping: f64, gap: f64) -> Law {
-    Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap().with_damping(damping).unwrap())
-}
-
-/// A Hertz stop with the loss of Hunt and Crossley.
-pub fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
-    Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
-}
-
-/// A Hertz stop that remembers the speed of its impact.
-pub fn remembering(stiffness: f64, model: RestitutionModel, e: f64, gap: f64) -> Law {
-    let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
-    Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())
 }

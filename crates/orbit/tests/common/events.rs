@@ -2,13 +2,13 @@
 
 use faer::Mat;
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    Law, Stretch, System,
     general::{GeneralSettings, advance},
 };
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, Crossing, Events, OrbitSettings, PeriodicSolution, Response, Side, StopReason,
 };
-use hammerbeam_structure::{PointOutput, ReducedModel};
+use hammerbeam_testkit::systems;
 
 pub type Subject = (System, Response);
 
@@ -19,18 +19,7 @@ pub fn oscillator(stiffness: f64, damper: f64, force: f64, law: Law) -> Subject 
 
 /// The same with the force `F cos(2 pi f t + phase)`.
 pub fn oscillator_driven_at(phase: f64, stiffness: f64, damper: f64, force: f64, law: Law) -> Subject {
-    let model = ReducedModel {
-        natural_frequencies: vec![stiffness.sqrt()],
-        damping: Mat::from_fn(1, 1, |_, _| damper),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
-        supports: vec![],
-        uniform_acceleration: vec![1.0],
-    };
-    let harmonic = Harmonic { order: 1, amplitude: force, phase };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let element = LocalElement { name: "element".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
-    let system = System::new(model, &load, vec![element]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
+    systems::oscillator(stiffness, damper, (force, phase), law)
 }
 
 pub fn step_of(max_step_hz: f64) -> OrbitSettings {

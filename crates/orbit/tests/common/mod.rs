@@ -5,100 +5,44 @@
 pub mod events;
 pub mod independent;
 
-use faer::Mat;
-use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, System,
-    law::{HertzStop, LinearStop, PowerSpring},
-};
+use hammerbeam_motion::System;
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason, find_start,
     reach_orbit,
 };
-use hammerbeam_structure::{
-    Beam, BeamPoint, Connection, Damping, End, GROUND, Lumped, LumpedMass, PointOutput, ReducedModel,
-    Reduction, Section,
+use hammerbeam_structure::GROUND;
+use hammerbeam_testkit::{
+    laws::{cubic, linear},
+    paper_rig,
+    structures::masses,
+    systems::{element_at, force_at, forced, oscillator, response_of},
 };
 
 /// The six-dof beam of the paper with its Hertz stop.
 pub fn beam() -> (System, Response) {
-    let contact = BeamPoint {
-        name: "contact".into(),
-        at: 0.2432157,
-        mass: 0.03756,
-        rotary_inertia: 1.59e-8,
-        ..BeamPoint::default()
-    };
-    let beam = Beam {
-        length: 0.2579822,
-        elements: 44,
-        section: Section::rectangle(0.0298, 0.0020).unwrap(),
-        youngs_modulus: 2.1e11,
-        density: 7800.0,
-        left: End::Clamped,
-        right: End::Free,
-        points: vec![contact],
-    };
-    let shaken = beam.structure().unwrap().with_support_motion(&["left"]).unwrap();
-    let reduction = Reduction::FreeInterface { cut_off_hz: 1000.0 };
-    let model = shaken.reduce(&reduction, &Damping::modal(0.015), &["contact"]).unwrap().model;
-    let point = model.point("contact").unwrap().clone();
-    let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }.into()],
-        forces: vec![],
-    };
-    let stop = LocalElement {
-        name: "stop".into(),
-        shape: point.shape.iter().map(|phi| -phi).collect(),
-        support_ratios: vec![0.0],
-        law: Law::Hertz(HertzStop::with_gap(4.5e9, 0.0).unwrap()),
-    };
-    let system = System::new(model, &load, vec![stop]).unwrap();
-    (system, Response { shape: point.shape, support_ratios: point.support_ratios })
+    let rig = paper_rig();
+    (rig.system, rig.response)
 }
 
 /// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out
 /// of its reach or none.
 pub fn chain(with_stop: bool) -> (System, Response) {
-    let mass = |name: &str, mass: f64| LumpedMass { name: name.into(), mass };
-    let link =
-        |from: &str, to: &str, constant: f64| Connection { between: [from.into(), to.into()], constant };
-    let lumped = Lumped {
-        masses: vec![mass("a", 1.0), mass("b", 2.0), mass("c", 0.5)],
-        springs: vec![link("a", GROUND, 900.0), link("a", "b", 1600.0), link("b", "c", 400.0)],
-        dampers: vec![link("a", GROUND, 0.9), link("b", "c", 0.7)],
-    };
-    let model = lumped.structure().unwrap().reduce(&Reduction::None, &Damping::none(), &[]).unwrap().model;
-    let last = model.point("c").unwrap().clone();
-    let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: last.shape.clone(), harmonic }] };
-    let law = Law::Linear(LinearStop::with_gap(1000.0, 1.0).unwrap());
-    let stop =
-        LocalElement { name: "stop".into(), shape: last.shape.clone(), support_ratios: vec![0.0], law };
+    let model = masses(
+        &[("a", 1.0), ("b", 2.0), ("c", 0.5)],
+        &[("a", GROUND, 900.0), ("a", "b", 1600.0), ("b", "c", 400.0)],
+        &[("a", GROUND, 0.9), ("b", "c", 0.7)],
+        false,
+    );
+    let load = forced(vec![force_at(&model, "c", 1, 1.0)]);
+    let stop = element_at(&model, "c", linear(1000.0, 1.0));
+    let response = response_of(&model, "c");
     let elements = if with_stop { vec![stop] } else { vec![] };
-    let system = System::new(model, &load, elements).unwrap();
-    (system, Response { shape: last.shape, support_ratios: vec![0.0] })
-}
-
-/// `x'' + damping x' + x = 0`.
-pub fn unit_mass(damping: f64) -> ReducedModel {
-    ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| damping),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
-        supports: vec![],
-        uniform_acceleration: vec![1.0],
-    }
+    (System::new(model, &load, elements).unwrap(), response)
 }
 
 /// `x'' + 0.1 x' + x + x^3 = 0.3 cos(2 pi f t)`.
 pub fn duffing() -> (System, Response) {
-    let model = unit_mass(0.1);
-    let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
-    let system = System::new(model, &load, vec![spring]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
+    oscillator(1.0, 0.1, (0.3, 0.0), cubic(1.0))
 }
 
 /// The harmonic orbit at a frequency, along its branch from where motions settle on it.

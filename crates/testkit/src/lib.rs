@@ -1,0 +1,18 @@
+//! What the tests of several crates share: structures, laws, systems, walks, and the switch for whole sets.
+//!
+//! The beam of the paper is written here once. Only tests depend on this crate.
+#![allow(clippy::unwrap_used, reason = "a test ends where its model is wrong")]
+
+pub mod laws;
+mod random;
+mod rig;
+pub mod structures;
+pub mod systems;
+
+pub use random::Random;
+pub use rig::{Rig, Walked, folds, paper_rig, paper_rig_with, walk, walk_both};
+
+/// Whether whole sets are asked for instead of samples: `HAMMERBEAM_EXTENSIVE=1`.
+pub fn extensive() -> bool {
+    std::env::var_os("HAMMERBEAM_EXTENSIVE").is_some_and(|value| value == "1")
+}
