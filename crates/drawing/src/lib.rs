@@ -121,7 +121,7 @@ fn draw_kind(
 ) -> Result<(), DrawingError> {
     match kind {
         FigureKind::Structure => draw_linear(drawn, file, model),
-        FigureKind::Response => draw_response(store, file, selection.scale, drawn)?,
+        FigureKind::Response => draw_response(store, file, selection, drawn)?,
         FigureKind::Vary => varied::draw(store, selection.scale, drawn)?,
         FigureKind::Curves => draw_curves(store, drawn)?,
         FigureKind::Multipliers => multipliers::draw(store, drawn)?,
@@ -157,7 +157,7 @@ pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
 fn draw_response(
     store: &Store,
     file: &StudyFile,
-    scale: FigureScale,
+    selection: &FigureSelection,
     drawn: &mut Drawn<'_>,
 ) -> Result<(), DrawingError> {
     let diagram = diagram(store, file.study.excitation.range_hz())?;
@@ -165,7 +165,9 @@ fn draw_response(
         return Ok(());
     }
     for (word, quantity) in quantities(&diagram.curves) {
-        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale, drawn)));
+        let settings =
+            ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
     }
     Ok(())
 }
@@ -196,6 +198,7 @@ fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
         displacement_scale: choice,
         acceleration_scale: choice,
         contact_scale: choice,
+        detail_hz: None,
     }
 }
 

@@ -13,7 +13,7 @@
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
 //! | `branch` | one side of a branch, row by row |
 //! | [`orbits`] | all periodic solutions at one frequency |
-//! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
+//! | [`settled`], [`special_point`] | motions that sweeps and basins have met, points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`comparison`] | measured points held against stored branches |
@@ -43,6 +43,7 @@ pub mod rig;
 pub mod run;
 pub mod settled;
 pub mod simulate;
+pub mod special_point;
 pub mod sweep;
 pub mod update;
 pub mod varied;

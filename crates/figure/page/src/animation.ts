@@ -9,6 +9,7 @@ import { layoutOf } from "./mass_layout";
 import { largestDisplacement, poseAt } from "./motion";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
+import { MEASURES } from "./units";
 
 const HEIGHT = 260;
 
@@ -116,7 +117,7 @@ export class Animation {
         const slower = this.seconds * this.frequency;
         const pace = slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
         const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
-        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
+        const text = `Played ${pace}.${size} Largest displacement: ${digits(MEASURES.displacement.factor * this.largest, 3)} ${MEASURES.displacement.unit}. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }

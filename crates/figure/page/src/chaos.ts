@@ -1,9 +1,15 @@
 // Ranges of chaotic motion, and the stored motion that is nearest to a frequency.
 
 import type { Meta } from "./data";
+import type { State } from "./state";
 
 /** Height (CSS pixels) of the strip above a chaotic range where a click always means the range. */
 export const STRIP = 12;
+
+/** Whether the diagram is over the frequency, as measured points and chaotic ranges are. */
+export function isOverFrequency({ across, over }: Pick<State, "across" | "over">): boolean {
+    return across === "parameter" && over === 0;
+}
 
 /** The chaotic range that holds a frequency, or lies no farther from it than `near` (Hz). */
 export function rangeAt(meta: Meta, frequency: number, near: number): [number, number] | null {

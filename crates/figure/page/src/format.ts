@@ -1,6 +1,6 @@
 // Numbers as they are read: a point, thin digits, units.
 
-import type { Quantity } from "./data";
+import { MEASURES } from "./units";
 
 /** So many significant digits; powers of ten for what is very small or very large. */
 export function digits(value: number, count: number): string {
@@ -70,8 +70,17 @@ export function logTicks(splits: readonly (number | null)[]): string[] {
     });
 }
 
+/** A frequency in the unit of this page. */
 export function hertz(value: number): string {
-    return `${value.toFixed(6)} Hz`;
+    const { factor, unit } = MEASURES.frequency;
+    const decimals = Math.min(12, 6 + Math.max(0, Math.round(-Math.log10(factor))));
+    return `${(factor * value).toFixed(decimals)} ${unit}`;
+}
+
+/** A frequency with so many digits, in the unit of this page. */
+export function shortHertz(value: number, count: number): string {
+    const { factor, unit } = MEASURES.frequency;
+    return `${digits(factor * value, count)} ${unit}`;
 }
 
 /** A real number, or a complex pair. */
@@ -82,22 +91,7 @@ export function complex(re: number, im: number): string {
     return `${digits(re, 4)} ± ${digits(Math.abs(im), 4)}i`;
 }
 
-export interface Measure {
-    name: string;
-    label: string;
-    unit: string;
-    /** From SI to the unit. */
-    factor: number;
-}
-
-export const MEASURES: Record<Quantity, Measure> = {
-    displacement: { name: "displacement", label: "Maximum displacement (mm)", unit: "mm", factor: 1e3 },
-    acceleration: { name: "acceleration", label: "Maximum acceleration (m/s²)", unit: "m/s²", factor: 1 },
-    force: { name: "contact force", label: "Maximum contact force (N)", unit: "N", factor: 1 },
-    velocity: { name: "impact velocity", label: "Maximum impact velocity (m/s)", unit: "m/s", factor: 1 },
-};
-
-/** The word for a period multiple. */
+/** Solutions of a period multiple in words, as printed figures have them. */
 export function periodName(period: number): string {
-    return period === 1 ? "period 1" : `period ${period} (1/${period})`;
+    return period <= 1 ? "harmonic" : `1/${period} subharmonic`;
 }

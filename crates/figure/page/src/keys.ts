@@ -2,19 +2,21 @@
 
 import { eventsOf } from "./bifurcations";
 import { nextSection } from "./chaos";
-import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Quantity, type Solutions } from "./data";
+import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Solutions } from "./data";
 import { element } from "./dom";
 import type { Response } from "./response";
 import type { Store } from "./state";
+import type { Axis } from "./units";
 
 export interface Actions {
     response: Response;
     /** Those that can be shown. */
-    quantities: readonly Quantity[];
-    quantity: (quantity: Quantity) => void;
+    quantities: readonly Axis[];
+    quantity: (quantity: Axis) => void;
     section: (place: number) => void;
     play: () => void;
     copyLink: () => void;
+    tour: () => void;
     help: () => void;
 }
 
@@ -30,8 +32,10 @@ const LIST: readonly [string, string][] = [
     ["Q", "another quantity"],
     ["L", "logarithmic or linear"],
     ["M", "marks on or off"],
+    ["N", "numbers of special points on or off"],
     ["D", "dark or light"],
     ["C", "copy a link to what is shown"],
+    ["T", "a short tour of the page"],
     ["Esc", "no selection"],
     ["?", "this list"],
 ];
@@ -41,6 +45,7 @@ const POINTER: readonly [string, string][] = [
     ["Wheel", "zoom (with Shift: frequency alone; with Alt: vertical axis alone)"],
     ["Drag", "zoom into a box"],
     ["Shift and drag", "move the view; so does the right button, or a finger"],
+    ["Two fingers", "zoom"],
     ["Double click", "everything"],
 ];
 
@@ -117,6 +122,8 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         " ": actions.play,
         q: () => actions.quantity(actions.quantities[(actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length] ?? "displacement"),
         l: () => store.update({ log: !store.state.log, view: null }),
+        n: () => store.update({ numbers: !store.state.numbers }),
+        t: actions.tour,
         m: () => store.update({ marks: !store.state.marks }),
         d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
         c: actions.copyLink,

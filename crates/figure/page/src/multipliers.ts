@@ -25,11 +25,11 @@ export class Multipliers {
         this.root = panel("Floquet multipliers", "multipliers", [this.whose, this.host, this.outside, this.list]);
     }
 
-    /** * `whose`: in words; `most`: how many there are, those that are not carried included. */
+    /** * `whose`: in words; `most`: how many there are, those that are not carried included; below 0 where that is not known yet. */
     show(multipliers: Multiplier[], whose: string, most: number): void {
         this.multipliers = multipliers;
         this.whose.textContent =
-            multipliers.length === 0 ? `The page has no multipliers ${whose}.` : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
+            most < 0 ? "" : multipliers.length === 0 ? `The page has no multipliers ${whose}.` : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
         // Of a pair the one above the axis stands for both.
         const listed = multipliers.filter(([, im]) => im >= 0).slice(0, LISTED).map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
         this.list.replaceChildren(...listed);

@@ -7,6 +7,7 @@ import { ends, LinePlot, type Line, type Plot } from "./line_plot";
 import { supportsOf } from "./motion";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
+import { MEASURES } from "./units";
 
 /** Ratio of the largest amplitude of a spectrum to the least that is drawn. */
 const DEPTH = 1e5;
@@ -77,9 +78,9 @@ export class OrbitPlots {
         const course: Series = [times, values.subarray(0, -1)];
         const supports = isMoved ? supportsOf(orbit, Math.max(1, moved.length)) : [];
         const moving = [course, ...supports.map((support) => timed(repeated(support, orbit.period)))];
-        this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: this.theme.period(k + 1), dash: [5, 3] })));
-        this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
-        this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
+        this.displacement.show(over(`Displacement (${MEASURES.displacement.unit})`, moving, MEASURES.displacement.factor, (k) => (k === 0 ? { colour: first } : { colour: this.theme.period(k + 1), dash: [5, 3] })));
+        this.acceleration.show(over(`Acceleration (${MEASURES.acceleration.unit})`, [timed(orbit.acceleration, 0.5)], MEASURES.acceleration.factor, () => ({ colour: first })));
+        this.force.show(over(`Local force (${MEASURES.force.unit})`, orbit.forces.map((force) => timed(force, 0.5)), MEASURES.force.factor, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
         // As in print: where all stops are rigid and none sticks there are no forces to draw.
         this.forcePanel.hidden = orbit.impulses.length > 0 && orbit.forces.every((force) => force.every((value) => value === 0));
         this.impulsePanel.hidden = this.jumps.hidden = orbit.impulses.length === 0;
@@ -98,7 +99,7 @@ export class OrbitPlots {
         if (orbit !== null) {
             [this.displacement, this.acceleration, this.force, this.impulse].forEach((plot) => plot.point(instant));
             const place = (instant / orbit.period) * orbit.displacement.length;
-            this.phase.point(1e3 * between(orbit.displacement, place), between(orbit.velocity, place));
+            this.phase.point(MEASURES.displacement.factor * between(orbit.displacement, place), between(orbit.velocity, place));
         }
     }
 
@@ -119,27 +120,28 @@ export class OrbitPlots {
     }
 
     private phasePlot(orbit: Orbit, colour: string): Plot {
-        const [x, y] = [closed(orbit.portrait[0].map((value) => 1e3 * value)), closed(orbit.portrait[1])];
+        const [x, y] = [closed(orbit.portrait[0].map((value) => MEASURES.displacement.factor * value)), closed(orbit.portrait[1])];
         const step = orbit.displacement.length / orbit.period;
-        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [1e3 * (orbit.displacement[k * step] ?? NaN), orbit.velocity[k * step] ?? NaN]);
-        const jumps = orbit.impulses.map(({ displacement, velocity }) => ({ x: [1e3 * displacement, 1e3 * displacement], y: [...velocity], colour: this.theme.look.pale, dash: [2, 3] }));
-        return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }, ...jumps], circles };
+        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [MEASURES.displacement.factor * (orbit.displacement[k * step] ?? NaN), orbit.velocity[k * step] ?? NaN]);
+        const jumps = orbit.impulses.map(({ displacement, velocity }) => ({ x: [MEASURES.displacement.factor * displacement, MEASURES.displacement.factor * displacement], y: [...velocity], colour: this.theme.look.pale, dash: [2, 3] }));
+        return { xLabel: `Displacement (${MEASURES.displacement.unit})`, yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }, ...jumps], circles };
     }
 
     private spectrumPlot(orbit: Orbit, colour: string): Plot {
         const y = orbit.spectrum.map((level) => 10 ** level);
-        const base = (this.solutions.frequency[orbit.solution] ?? 1) / orbit.period;
+        const { factor, unit } = MEASURES.frequency;
+        const base = (factor * (this.solutions.frequency[orbit.solution] ?? 1)) / orbit.period;
         const x = y.map((_, k) => (k + 1) * base);
-        const eigenfrequencies = this.meta.structure?.eigenfrequencies ?? [];
+        const eigenfrequencies = (this.meta.structure?.eigenfrequencies ?? []).map((frequency) => factor * frequency);
         const largest = y.reduce((most, value) => Math.max(most, value), 0);
         // As in print.
         const highest = 1.2 * Math.max(10 * base * orbit.period, ...eigenfrequencies);
         const top = largest > 0 ? 2 * largest : 1;
         const last = x.length * base;
         this.harmonics.hidden = last + base > highest;
-        this.harmonics.textContent = `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} Hz; what lies above is not known here.`;
+        this.harmonics.textContent = `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} ${unit}; what lies above is not known here.`;
         return {
-            xLabel: "Frequency (Hz)",
+            xLabel: `Frequency (${unit})`,
             yLabel: "Amplitude (m/s²)",
             range: { x: [0, highest], y: [top / DEPTH / 2, top], logY: true },
             lines: [{ x, y, colour }],

@@ -1,14 +1,15 @@
 // Lines of branches on a canvas: cut where stability changes, cut to what is seen, without points nearer than half a pixel.
 
-import { BRANCH_POINT, FLIP, FOLD, MARGINAL, NEIMARK_SACKER, STABLE, type Solutions } from "./data";
 import type { Scales } from "./curves";
+import { BRANCH_POINT, FLIP, FOLD, MARGINAL, NEIMARK_SACKER, STABLE, type Solutions } from "./data";
+import { newPath, tolerance, type Outline } from "./outline";
 
 export interface Lines {
-    stable: Path2D;
-    marginal: Path2D;
-    unstable: Path2D;
+    stable: Outline;
+    marginal: Outline;
+    unstable: Outline;
     /** Short lines across both, which tell the period. */
-    strokes: Path2D;
+    strokes: Outline;
     /** Places of branches of one solution, and what they look like. */
     dots: [number, number, Look][];
 }
@@ -56,7 +57,7 @@ const NEAR = 0.3;
 class Stroker {
     private left: number;
 
-    constructor(private readonly path: Path2D, private readonly look: Strokes) {
+    constructor(private readonly path: Outline, private readonly look: Strokes) {
         this.left = look.count > 0 ? look.spacing / 6 : Infinity;
     }
 
@@ -76,23 +77,75 @@ class Stroker {
     }
 }
 
+/** Draws lines through points, without those that lie on the way from one that is drawn to a later one. */
 class Pen {
+    /** The last place that was drawn. */
     private x = NaN;
     private y = NaN;
     private isDown = false;
+    /** The last place that was met, which is not drawn yet; NaN where there is none. */
+    private nextX = NaN;
+    private nextY = NaN;
+    /** Directions from the last place drawn that pass near all places met since: the middle, and how far to both sides (rad). */
+    private middle = 0;
+    private low = -Infinity;
+    private high = Infinity;
+    private readonly aside = tolerance();
 
-    constructor(private readonly path: Path2D, private readonly box: [number, number, number, number], private readonly stroker: Stroker) {}
+    constructor(private readonly path: Outline, private readonly box: [number, number, number, number], private readonly stroker: Stroker) {}
+
+    /** Draws what it has met, and goes on somewhere else. */
+    lift(): void {
+        this.draw();
+    }
 
     begin(x: number, y: number): void {
-        [this.x, this.y, this.isDown] = [x, y, false];
+        [this.x, this.y, this.isDown, this.nextX] = [x, y, false, NaN];
     }
 
     to(x: number, y: number, isLast: boolean): void {
-        const [dx, dy] = [x - this.x, y - this.y];
+        const [lastX, lastY] = Number.isNaN(this.nextX) ? [this.x, this.y] : [this.nextX, this.nextY];
+        const [dx, dy] = [x - lastX, y - lastY];
         if (!isLast && dx * dx + dy * dy < NEAR) {
             return;
         }
-        const cut = clipped(this.x, this.y, dx, dy, this.box);
+        if (!this.goesOn(x, y)) {
+            this.draw();
+            this.goesOn(x, y);
+        }
+        [this.nextX, this.nextY] = [x, y];
+        if (isLast) {
+            this.draw();
+        }
+    }
+
+    /** Whether one line from the last place drawn to this one passes near all between; takes it in if so. */
+    private goesOn(x: number, y: number): boolean {
+        const [dx, dy] = [x - this.x, y - this.y];
+        const direction = Math.atan2(dy, dx);
+        const open = Math.asin(Math.min(1, this.aside / Math.hypot(dx, dy)));
+        if (Number.isNaN(this.nextX)) {
+            [this.middle, this.low, this.high] = [direction, -open, open];
+            return true;
+        }
+        let turn = direction - this.middle;
+        turn += turn > Math.PI ? -2 * Math.PI : turn < -Math.PI ? 2 * Math.PI : 0;
+        // It has to lead on, too: not back over places that were met.
+        const isAhead = (x - this.nextX) * (this.nextX - this.x) + (y - this.nextY) * (this.nextY - this.y) >= 0;
+        if (!isAhead || turn < this.low || turn > this.high) {
+            return false;
+        }
+        [this.low, this.high] = [Math.max(this.low, turn - open), Math.min(this.high, turn + open)];
+        return true;
+    }
+
+    /** Draws up to the last place that was met. */
+    private draw(): void {
+        if (Number.isNaN(this.nextX)) {
+            return;
+        }
+        const [dx, dy] = [this.nextX - this.x, this.nextY - this.y];
+        const cut = isInside(this.x, this.y, this.box) && isInside(this.nextX, this.nextY, this.box) ? WHOLE : clipped(this.x, this.y, dx, dy, this.box);
         if (cut === null) {
             this.isDown = false;
         } else {
@@ -104,12 +157,23 @@ class Pen {
             this.stroker.along(this.x + from * dx, this.y + from * dy, (to - from) * dx, (to - from) * dy);
             this.isDown = to === 1;
         }
-        [this.x, this.y] = [x, y];
+        [this.x, this.y, this.nextX] = [this.nextX, this.nextY, NaN];
     }
 }
 
+/** Whether a piece of line lies beyond one side of a box. */
+function isBeyond(fromX: number, fromY: number, toX: number, toY: number, [left, top, right, bottom]: readonly [number, number, number, number]): boolean {
+    return (fromX < left && toX < left) || (fromX > right && toX > right) || (fromY < top && toY < top) || (fromY > bottom && toY > bottom);
+}
+
+const WHOLE: readonly [number, number] = [0, 1];
+
+function isInside(x: number, y: number, box: readonly [number, number, number, number]): boolean {
+    return x >= box[0] && x <= box[2] && y >= box[1] && y <= box[3];
+}
+
 /** The part of a piece of line within a box, as shares of its length; after Liang and Barsky, ACM Trans. Graphics 3 (1984), 1-22. */
-function clipped(x: number, y: number, dx: number, dy: number, box: [number, number, number, number]): [number, number] | null {
+function clipped(x: number, y: number, dx: number, dy: number, box: readonly [number, number, number, number]): readonly [number, number] | null {
     let [from, to] = [0, 1];
     const sides = [[-dx, x - box[0]], [dx, box[2] - x], [-dy, y - box[1]], [dy, box[3] - y]] as const;
     for (const [along, left] of sides) {
@@ -126,31 +190,48 @@ function clipped(x: number, y: number, dx: number, dy: number, box: [number, num
     return from <= to ? [from, to] : null;
 }
 
-/** Lines of a stretch of solutions; a level that is not finite is a gap. */
-export function linesOf(solutions: Solutions, levels: Float64Array, first: number, count: number, scales: Scales, strokes: Strokes): Lines {
-    const lines: Lines = { stable: new Path2D(), marginal: new Path2D(), unstable: new Path2D(), strokes: new Path2D(), dots: [] };
+/** The solutions of a branch as they are drawn: what the horizontal axis has of them, what the vertical one. */
+export interface Course {
+    across: Float64Array;
+    levels: Float64Array;
+    first: number;
+    count: number;
+}
+
+/** Lines of a stretch of solutions, as far as to these distances beyond what is seen; a level that is not finite is a gap. */
+export function linesOf({ flags }: Solutions, course: Course, scales: Scales, strokes: Strokes, [beside, above]: readonly [number, number] = [20, 20]): Lines {
+    const lines: Lines = { stable: newPath(), marginal: newPath(), unstable: newPath(), strokes: newPath(), dots: [] };
     const stroker = new Stroker(lines.strokes, strokes);
     const { left, top, width, height, perX, perY, lowX, lowY } = scales;
-    const margin = 20;
-    const box: [number, number, number, number] = [left - margin, top - margin, left + width + margin, top + height + margin];
+    const box: [number, number, number, number] = [left - beside, top - above, left + width + beside, top + height + above];
     const pens = {
         stable: new Pen(lines.stable, box, stroker),
         marginal: new Pen(lines.marginal, box, stroker),
         unstable: new Pen(lines.unstable, box, stroker),
     };
-    const { frequency, flags } = solutions;
+    const { across, levels, first, count } = course;
     let [lastX, lastY, drawn] = [NaN, NaN, 0];
     let last: Look | null = null;
     const end = first + count;
     for (let k = first; k < end; k++) {
-        const x = left + ((frequency[k] ?? NaN) - lowX) * perX;
+        const x = left + ((across[k] ?? NaN) - lowX) * perX;
         const y = top + height - ((levels[k] ?? NaN) - lowY) * perY;
         if (!Number.isFinite(x) || !Number.isFinite(y)) {
+            if (last !== null) {
+                pens[last].lift();
+                last = null;
+            }
             lastX = NaN;
             continue;
         }
         if (Number.isNaN(lastX)) {
             last = null;
+        } else if (isBeyond(lastX, lastY, x, y, box)) {
+            if (last !== null) {
+                pens[last].lift();
+                last = null;
+            }
+            drawn++;
         } else {
             const look = lookBetween(flags, k - 1, first, end);
             const pen = pens[look];

@@ -3,12 +3,13 @@
 import { nearestSection } from "./chaos";
 import { readSection, type Meta, type Section } from "./data";
 import { button, choice, element, panel } from "./dom";
-import { digits, hertz } from "./format";
+import { digits, hertz, shortHertz } from "./format";
 import { Frame } from "./frame";
 import { ends } from "./line_plot";
 import type { Store } from "./state";
 import type { Theme } from "./theme";
 import { rangeText } from "./tip";
+import { MEASURES } from "./units";
 
 /** What a section is, in words. */
 function sectionText(section: Section, carried: number): string {
@@ -44,14 +45,14 @@ export function sectionPanel(meta: Meta, store: Store, theme: Theme, open: (plac
     }
     const host = element("div", { class: "plot" });
     const words = element("p", { class: "note" });
-    const options = meta.sections.map((section, k) => [String(k), `${digits(section.frequency, 7)} Hz${section.kind === null ? "" : `, ${section.kind}`} (${section.origin})`] as const);
+    const options = meta.sections.map((section, k) => [String(k), `${shortHertz(section.frequency, 7)}${section.kind === null ? "" : `, ${section.kind}`} (${section.origin})`] as const);
     const chosen = choice("Motion", options, (value) => store.update({ section: Number(value) }));
     const root = panel("Poincaré section", "section", [...head, element("div", { class: "controls" }, [chosen.root]), host, words]);
     const section = (): Section | undefined => meta.sections[store.state.section];
     let points: [number, number][] = [];
     const read = (): void => {
         const shown = section();
-        points = shown === undefined ? [] : readSection(shown).map(([x, y]) => [1e3 * x, shown.next ? 1e3 * y : y]);
+        points = shown === undefined ? [] : readSection(shown).map(([x, y]) => [MEASURES.displacement.factor * x, shown.next ? MEASURES.displacement.factor * y : y]);
         words.textContent = shown === undefined ? "" : sectionText(shown, points.length);
         chosen.show(String(store.state.section));
         root.dataset["points"] = String(points.length);
@@ -60,8 +61,8 @@ export function sectionPanel(meta: Meta, store: Store, theme: Theme, open: (plac
     // The frame needs its place on the page to know its width.
     queueMicrotask(() => {
         frame = new Frame(host, {
-            xLabel: () => "Displacement (mm)",
-            yLabel: () => (section()?.next === true ? "One period later (mm)" : "Velocity (m/s)"),
+            xLabel: () => `Displacement (${MEASURES.displacement.unit})`,
+            yLabel: () => (section()?.next === true ? `One period later (${MEASURES.displacement.unit})` : "Velocity (m/s)"),
             range: () => ({ x: ends([points.map(([x]) => x)]), y: ends([points.map(([, y]) => y)]), logY: false }),
             height: () => 300,
             paint: (context, at) => {
