@@ -8,7 +8,8 @@
 //! | `selection.rs` | what of a folder is drawn, and in which formats |
 //! | `drawn.rs` | files as they are drawn, on the threads of a pool |
 //! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
-//! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions that need not repeat |
+//! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions |
+//! | `parameter.rs` | parameters in words |
 //! | [`orbit`] | one orbit over its period |
 //! | `compare.rs` | measured points over branches |
 //! | `page.rs`, `page/` | the page |
@@ -38,6 +39,7 @@ mod motions;
 mod multipliers;
 pub mod orbit;
 mod page;
+mod parameter;
 mod selection;
 mod structure;
 mod varied;
@@ -58,6 +60,8 @@ pub use compare::draw_compared;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, draw_into};
 pub use error::DrawingError;
 pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};
+
+use parameter::{axis_label, file_name};
 
 /// Resolution of the PNG files, in pixels per inch, where none is asked for.
 pub const RESOLUTION: f64 = 300.0;
@@ -265,27 +269,6 @@ fn codimension_two(events: &str) -> String {
         event => event.strip_prefix("resonance-").map(str::to_owned),
     };
     events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
-}
-
-/// A parameter as part of a file name.
-fn file_name(parameter: &str) -> String {
-    parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
-}
-
-/// A parameter in words, with its unit.
-fn axis_label(parameter: &str) -> String {
-    let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
-    let stop = owner.strip_prefix("stop.").map_or(String::new(), |stop| format!(" of stop {stop}"));
-    match key {
-        "amplitude_m" => "Excitation amplitude (m)".to_owned(),
-        "amplitude_n" => "Excitation amplitude (N)".to_owned(),
-        "gap_m" => format!("Gap{stop} (m)"),
-        "stiffness_n_m" => format!("Stiffness{stop} (N/m)"),
-        "stiffness_n_m15" => format!("Stiffness{stop} (N/m^1.5)"),
-        "stiffness_n_m3" => format!("Stiffness{stop} (N/m³)"),
-        "modal_ratio" => "Modal damping ratio (–)".to_owned(),
-        _ => parameter.to_owned(),
-    }
 }
 
 fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {

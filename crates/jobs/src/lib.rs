@@ -13,7 +13,8 @@
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
 //! | `branch` | one side of a branch, row by row |
 //! | [`orbits`] | all periodic solutions at one frequency |
-//! | [`settled`], [`special_point`] | motions that sweeps and basins have met, points of stored branches, from which branches begin |
+//! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
+//! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`comparison`] | measured points held against stored branches |

@@ -8,35 +8,45 @@
 //! parameters the point has moved, and what was on one side of it may be on the other. So orbits near by on
 //! its branch are tried as well, on both sides, farther and farther away.
 
-use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
+use hammerbeam_motion::{
+    System,
+    exact::{ExactIntegrator, ExactSettings},
+};
 use hammerbeam_orbit::{Side, states_at_phase};
 use hammerbeam_results::{
     Store, StoreError,
     store::{BranchRecord, Row},
 };
 
-use crate::{JobError, PreparedStudy, settled::SettledState};
+use crate::settled::SettledState;
 
 /// Distances from the point along its branch at which orbits are tried [solutions].
 const DISTANCES: [i64; 9] = [0, 1, -1, 4, -4, 16, -16, 64, -64];
 
-/// Where a special point is among the stored solutions.
-struct PointPlace {
-    branch: BranchRecord,
-    /// Number of its solution, from the lower end of the branch on.
-    place: u64,
+/// What is near a special point.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NearPoint {
+    /// States of orbits at phase 0, those nearest to the point first.
+    States(Vec<SettledState>),
+    /// There is no point of that number.
+    Missing {
+        /// How many there are.
+        count: u32,
+    },
 }
 
-/// States of the orbits at and near a special point, at phase 0, those nearest to it first.
+/// Orbits at and near a special point.
 ///
+/// * `system`: that of the stored results.
 /// * `number`: of the point, from 1.
 ///
 /// # Errors
-/// [`JobError::NoSpecialPoint`]: there is none of that number. [`JobError::Store`], [`JobError::Study`]: the
-/// folder cannot be read.
-pub fn states_near(store: &Store, number: u32) -> Result<Vec<SettledState>, JobError> {
-    let PreparedStudy { model, .. } = PreparedStudy::of_store(store)?;
-    let PointPlace { branch, place } = find(store, number)?;
+/// The store refuses, or a solution is damaged.
+pub fn near_point(store: &Store, system: &System, number: u32) -> Result<NearPoint, StoreError> {
+    let (branch, place) = match find(store, number)? {
+        Ok(found) => found,
+        Err(count) => return Ok(NearPoint::Missing { count }),
+    };
     let (down, count) = (branch.down.solutions, branch.down.solutions + branch.up.solutions);
     let mut states = Vec::new();
     for distance in DISTANCES {
@@ -45,7 +55,7 @@ pub fn states_near(store: &Store, number: u32) -> Result<Vec<SettledState>, JobE
             if place < down { (Side::Down, down - 1 - place) } else { (Side::Up, place - down) };
         let orbit = store.solution(branch.start, side, of_side as u32)?;
         // One that cannot be computed again is no place to begin at.
-        let Ok(mut integrator) = ExactIntegrator::new(model.system.clone(), ExactSettings::default()) else {
+        let Ok(mut integrator) = ExactIntegrator::new(system.clone(), ExactSettings::default()) else {
             continue;
         };
         let Ok(found) = states_at_phase(&mut integrator, &orbit, 0.0) else { continue };
@@ -53,10 +63,12 @@ pub fn states_near(store: &Store, number: u32) -> Result<Vec<SettledState>, JobE
         let first = found.into_iter().next();
         states.extend(first.map(|state| SettledState { frequency_hz, period_multiple, state }));
     }
-    Ok(states)
+    Ok(NearPoint::States(states))
 }
 
-fn find(store: &Store, number: u32) -> Result<PointPlace, JobError> {
+/// The branch of a special point and the number of its solution, from the lower end on; without such a point
+/// how many there are.
+fn find(store: &Store, number: u32) -> Result<Result<(BranchRecord, u64), u32>, StoreError> {
     let mut count = 0;
     for branch in store.branches()? {
         let (mut place, mut found) = (0, None);
@@ -71,10 +83,10 @@ fn find(store: &Store, number: u32) -> Result<PointPlace, JobError> {
             Ok(())
         })?;
         if let Some(place) = found {
-            return Ok(PointPlace { branch, place });
+            return Ok(Ok((branch, place)));
         }
     }
-    Err(JobError::NoSpecialPoint { results: store.folder().to_owned(), number, count })
+    Ok(Err(count))
 }
 
 fn is_special(row: &Row) -> bool {

@@ -7,7 +7,7 @@ use hammerbeam_results::{
     store::{PieceRecord, StoredVariedRow},
 };
 
-use crate::axis_label;
+use crate::parameter::axis_label;
 
 /// Adds the branches of every `[[vary]]` of the study, with their leading multipliers.
 ///

@@ -28,36 +28,80 @@ export function eventsOf(solutions: Solutions, bits: number): number[] {
     return found;
 }
 
-export function bifurcationTable(meta: Meta, solutions: Solutions, numbers: ReadonlyMap<number, number>, store: Store, jump: (solution: number) => void): HTMLElement {
+export function bifurcationTable(
+    meta: Meta,
+    solutions: Solutions,
+    numbers: ReadonlyMap<number, number>,
+    store: Store,
+    jump: (solution: number) => void,
+): HTMLElement {
     let bits: number = KINDS[0][2];
     let ofStable = false;
     const measure = () => parameterMeasure(meta, store.state.over);
     const displacement = measureOf(meta, "displacement", 0);
     const value = (k: number): number => solutions.parameter[k] ?? NaN;
     const head = element("span", {}, [""]);
-    const table = new Table<number>([
-        { head: "no.", cell: (k) => String(numbers.get(k) ?? "–"), by: (k) => numbers.get(k) ?? k },
-        { head: "at", cell: (k) => button(place(measure().factor * value(k)), `Go to this point, at ${measure().name} in ${measure().unit}`, () => jump(k)), by: value },
-        { head: "event", cell: (k) => eventNames(solutions.flags[k] ?? 0), by: (k) => eventNames(solutions.flags[k] ?? 0) },
-        { head: "of", cell: (k) => (besideStable(solutions, k) ? "stable" : "unstable"), by: (k) => (besideStable(solutions, k) ? 0 : 1) },
-        { head: "branch", cell: (k) => String(meta.branches[solutions.branch[k] ?? 0]?.id ?? "–"), by: (k) => solutions.branch[k] ?? 0 },
-        { head: displacement.unit, cell: (k) => digits(displacement.factor * (solutions.maxima.displacement[k] ?? NaN), 4), by: (k) => solutions.maxima.displacement[k] ?? NaN },
-    ], 1, (row, solution) => {
-        row.dataset["solution"] = String(solution);
-        row.classList.toggle("current", solution === store.state.selected);
-    }, "Filter bifurcations, by any word or number in a row");
+    const table = new Table<number>(
+        [
+            { head: "no.", cell: (k) => String(numbers.get(k) ?? "–"), by: (k) => numbers.get(k) ?? k },
+            {
+                head: "at",
+                cell: (k) =>
+                    button(
+                        place(measure().factor * value(k)),
+                        `Go to this point, at ${measure().name} in ${measure().unit}`,
+                        () => jump(k),
+                    ),
+                by: value,
+            },
+            {
+                head: "event",
+                cell: (k) => eventNames(solutions.flags[k] ?? 0),
+                by: (k) => eventNames(solutions.flags[k] ?? 0),
+            },
+            {
+                head: "of",
+                cell: (k) => (besideStable(solutions, k) ? "stable" : "unstable"),
+                by: (k) => (besideStable(solutions, k) ? 0 : 1),
+            },
+            {
+                head: "branch",
+                cell: (k) => String(meta.branches[solutions.branch[k] ?? 0]?.id ?? "–"),
+                by: (k) => solutions.branch[k] ?? 0,
+            },
+            {
+                head: displacement.unit,
+                cell: (k) => digits(displacement.factor * (solutions.maxima.displacement[k] ?? NaN), 4),
+                by: (k) => solutions.maxima.displacement[k] ?? NaN,
+            },
+        ],
+        1,
+        (row, solution) => {
+            row.dataset["solution"] = String(solution);
+            row.classList.toggle("current", solution === store.state.selected);
+        },
+        "Filter bifurcations, by any word or number in a row",
+    );
     const fill = (): void => {
         const { hidden } = store.state;
         head.textContent = `at: ${measure().name} in ${measure().unit || "its unit"}.`;
-        table.show(eventsOf(solutions, bits).filter((k) => !hidden.has(solutions.branch[k] ?? 0) && (!ofStable || besideStable(solutions, k))));
+        table.show(
+            eventsOf(solutions, bits).filter(
+                (k) => !hidden.has(solutions.branch[k] ?? 0) && (!ofStable || besideStable(solutions, k)),
+            ),
+        );
         if (table.count.textContent === "0") {
             table.count.textContent = "None on the branches drawn.";
         }
     };
-    const kinds = choice("Kind", KINDS.map(([kind, text]) => [kind, text] as const), (chosen) => {
-        bits = KINDS.find(([kind]) => kind === chosen)?.[2] ?? bits;
-        fill();
-    });
+    const kinds = choice(
+        "Kind",
+        KINDS.map(([kind, text]) => [kind, text] as const),
+        (chosen) => {
+            bits = KINDS.find(([kind]) => kind === chosen)?.[2] ?? bits;
+            fill();
+        },
+    );
     const stable = toggle("of stable solutions", (on) => {
         ofStable = on;
         fill();
@@ -73,8 +117,17 @@ export function bifurcationTable(meta: Meta, solutions: Solutions, numbers: Read
         }
     });
     fill();
-    const note = element("p", { class: "note" }, ["No.: the number by which ", element("code", {}, [`hammerbeam run STUDY --from ${meta.folder || "RESULTS"}:NO`]), " starts at the point, also with changed parameters. ", head]);
-    return panel("Bifurcations", "bifurcations", [element("div", { class: "controls" }, [kinds.root, stable.root, table.filter, table.count]), table.root, note]);
+    const note = element("p", { class: "note" }, [
+        "No.: the number by which ",
+        element("code", {}, [`hammerbeam run STUDY --from ${meta.folder || "RESULTS"}:NO`]),
+        " starts at the point, also with changed parameters. ",
+        head,
+    ]);
+    return panel("Bifurcations", "bifurcations", [
+        element("div", { class: "controls" }, [kinds.root, stable.root, table.filter, table.count]),
+        table.root,
+        note,
+    ]);
 }
 
 /** With five decimals, or six digits where that is more. */

@@ -15,7 +15,13 @@ interface Listed extends Branch {
     swatch: HTMLElement;
 }
 
-export function branchList(meta: Meta, solutions: Solutions, store: Store, theme: Theme, shown: (branch: Branch) => void): HTMLElement {
+export function branchList(
+    meta: Meta,
+    solutions: Solutions,
+    store: Store,
+    theme: Theme,
+    shown: (branch: Branch) => void,
+): HTMLElement {
     const listed = meta.branches.map((branch, place): Listed => {
         const box = element("input", { type: "checkbox", "aria-label": `Draw branch ${branch.id}` });
         box.addEventListener("change", () => {
@@ -23,39 +29,69 @@ export function branchList(meta: Meta, solutions: Solutions, store: Store, theme
             box.checked ? hidden.delete(place) : hidden.add(place);
             store.update({ hidden });
         });
-        return { ...branch, place, range: rangeOf(solutions, branch), box, swatch: element("span", { class: "swatch" }) };
+        return {
+            ...branch,
+            place,
+            range: rangeOf(solutions, branch),
+            box,
+            swatch: element("span", { class: "swatch" }),
+        };
     });
     const name = (branch: Listed): Node =>
-        element("span", {}, [branch.swatch, button(`${branch.id}`, `Show branch ${branch.id}. Its ends: ${branch.ends.join("; ")}`, () => shown(branch))]);
+        element("span", {}, [
+            branch.swatch,
+            button(`${branch.id}`, `Show branch ${branch.id}. Its ends: ${branch.ends.join("; ")}`, () =>
+                shown(branch),
+            ),
+        ]);
     const ends = ({ count, range, over }: Listed): string => {
         const { factor } = parameterMeasure(meta, over);
-        return count === 0 ? "–" : range.map((value) => decimal(factor * value, factor * spanOf(meta, listed, over))).join("–");
+        return count === 0
+            ? "–"
+            : range.map((value) => decimal(factor * value, factor * spanOf(meta, listed, over))).join("–");
     };
     const made = new Map<HTMLElement, number>();
-    const table = new Table<Listed>([
-        { head: "", cell: ({ box }) => box },
-        { head: "branch", cell: name, by: ({ id }) => id },
-        { head: "solutions", cell: ({ period }) => periodName(period), by: ({ period }) => period },
-        { head: "from–to", cell: ends, by: ({ range }) => range[0] },
-        { head: "points", cell: ({ count }) => String(count), by: ({ count }) => count },
-    ], 1, (row, { place }) => {
-        made.set(row, place);
-        row.dataset["branch"] = String(place);
-        row.classList.toggle("current", place === currentOf());
-    }, "Filter branches, by number or kind: 1/2");
-    const currentOf = (): number => (store.state.selected < 0 ? -1 : (solutions.branch[store.state.selected] ?? -1));
+    const table = new Table<Listed>(
+        [
+            { head: "", cell: ({ box }) => box },
+            { head: "branch", cell: name, by: ({ id }) => id },
+            { head: "solutions", cell: ({ period }) => periodName(period), by: ({ period }) => period },
+            { head: "from–to", cell: ends, by: ({ range }) => range[0] },
+            { head: "points", cell: ({ count }) => String(count), by: ({ count }) => count },
+        ],
+        1,
+        (row, { place }) => {
+            made.set(row, place);
+            row.dataset["branch"] = String(place);
+            row.classList.toggle("current", place === currentOf());
+        },
+        "Filter branches, by number or kind: 1/2",
+    );
+    const currentOf = (): number =>
+        store.state.selected < 0 ? -1 : (solutions.branch[store.state.selected] ?? -1);
     const update = (): void => {
         listed.forEach(({ box, place }) => (box.checked = !store.state.hidden.has(place)));
         made.forEach((place, row) => row.classList.toggle("current", place === currentOf()));
     };
-    const paint = (): void => listed.forEach(({ swatch, period }) => (swatch.style.background = theme.period(period)));
+    const paint = (): void =>
+        listed.forEach(({ swatch, period }) => (swatch.style.background = theme.period(period)));
     const own = (): Listed[] => listed.filter(({ over }) => over === store.state.over);
     const hideAllBut = (keep: (branch: Listed) => boolean): void =>
-        store.update({ hidden: new Set(listed.filter((branch) => branch.over !== store.state.over || !keep(branch)).map(({ place }) => place)) });
+        store.update({
+            hidden: new Set(
+                listed
+                    .filter((branch) => branch.over !== store.state.over || !keep(branch))
+                    .map(({ place }) => place),
+            ),
+        });
     const switches = element("div", { class: "controls" });
     const fill = (): void => {
         const periods = [...new Set(own().map(({ period }) => period))].sort((a, b) => a - b);
-        const single = periods.map((period) => button(periodName(period), `Draw ${periodName(period)} solutions alone`, () => hideAllBut((branch) => branch.period === period)));
+        const single = periods.map((period) =>
+            button(periodName(period), `Draw ${periodName(period)} solutions alone`, () =>
+                hideAllBut((branch) => branch.period === period),
+            ),
+        );
         switches.replaceChildren(
             button("all", "Draw all branches", () => hideAllBut(() => true)),
             button("none", "Draw no branch", () => hideAllBut(() => false)),
@@ -93,7 +129,9 @@ function rangeOf({ parameter }: Solutions, branch: Branch): [number, number] {
 /** Width of the range of all branches over a parameter. */
 function spanOf(meta: Meta, listed: readonly Listed[], over: number): number {
     const own = listed.filter((branch) => branch.over === over && branch.count > 0);
-    return over === 0 ? meta.range[1] - meta.range[0] : Math.max(...own.map(({ range }) => range[1])) - Math.min(...own.map(({ range }) => range[0]));
+    return over === 0
+        ? meta.range[1] - meta.range[0]
+        : Math.max(...own.map(({ range }) => range[1])) - Math.min(...own.map(({ range }) => range[0]));
 }
 
 /** With so many decimals that a hundredth of a range is told, two at least. */

@@ -23,13 +23,22 @@ export function chaoticSections(meta: Meta): number[] {
     return chaotic.length > 0 ? chaotic : all;
 }
 
-/** Place of the section nearest to a frequency, the first of several; within a range if one lies there; -1 for none. */
+/**
+ * Place of the section nearest to a frequency, the first of several; within a range if one lies there; -1
+ * for none.
+ */
 export function nearestSection(meta: Meta, frequency: number, range: [number, number] | null): number {
     const away = (place: number): number => Math.abs((meta.sections[place]?.frequency ?? NaN) - frequency);
-    const isWithin = (place: number): boolean => range !== null && (meta.sections[place]?.frequency ?? NaN) >= range[0] && (meta.sections[place]?.frequency ?? NaN) <= range[1];
+    const isWithin = (place: number): boolean =>
+        range !== null &&
+        (meta.sections[place]?.frequency ?? NaN) >= range[0] &&
+        (meta.sections[place]?.frequency ?? NaN) <= range[1];
     const all = chaoticSections(meta);
     const within = all.filter(isWithin);
-    return (within.length > 0 ? within : all).reduce((best, place) => (best < 0 || away(place) < away(best) ? place : best), -1);
+    return (within.length > 0 ? within : all).reduce(
+        (best, place) => (best < 0 || away(place) < away(best) ? place : best),
+        -1,
+    );
 }
 
 /** Place of the chaotic motion before or behind a place. */

@@ -1,7 +1,19 @@
 // Other results over the branches: pages or tables of branches that the reader opens beside this one.
 
 import { Curves, type Scales } from "./curves";
-import { BRANCH_POINT, FLIP, FOLD, GRAZING, MARGINAL, NEIMARK_SACKER, readSolutions, STABLE, type Branch, type Meta, type Solutions } from "./data";
+import {
+    BRANCH_POINT,
+    FLIP,
+    FOLD,
+    GRAZING,
+    MARGINAL,
+    NEIMARK_SACKER,
+    readSolutions,
+    STABLE,
+    type Branch,
+    type Meta,
+    type Solutions,
+} from "./data";
 import type { Frame } from "./frame";
 import { linesOf, type Lines } from "./paths";
 import type { Scene } from "./response_paint";
@@ -22,8 +34,15 @@ export function comparedColour(theme: Theme, place: number): string {
 
 /** Reads a page, or a table of branches; throws with what is wrong. */
 export async function readCompared(name: string, text: string, own: Meta): Promise<Compared> {
-    const { meta, solutions } = text.trimStart().startsWith("<") ? await readPage(text) : readTable(text, own);
-    return { name: meta.title === own.title || meta.title === "" ? name : `${meta.title} (${name})`, meta, curves: new Curves(meta, solutions), isDrawn: true };
+    const { meta, solutions } = text.trimStart().startsWith("<")
+        ? await readPage(text)
+        : readTable(text, own);
+    return {
+        name: meta.title === own.title || meta.title === "" ? name : `${meta.title} (${name})`,
+        meta,
+        curves: new Curves(meta, solutions),
+        isDrawn: true,
+    };
 }
 
 async function readPage(text: string): Promise<{ meta: Meta; solutions: Solutions }> {
@@ -38,7 +57,13 @@ async function readPage(text: string): Promise<{ meta: Meta; solutions: Solution
     return { meta: { ...meta, branches: meta.branches.filter(({ over }) => over === 0) }, solutions };
 }
 
-const EVENTS: readonly (readonly [string, number])[] = [["fold", FOLD], ["flip", FLIP], ["neimark-sacker", NEIMARK_SACKER], ["branch-point", BRANCH_POINT], ["grazing", GRAZING]];
+const EVENTS: readonly (readonly [string, number])[] = [
+    ["fold", FOLD],
+    ["flip", FLIP],
+    ["neimark-sacker", NEIMARK_SACKER],
+    ["branch-point", BRANCH_POINT],
+    ["grazing", GRAZING],
+];
 
 /** Reads branches.csv of an export. */
 function readTable(text: string, own: Meta): { meta: Meta; solutions: Solutions } {
@@ -51,7 +76,8 @@ function readTable(text: string, own: Meta): { meta: Meta; solutions: Solutions 
     }
     const rows = lines.map((line) => line.split(","));
     const words = (title: string): string[] => rows.map((row) => row[titles.indexOf(title)] ?? "");
-    const numbers = (title: string): number[] => words(title).map((word) => (word === "" ? NaN : Number(word)));
+    const numbers = (title: string): number[] =>
+        words(title).map((word) => (word === "" ? NaN : Number(word)));
     const [ids, periods] = [numbers("branch"), numbers("period_multiple")];
     const branches: Branch[] = [];
     ids.forEach((id, k) => {
@@ -92,8 +118,16 @@ function readTable(text: string, own: Meta): { meta: Meta; solutions: Solutions 
     return { meta: { ...own, title: "", branches, parameters: [] }, solutions };
 }
 
-/** Thin lines behind the branches, solid where solutions are stable; nothing where the diagram is over another parameter than the frequency. */
-export function paintCompared(context: CanvasRenderingContext2D, frame: Frame, { compared, state, theme }: Scene, scales: Scales): void {
+/**
+ * Thin lines behind the branches, solid where solutions are stable; nothing where the diagram is over
+ * another parameter than the frequency.
+ */
+export function paintCompared(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    { compared, state, theme }: Scene,
+    scales: Scales,
+): void {
     if (state.over !== 0) {
         return;
     }
@@ -105,8 +139,17 @@ export function paintCompared(context: CanvasRenderingContext2D, frame: Frame, {
         const [across, levels] = [curves.across(state), curves.levels(state)];
         context.strokeStyle = comparedColour(theme, place);
         for (const { first, count } of meta.branches) {
-            const lines: Lines = linesOf(curves.solutions, { across, levels, first, count }, scales, { count: 0, spacing: 1, apart: 1, reach: 0 });
-            for (const [look, width, dash] of [["unstable", 1, [2, 4]], ["marginal", 1.6, [2, 3]], ["stable", 1.6, []]] as const) {
+            const lines: Lines = linesOf(curves.solutions, { across, levels, first, count }, scales, {
+                count: 0,
+                spacing: 1,
+                apart: 1,
+                reach: 0,
+            });
+            for (const [look, width, dash] of [
+                ["unstable", 1, [2, 4]],
+                ["marginal", 1.6, [2, 3]],
+                ["stable", 1.6, []],
+            ] as const) {
                 context.lineWidth = width * density;
                 context.setLineDash(dash.map((length) => length * density));
                 context.stroke(lines[look] as Path2D);

@@ -21,20 +21,66 @@ export interface Commands {
 /** Formats of the visible diagram. */
 export type Ending = "svg" | "png" | "csv";
 
-const ENDINGS: readonly (readonly [Ending | "", string])[] = [["", "Save…"], ["svg", "SVG, for print"], ["png", "PNG, pixels"], ["csv", "CSV, its solutions"]];
+const ENDINGS: readonly (readonly [Ending | "", string])[] = [
+    ["", "Save…"],
+    ["svg", "SVG, for print"],
+    ["png", "PNG, pixels"],
+    ["csv", "CSV, its solutions"],
+];
 
 /** * `quantities`: those of which there is something. */
-export function controls(meta: Meta, quantities: readonly Axis[], store: Store, commands: Commands): HTMLElement {
-    const named = (axis: Axis): readonly [Axis, string] => [axis, measureOf(meta, axis, store.state.over).name];
+export function controls(
+    meta: Meta,
+    quantities: readonly Axis[],
+    store: Store,
+    commands: Commands,
+): HTMLElement {
+    const named = (axis: Axis): readonly [Axis, string] => [
+        axis,
+        measureOf(meta, axis, store.state.over).name,
+    ];
     const quantity = choice("Show", quantities.map(named), commands.quantity);
-    const over = meta.parameters.map((parameter, k) => [String(k + 1), parameter.title.toLowerCase()] as const);
-    const set = choice("Branches over", [["0", "frequency"] as const, ...over], (value) => commands.over(Number(value)));
-    const across = choice("Over", [["parameter", meta.parameters.length > 0 ? "their parameter" : "frequency"] as const, ...quantities.map(named)], commands.across);
-    const scale = choice("Scale", [["log", "logarithmic"], ["linear", "linear"]] as const, (value) => store.update({ log: value === "log", view: null }));
-    const theme = choice("Colours", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]] as const, (value) => store.update({ theme: value }));
+    const over = meta.parameters.map(
+        (parameter, k) => [String(k + 1), parameter.title.toLowerCase()] as const,
+    );
+    const set = choice("Branches over", [["0", "frequency"] as const, ...over], (value) =>
+        commands.over(Number(value)),
+    );
+    const across = choice(
+        "Over",
+        [
+            ["parameter", meta.parameters.length > 0 ? "their parameter" : "frequency"] as const,
+            ...quantities.map(named),
+        ],
+        commands.across,
+    );
+    const scale = choice(
+        "Scale",
+        [
+            ["log", "logarithmic"],
+            ["linear", "linear"],
+        ] as const,
+        (value) => store.update({ log: value === "log", view: null }),
+    );
+    const theme = choice(
+        "Colours",
+        [
+            ["auto", "as the system"],
+            ["light", "light"],
+            ["dark", "dark"],
+        ] as const,
+        (value) => store.update({ theme: value }),
+    );
     const marks = toggle("marks", (on) => store.update({ marks: on }));
     const numbers = toggle("numbers", (on) => store.update({ numbers: on }));
-    const measured = choice("Measured", [["shifted", "as compared"], ["plain", "as measured"]] as const, (value) => store.update({ shifted: value === "shifted" }));
+    const measured = choice(
+        "Measured",
+        [
+            ["shifted", "as compared"],
+            ["plain", "as measured"],
+        ] as const,
+        (value) => store.update({ shifted: value === "shifted" }),
+    );
     const save = choice("", ENDINGS, (ending) => {
         save.show("");
         if (ending !== "") {
@@ -43,7 +89,16 @@ export function controls(meta: Meta, quantities: readonly Axis[], store: Store, 
     });
     save.root.title = "Save what is seen of the diagram";
     save.root.querySelector("select")?.setAttribute("aria-label", "Save what is seen of the diagram");
-    const show = ({ quantity: shown, across: right, over: of, log, theme: colours, marks: areMarked, numbers: areNumbered, shifted }: State): void => {
+    const show = ({
+        quantity: shown,
+        across: right,
+        over: of,
+        log,
+        theme: colours,
+        marks: areMarked,
+        numbers: areNumbered,
+        shifted,
+    }: State): void => {
         quantity.show(shown);
         across.show(right);
         set.show(String(of));
@@ -85,6 +140,10 @@ function opener(opened: (files: readonly File[]) => void): HTMLElement {
         opened([...(input.files ?? [])]);
         input.value = "";
     });
-    const press = button("Compare…", "Draw the branches of other pages or tables of branches behind these; or drop their files onto the diagram", () => input.click());
+    const press = button(
+        "Compare…",
+        "Draw the branches of other pages or tables of branches behind these; or drop their files onto the diagram",
+        () => input.click(),
+    );
     return element("span", {}, [press, input]);
 }

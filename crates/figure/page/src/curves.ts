@@ -1,4 +1,5 @@
-// The solutions as they are drawn: what both axes show in their units, on a linear or logarithmic scale, in pixels.
+// The solutions as they are drawn: what both axes show in their units, on a linear or logarithmic scale, in
+// pixels.
 
 import type { Measured, Meta, Quantity, Solutions } from "./data";
 import type { Range } from "./frame";
@@ -6,7 +7,15 @@ import type { State } from "./state";
 import { measureOf, type Axis } from "./units";
 
 /** The quantities that a vertical axis always has, where they are not zero throughout. */
-const VERTICAL: readonly Axis[] = ["displacement", "acceleration", "force", "velocity", "multiplier", "energy", "contacts"];
+const VERTICAL: readonly Axis[] = [
+    "displacement",
+    "acceleration",
+    "force",
+    "velocity",
+    "multiplier",
+    "energy",
+    "contacts",
+];
 
 /** From values to pixels; `log` where the vertical axis is logarithmic. */
 export interface Scales {
@@ -33,24 +42,40 @@ export function scalesOf(range: Range, box: Box): Scales {
     const [lowX, highX] = range.x;
     const [lowY, highY] = [level(range.y[0]), level(range.y[1])];
     const { left, top, width, height } = box;
-    return { left, top, width, height, perX: width / (highX - lowX), perY: height / (highY - lowY), lowX, lowY, log: range.logY };
+    return {
+        left,
+        top,
+        width,
+        height,
+        perX: width / (highX - lowX),
+        perY: height / (highY - lowY),
+        lowX,
+        lowY,
+        log: range.logY,
+    };
 }
 
 export class Curves {
     private readonly kept = new Map<string, Float64Array>();
 
-    constructor(private readonly meta: Meta, readonly solutions: Solutions) {}
+    constructor(
+        private readonly meta: Meta,
+        readonly solutions: Solutions,
+    ) {}
 
     /** What an axis shows, in its unit. */
     values(axis: Axis, over: number): Float64Array {
         const { frequency, parameter, maxima, multiplierRe, multiplierIm, contacts, energy } = this.solutions;
         const { factor } = measureOf(this.meta, axis, over);
-        const scaled = (column: ArrayLike<number>): Float64Array => this.keep(`${axis} ${factor}`, () => Float64Array.from(column, (value) => factor * value));
+        const scaled = (column: ArrayLike<number>): Float64Array =>
+            this.keep(`${axis} ${factor}`, () => Float64Array.from(column, (value) => factor * value));
         switch (axis) {
             case "parameter":
                 return scaled(over === 0 ? frequency : parameter);
             case "multiplier":
-                return this.keep(axis, () => Float64Array.from(multiplierRe, (re, k) => Math.hypot(re, multiplierIm[k] ?? NaN)));
+                return this.keep(axis, () =>
+                    Float64Array.from(multiplierRe, (re, k) => Math.hypot(re, multiplierIm[k] ?? NaN)),
+                );
             case "contacts":
                 return scaled(contacts);
             case "energy":
@@ -65,10 +90,17 @@ export class Curves {
         return this.values(across, over);
     }
 
-    /** The values of the vertical axis; their logarithms to base 10 where it is logarithmic, NaN where they have none. */
+    /**
+     * The values of the vertical axis; their logarithms to base 10 where it is logarithmic, NaN where they
+     * have none.
+     */
     levels({ quantity, log, over }: Pick<State, "quantity" | "log" | "over">): Float64Array {
         const values = this.values(quantity, over);
-        return log ? this.keep(`log ${quantity} ${over}`, () => values.map((value) => (value > 0 ? Math.log10(value) : NaN))) : values;
+        return log
+            ? this.keep(`log ${quantity} ${over}`, () =>
+                  values.map((value) => (value > 0 ? Math.log10(value) : NaN)),
+              )
+            : values;
     }
 
     private keep(key: string, make: () => Float64Array): Float64Array {
@@ -80,14 +112,30 @@ export class Curves {
         return found;
     }
 
-    /** Vertical axes of which there is something, measured ones among them: without contacts over a time there are no forces. */
+    /**
+     * Vertical axes of which there is something, measured ones among them: without contacts over a time
+     * there are no forces.
+     */
     present(measured: readonly Measured[]): Axis[] {
-        const always: readonly Axis[] = ["displacement", "acceleration", ...measured.map(({ quantity }): Quantity => quantity)];
-        return VERTICAL.filter((axis) => always.includes(axis) || this.values(axis, 0).some((value) => value > 0));
+        const always: readonly Axis[] = [
+            "displacement",
+            "acceleration",
+            ...measured.map(({ quantity }): Quantity => quantity),
+        ];
+        return VERTICAL.filter(
+            (axis) => always.includes(axis) || this.values(axis, 0).some((value) => value > 0),
+        );
     }
 
-    /** Least and largest value of a column among the branches that are drawn, and of others, widened a little; null where nothing is. */
-    extent(levels: Float64Array, hidden: ReadonlySet<number>, others: Iterable<number> = []): [number, number] | null {
+    /**
+     * Least and largest value of a column among the branches that are drawn, and of others, widened a
+     * little; null where nothing is.
+     */
+    extent(
+        levels: Float64Array,
+        hidden: ReadonlySet<number>,
+        others: Iterable<number> = [],
+    ): [number, number] | null {
         let [low, high] = [Infinity, -Infinity];
         const take = (level: number): void => {
             if (Number.isFinite(level)) {
@@ -128,10 +176,21 @@ export class Curves {
         return extent !== null && extent[1] - extent[0] > Math.log10(40);
     }
 
-    /** The solution nearest to a place in canvas pixels, within so many of them, and its distance; -1 for none. */
-    nearest(state: State, scales: Scales, place: [number, number], within: number): [solution: number, distance: number] {
+    /**
+     * The solution nearest to a place in canvas pixels, within so many of them, and its distance; -1 for
+     * none.
+     */
+    nearest(
+        state: State,
+        scales: Scales,
+        place: [number, number],
+        within: number,
+    ): [solution: number, distance: number] {
         const [across, levels] = [this.across(state), this.levels(state)];
-        const [x, y] = [(place[0] - scales.left) / scales.perX + scales.lowX, (scales.top + scales.height - place[1]) / scales.perY + scales.lowY];
+        const [x, y] = [
+            (place[0] - scales.left) / scales.perX + scales.lowX,
+            (scales.top + scales.height - place[1]) / scales.perY + scales.lowY,
+        ];
         let [best, least] = [-1, within * within];
         this.meta.branches.forEach(({ first, count }, branch) => {
             for (let k = first; k < first + count && !state.hidden.has(branch); k++) {

@@ -22,7 +22,10 @@ export interface Branch {
     /** Number of its first solution over all branches end to end. */
     first: number;
     count: number;
-    /** The parameter along which it was followed: 0 for the frequency, else the number of one of `parameters`, from 1. */
+    /**
+     * The parameter along which it was followed: 0 for the frequency, else the number of one of
+     * `parameters`, from 1.
+     */
     over: number;
 }
 
@@ -133,7 +136,10 @@ export interface Meta {
     chaos: [number, number][];
     sections: Section[];
     measured: Measured[];
-    /** Printed figures; the names of those that had no room, and of those that could not be drawn with the reason. */
+    /**
+     * Printed figures; the names of those that had no room, and of those that could not be drawn with the
+     * reason.
+     */
     figures: { carried: Figure[]; noRoom: string[]; refused: [string, string][] };
     look: { light: Look; dark: Look };
 }
@@ -141,7 +147,13 @@ export interface Meta {
 export type Quantity = "displacement" | "acceleration" | "force" | "velocity";
 
 /** Bits of the flags of a solution. */
-export const STABLE = 1, FOLD = 2, FLIP = 4, NEIMARK_SACKER = 8, BRANCH_POINT = 16, GRAZING = 32, MARGINAL = 64;
+export const STABLE = 1,
+    FOLD = 2,
+    FLIP = 4,
+    NEIMARK_SACKER = 8,
+    BRANCH_POINT = 16,
+    GRAZING = 32,
+    MARGINAL = 64;
 
 export interface Solutions {
     count: number;
@@ -188,7 +200,18 @@ export function readSolutions(branches: readonly Branch[], bytes: Uint8Array<Arr
     const [contacts, flags] = [columns.whole(count, 2), columns.whole(count, 2)];
     const branch = new Uint16Array(count);
     branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
-    return { count, frequency, parameter, maxima, multiplierRe, multiplierIm, energy, contacts, flags, branch };
+    return {
+        count,
+        frequency,
+        parameter,
+        maxima,
+        multiplierRe,
+        multiplierIm,
+        energy,
+        contacts,
+        flags,
+        branch,
+    };
 }
 
 /** The multipliers of all solutions, deflated, in base64. */
@@ -205,8 +228,12 @@ export function readFigures(): string[] {
 export function readSection({ x, y, points }: Section): [number, number][] {
     const bytes = bytesOf(points);
     const steps = new Uint16Array(bytes.buffer, 0, bytes.length >> 1);
-    const value = ([low, high]: [number | null, number | null], step: number): number => (low ?? NaN) + ((high ?? NaN) - (low ?? NaN)) * (step / 65535);
-    return Array.from({ length: steps.length >> 1 }, (_, k) => [value(x, steps[2 * k] ?? 0), value(y, steps[2 * k + 1] ?? 0)]);
+    const value = ([low, high]: [number | null, number | null], step: number): number =>
+        (low ?? NaN) + ((high ?? NaN) - (low ?? NaN)) * (step / 65535);
+    return Array.from({ length: steps.length >> 1 }, (_, k) => [
+        value(x, steps[2 * k] ?? 0),
+        value(y, steps[2 * k + 1] ?? 0),
+    ]);
 }
 
 /** The base64 text of all orbits. */

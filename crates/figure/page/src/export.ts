@@ -1,6 +1,7 @@
 // The visible diagram as SVG, PNG and CSV.
 
 import { isOverFrequency } from "./chaos";
+import type { Ending } from "./controls";
 import type { Branch, Meta, Solutions } from "./data";
 import type { Frame } from "./frame";
 import { entriesOf, SAMPLE, type LegendOf } from "./legend";
@@ -16,7 +17,7 @@ const ROW = 20;
 const MARGIN = 8;
 
 /** The diagram with its axes, its legend below, as an SVG document. */
-export function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
+function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
     // The ring around the selected solution is for the reader of the page.
     const { kept: _, ...fresh } = shown;
     const scene: Scene = { ...fresh, state: { ...shown.state, selected: -1 } };
@@ -26,35 +27,47 @@ export function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
     const rows = legendRows(of, scene, width - 2 * MARGIN);
     const height = plot.height + 2 * MARGIN + ROW * rows.length;
     const { paper } = scene.theme.look;
-    svg.put(`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`);
-    svg.put(`<title>${(of.meta.title || "Response diagram").replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</title>`);
+    svg.put(
+        `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`,
+    );
+    svg.put(
+        `<title>${(of.meta.title || "Response diagram").replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</title>`,
+    );
     svg.fillStyle = paper;
     svg.fillRect(0, 0, width, height);
     svg.put(`<g transform="translate(0 ${MARGIN}) scale(${1 / density})">`);
     drawingSvg(() => {
         drawGrid(svg, frame, scene);
         const { left, top, width: across, height: up } = plot.bbox;
-        svg.put(`<clipPath id="frame"><rect x="${left}" y="${top}" width="${across}" height="${up}"/></clipPath><g clip-path="url(#frame)">`);
+        svg.put(
+            `<clipPath id="frame"><rect x="${left}" y="${top}" width="${across}" height="${up}"/></clipPath><g clip-path="url(#frame)">`,
+        );
         paintResponse(svg as unknown as CanvasRenderingContext2D, frame, scene);
         svg.put("</g>");
         drawAxes(svg, frame, scene);
         svg.put("</g>");
-        rows.forEach((row, k) => row.forEach(([x, entry]) => {
-            svg.put(`<g transform="translate(${x} ${plot.height + MARGIN + ROW * k})">`);
-            entry.draw(svg as unknown as CanvasRenderingContext2D);
-            svg.font = `12px ${SANS}`;
-            [svg.textAlign, svg.textBaseline] = ["left", "middle"];
-            svg.fillStyle = scene.theme.look.ink;
-            svg.fillText(entry.name, SAMPLE + 6, 8);
-            svg.put("</g>");
-        }));
+        rows.forEach((row, k) =>
+            row.forEach(([x, entry]) => {
+                svg.put(`<g transform="translate(${x} ${plot.height + MARGIN + ROW * k})">`);
+                entry.draw(svg as unknown as CanvasRenderingContext2D);
+                svg.font = `12px ${SANS}`;
+                [svg.textAlign, svg.textBaseline] = ["left", "middle"];
+                svg.fillStyle = scene.theme.look.ink;
+                svg.fillText(entry.name, SAMPLE + 6, 8);
+                svg.put("</g>");
+            }),
+        );
     });
     svg.put("</svg>");
     return svg.markup;
 }
 
 /** Entries of the legend that are on, in rows, each with its place. */
-function legendRows(of: LegendOf, { state }: Scene, width: number): [number, ReturnType<typeof entriesOf>[number]][][] {
+function legendRows(
+    of: LegendOf,
+    { state }: Scene,
+    width: number,
+): [number, ReturnType<typeof entriesOf>[number]][][] {
     const rows: [number, ReturnType<typeof entriesOf>[number]][][] = [];
     let next = Infinity;
     for (const entry of entriesOf(of, state).filter(({ isOn }) => isOn)) {
@@ -85,7 +98,9 @@ function drawGrid(svg: SvgContext, frame: Frame, { theme }: Scene): void {
 function drawAxes(svg: SvgContext, frame: Frame, { theme }: Scene): void {
     const { density } = frame;
     const { left, top, width, height } = frame.plot.bbox;
-    svg.put(`<rect x="${left}" y="${top}" width="${width}" height="${height}" fill="none" stroke="${theme.look.pale}" stroke-width="${density}"/>`);
+    svg.put(
+        `<rect x="${left}" y="${top}" width="${width}" height="${height}" fill="none" stroke="${theme.look.pale}" stroke-width="${density}"/>`,
+    );
     svg.fillStyle = theme.look.ink;
     svg.font = `${12 * density}px ${SANS}`;
     [svg.textAlign, svg.textBaseline] = ["center", "top"];
@@ -104,7 +119,7 @@ function drawAxes(svg: SvgContext, frame: Frame, { theme }: Scene): void {
 }
 
 /** The same as pixels, three to a pixel of the page. */
-export async function diagramPng(svg: string): Promise<Blob> {
+async function diagramPng(svg: string): Promise<Blob> {
     const image = new Image();
     image.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
     try {
@@ -122,21 +137,55 @@ export async function diagramPng(svg: string): Promise<Blob> {
     }
 }
 
-const number = (value: number | undefined): string => (value === undefined || Number.isNaN(value) ? "" : String(value));
+const number = (value: number | undefined): string =>
+    value === undefined || Number.isNaN(value) ? "" : String(value);
 
-/** The solutions that are seen, with the columns of branches.csv in SI; of branches over another parameter that, too. */
-export function diagramCsv(frame: Frame, { meta, solutions, curves, state }: Scene): string {
-    const { x: [left, right], y: [low, high] } = frame.range();
+/**
+ * The solutions that are seen, with the columns of branches.csv in SI; of branches over another parameter
+ * that, too.
+ */
+function diagramCsv(frame: Frame, { meta, solutions, curves, state }: Scene): string {
+    const {
+        x: [left, right],
+        y: [low, high],
+    } = frame.range();
     const [across, upright] = [curves.across(state), curves.values(state.quantity, state.over)];
     const parameter = meta.parameters[state.over - 1];
-    const named = parameter === undefined ? [] : [`${parameter.title} ${parameter.unit}`.trim().toLowerCase().replaceAll(/[^a-z0-9]+/g, "_")];
-    const titles = ["branch", "period_multiple", "frequency_hz", "max_abs_displacement_m", "max_abs_acceleration_m_s2", "max_contact_force_n", "max_impact_velocity_m_s", "contacts", "leading_multiplier_re", "leading_multiplier_im", "stable", "event", "energy_j", ...named];
+    const named =
+        parameter === undefined
+            ? []
+            : [
+                  `${parameter.title} ${parameter.unit}`
+                      .trim()
+                      .toLowerCase()
+                      .replaceAll(/[^a-z0-9]+/g, "_"),
+              ];
+    const titles = [
+        "branch",
+        "period_multiple",
+        "frequency_hz",
+        "max_abs_displacement_m",
+        "max_abs_acceleration_m_s2",
+        "max_contact_force_n",
+        "max_impact_velocity_m_s",
+        "contacts",
+        "leading_multiplier_re",
+        "leading_multiplier_im",
+        "stable",
+        "event",
+        "energy_j",
+        ...named,
+    ];
     const lines = [titles.join(",")];
     meta.branches.forEach((branch, place) => {
         for (let k = branch.first; k < branch.first + branch.count && !state.hidden.has(place); k++) {
             const [x, y] = [across[k] ?? NaN, upright[k] ?? NaN];
             if (x >= left && x <= right && y >= low && y <= high) {
-                lines.push([...row(branch, solutions, k), ...named.map(() => number(solutions.parameter[k]))].join(","));
+                lines.push(
+                    [...row(branch, solutions, k), ...named.map(() => number(solutions.parameter[k]))].join(
+                        ",",
+                    ),
+                );
             }
         }
     });
@@ -146,19 +195,51 @@ export function diagramCsv(frame: Frame, { meta, solutions, curves, state }: Sce
 function row(branch: Branch, solutions: Solutions, k: number): string[] {
     const { maxima, frequency, contacts, multiplierRe, multiplierIm, energy, flags } = solutions;
     const { stability, events } = eventWords(flags[k] ?? 0);
-    const values = [maxima.displacement, maxima.acceleration, maxima.force, maxima.velocity, contacts, multiplierRe, multiplierIm].map((column) => number(column[k]));
-    return [String(branch.id), String(branch.period), number(frequency[k]), ...values, stability, events, number(energy[k])];
+    const values = [
+        maxima.displacement,
+        maxima.acceleration,
+        maxima.force,
+        maxima.velocity,
+        contacts,
+        multiplierRe,
+        multiplierIm,
+    ].map((column) => number(column[k]));
+    return [
+        String(branch.id),
+        String(branch.period),
+        number(frequency[k]),
+        ...values,
+        stability,
+        events,
+        number(energy[k]),
+    ];
 }
 
 /** A name for a file of the diagram. */
-export function fileName(meta: Meta, scene: Scene, ending: string): string {
+function fileName(meta: Meta, scene: Scene, ending: string): string {
     const { state } = scene;
-    const over = isOverFrequency(state) ? "" : `-over-${state.across === "parameter" ? `parameter-${state.over}` : state.across}`;
+    const over = isOverFrequency(state)
+        ? ""
+        : `-over-${state.across === "parameter" ? `parameter-${state.over}` : state.across}`;
     return `${meta.folder || "diagram"}-${state.quantity}${over}.${ending}`;
 }
 
+/** What is seen, as the contents of a file. */
+export async function saved(frame: Frame, scene: Scene, ending: Ending, of: LegendOf): Promise<Blob> {
+    if (ending === "csv") {
+        return new Blob([diagramCsv(frame, scene)], { type: "text/csv" });
+    }
+    const svg = diagramSvg(frame, scene, of);
+    return ending === "svg" ? new Blob([svg], { type: "image/svg+xml" }) : diagramPng(svg);
+}
+
+/** Hands what is seen to the reader as a file. */
+export async function save(frame: Frame, scene: Scene, ending: Ending, of: LegendOf): Promise<void> {
+    download(await saved(frame, scene, ending, of), fileName(of.meta, scene, ending));
+}
+
 /** Hands a file to the reader. */
-export function download(content: Blob, name: string): void {
+function download(content: Blob, name: string): void {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(content);
     link.download = name;

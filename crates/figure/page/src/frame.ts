@@ -71,7 +71,9 @@ function commonOf(plot: uPlot, axis: "x" | "y", distance: number): number {
 /** A label of an axis that says what is left out at its ticks: "Frequency − 39.69 (Hz)". */
 function less(label: string, common: number): string {
     const [name = "", unit = ""] = label.split(/ (?=\([^()]*\)$)/);
-    return common === 0 ? label : `${name} ${common > 0 ? "−" : "+"} ${Math.abs(common)}${unit === "" ? "" : ` ${unit}`}`;
+    return common === 0
+        ? label
+        : `${name} ${common > 0 ? "−" : "+"} ${Math.abs(common)}${unit === "" ? "" : ` ${unit}`}`;
 }
 
 export class Frame {
@@ -81,10 +83,17 @@ export class Frame {
     private logY: boolean;
     /** What the axes have now, labels with what is left out at their ticks. */
     readonly label = { x: "", y: "" };
-    readonly ticks: { x: Ticks; y: Ticks } = { x: { labelled: [], minor: [] }, y: { labelled: [], minor: [] } };
+    readonly ticks: { x: Ticks; y: Ticks } = {
+        x: { labelled: [], minor: [] },
+        y: { labelled: [], minor: [] },
+    };
     private readonly listeners: (() => void)[] = [];
 
-    constructor(readonly host: HTMLElement, private readonly options: FrameOptions, private readonly theme: Theme) {
+    constructor(
+        readonly host: HTMLElement,
+        private readonly options: FrameOptions,
+        private readonly theme: Theme,
+    ) {
         this.logY = options.range().logY;
         this.plot = this.create();
         new ResizeObserver(() => this.resize()).observe(host);
@@ -141,12 +150,22 @@ export class Frame {
     /** Remembers the ticks of an axis. */
     private keep(axis: "x" | "y", splits: readonly number[], labels: readonly string[]): string[] {
         const all = splits.map((value, k): [number, string] => [value, labels[k] ?? ""]);
-        this.ticks[axis] = { labelled: all.filter(([, label]) => label !== ""), minor: all.filter(([, label]) => label === "").map(([value]) => value) };
+        this.ticks[axis] = {
+            labelled: all.filter(([, label]) => label !== ""),
+            minor: all.filter(([, label]) => label === "").map(([value]) => value),
+        };
         return [...labels];
     }
 
     private create(): uPlot {
-        return new uPlot(this.plotOptions(), [[0, 1], [null, null]], this.host);
+        return new uPlot(
+            this.plotOptions(),
+            [
+                [0, 1],
+                [null, null],
+            ],
+            this.host,
+        );
     }
 
     private resize(): void {
@@ -183,7 +202,8 @@ export class Frame {
             axes: [
                 {
                     ...common,
-                    label: (plot: uPlot, _: number, distance: number) => (this.label.x = less(this.options.xLabel(), commonOf(plot, "x", distance))),
+                    label: (plot: uPlot, _: number, distance: number) =>
+                        (this.label.x = less(this.options.xLabel(), commonOf(plot, "x", distance))),
                     labelSize: 20,
                     size: 30,
                     space: this.options.space ?? WIDE,
@@ -195,13 +215,28 @@ export class Frame {
                 },
                 {
                     ...common,
-                    label: (plot: uPlot, _: number, distance: number) => (this.label.y = less(this.options.yLabel(), logY ? logarithmic(plot).common : commonOf(plot, "y", distance))),
+                    label: (plot: uPlot, _: number, distance: number) =>
+                        (this.label.y = less(
+                            this.options.yLabel(),
+                            logY ? logarithmic(plot).common : commonOf(plot, "y", distance),
+                        )),
                     labelSize: 20,
-                    size: (_, labels) => Math.max(NARROW, 12 + CHARACTER * Math.max(0, ...(labels ?? []).map((label) => label.length))),
+                    size: (_, labels) =>
+                        Math.max(
+                            NARROW,
+                            12 + CHARACTER * Math.max(0, ...(labels ?? []).map((label) => label.length)),
+                        ),
                     space: TALL,
-                    ...(logY ? { splits: (plot: uPlot) => this.labelled(plot), filter: (_: uPlot, splits: number[]) => splits } : {}),
+                    ...(logY
+                        ? {
+                              splits: (plot: uPlot) => this.labelled(plot),
+                              filter: (_: uPlot, splits: number[]) => splits,
+                          }
+                        : {}),
                     values: (plot, splits, __, ___, distance) =>
-                        logY ? this.ticks.y.labelled.map(([, label]) => label) : this.keep("y", splits, ticks(splits, distance, commonOf(plot, "y", distance))),
+                        logY
+                            ? this.ticks.y.labelled.map(([, label]) => label)
+                            : this.keep("y", splits, ticks(splits, distance, commonOf(plot, "y", distance))),
                 },
             ],
             hooks: { draw: [(plot) => this.paint(plot)] },

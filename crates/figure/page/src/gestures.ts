@@ -24,11 +24,15 @@ export function listenToGestures(over: HTMLElement, act: Gestures): void {
         return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
     };
     const fingers = new Map<number, PointerEvent>();
-    over.addEventListener("wheel", (event) => {
-        event.preventDefault();
-        const factor = Math.exp(Math.max(-1, Math.min(1, event.deltaY / 300)));
-        act.zoom([event.altKey ? 1 : factor, event.shiftKey ? 1 : factor], shares(event));
-    }, { passive: false });
+    over.addEventListener(
+        "wheel",
+        (event) => {
+            event.preventDefault();
+            const factor = Math.exp(Math.max(-1, Math.min(1, event.deltaY / 300)));
+            act.zoom([event.altKey ? 1 : factor, event.shiftKey ? 1 : factor], shares(event));
+        },
+        { passive: false },
+    );
     over.addEventListener("dblclick", act.whole);
     over.addEventListener("pointerleave", () => act.hover(null));
     over.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -59,19 +63,37 @@ export function listenToGestures(over: HTMLElement, act: Gestures): void {
 }
 
 /** Two fingers: what lies between them stays between them. */
-function pinch(before: readonly PointerEvent[], event: PointerEvent, shares: (event: PointerEvent) => Shares, act: Gestures): void {
-    const [moved, still] = [before.find(({ pointerId }) => pointerId === event.pointerId), before.find(({ pointerId }) => pointerId !== event.pointerId)];
+function pinch(
+    before: readonly PointerEvent[],
+    event: PointerEvent,
+    shares: (event: PointerEvent) => Shares,
+    act: Gestures,
+): void {
+    const [moved, still] = [
+        before.find(({ pointerId }) => pointerId === event.pointerId),
+        before.find(({ pointerId }) => pointerId !== event.pointerId),
+    ];
     if (moved === undefined || still === undefined) {
         return;
     }
     const [fixed, from, to] = [shares(still), shares(moved), shares(event)];
-    const distance = (place: Shares): number => Math.max(0.02, Math.hypot(place[0] - fixed[0], place[1] - fixed[1]));
+    const distance = (place: Shares): number =>
+        Math.max(0.02, Math.hypot(place[0] - fixed[0], place[1] - fixed[1]));
     const factor = distance(from) / distance(to);
     act.zoom([factor, factor], fixed);
 }
 
-/** A press that moves zooms into a box, or pans with shift, another button or a finger; one that does not selects. */
-function drag(over: HTMLElement, down: PointerEvent, shares: (event: PointerEvent) => Shares, fingers: ReadonlyMap<number, PointerEvent>, act: Gestures): void {
+/**
+ * A press that moves zooms into a box, or pans with shift, another button or a finger; one that does not
+ * selects.
+ */
+function drag(
+    over: HTMLElement,
+    down: PointerEvent,
+    shares: (event: PointerEvent) => Shares,
+    fingers: ReadonlyMap<number, PointerEvent>,
+    act: Gestures,
+): void {
     const pans = down.shiftKey || down.button !== 0 || down.pointerType === "touch";
     const box = element("div", { class: "zoom-box" });
     let [moved, pinched, last] = [false, false, shares(down)];
@@ -81,7 +103,9 @@ function drag(over: HTMLElement, down: PointerEvent, shares: (event: PointerEven
         if (event.pointerId !== down.pointerId || pinched) {
             return;
         }
-        moved ||= Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > STILL[down.pointerType === "touch" ? "touch" : "mouse"];
+        moved ||=
+            Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) >
+            STILL[down.pointerType === "touch" ? "touch" : "mouse"];
         const now = shares(event);
         if (moved && pans) {
             act.pan([last[0] - now[0], last[1] - now[1]]);

@@ -88,9 +88,14 @@ export function fromHash(hash: string, meta: Meta, { quantities, suits, first }:
     const section = Number(words.get("section") ?? 1) - 1;
     const scale = words.get("scale");
     const quantity = quantities.find((one) => one === words.get("show")) ?? START.quantity;
-    const over = meta.parameters[Number(words.get("parameter") ?? 0) - 1] === undefined ? 0 : Number(words.get("parameter"));
+    const over =
+        meta.parameters[Number(words.get("parameter") ?? 0) - 1] === undefined
+            ? 0
+            : Number(words.get("parameter"));
     const ids = (words.get("hide") ?? "").split(",").map(Number);
-    const hidden = meta.branches.map((one, place) => (one.over !== over || ids.includes(one.id) ? place : -1));
+    const hidden = meta.branches.map((one, place) =>
+        one.over !== over || ids.includes(one.id) ? place : -1,
+    );
     return {
         quantity,
         across: quantities.find((one) => one === words.get("over")) ?? START.across,

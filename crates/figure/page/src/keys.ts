@@ -41,7 +41,10 @@ const LIST: readonly [string, string][] = [
 ];
 
 const POINTER: readonly [string, string][] = [
-    ["Click", "the nearest solution; in a chaotic range, or on the strip above it, the nearest chaotic motion"],
+    [
+        "Click",
+        "the nearest solution; in a chaotic range, or on the strip above it, the nearest chaotic motion",
+    ],
     ["Wheel", "zoom (with Shift: frequency alone; with Alt: vertical axis alone)"],
     ["Drag", "zoom into a box"],
     ["Shift and drag", "move the view; so does the right button, or a finger"],
@@ -50,13 +53,33 @@ const POINTER: readonly [string, string][] = [
 ];
 
 /** What scrolls a list. */
-const SCROLLING: ReadonlySet<string> = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End", " "]);
+const SCROLLING: ReadonlySet<string> = new Set([
+    "ArrowUp",
+    "ArrowDown",
+    "ArrowLeft",
+    "ArrowRight",
+    "PageUp",
+    "PageDown",
+    "Home",
+    "End",
+    " ",
+]);
 
 export function helpDialog(): HTMLDialogElement {
     const list = (rows: readonly [string, string][]): HTMLElement =>
-        element("dl", { class: "keys" }, rows.flatMap(([key, text]) => [element("dt", {}, [key]), element("dd", {}, [text])]));
+        element(
+            "dl",
+            { class: "keys" },
+            rows.flatMap(([key, text]) => [element("dt", {}, [key]), element("dd", {}, [text])]),
+        );
     const close = element("form", { method: "dialog" }, [element("button", {}, ["Close"])]);
-    return element("dialog", { "aria-label": "Keys" }, [element("h2", {}, ["Keys"]), list(LIST), element("h2", {}, ["Pointer"]), list(POINTER), close]);
+    return element("dialog", { "aria-label": "Keys" }, [
+        element("h2", {}, ["Keys"]),
+        list(LIST),
+        element("h2", {}, ["Pointer"]),
+        list(POINTER),
+        close,
+    ]);
 }
 
 export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, actions: Actions): void {
@@ -85,7 +108,11 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         const branch = drawn(place, 1);
         if (branch !== undefined) {
             const isOn = selected >= 0 && !hidden.has(place);
-            select(isOn ? Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by)) : branch.first);
+            select(
+                isOn
+                    ? Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by))
+                    : branch.first,
+            );
         }
     };
     const stepBranch = (by: 1 | -1): void => {
@@ -97,7 +124,11 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
     };
     const stepEvent = (by: 1 | -1): void => {
         const { selected, hidden } = store.state;
-        const own = bifurcations.filter((k) => !hidden.has(solutions.branch[k] ?? 0) && (selected < 0 || solutions.branch[k] === solutions.branch[selected]));
+        const own = bifurcations.filter(
+            (k) =>
+                !hidden.has(solutions.branch[k] ?? 0) &&
+                (selected < 0 || solutions.branch[k] === solutions.branch[selected]),
+        );
         const found = by > 0 ? own.find((k) => k > selected) : own.findLast((k) => k < selected);
         if (found !== undefined) {
             select(found);
@@ -120,12 +151,18 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         "-": () => zoom(1 / 0.6),
         "0": () => store.update({ view: null }),
         " ": actions.play,
-        q: () => actions.quantity(actions.quantities[(actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length] ?? "displacement"),
+        q: () =>
+            actions.quantity(
+                actions.quantities[
+                    (actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length
+                ] ?? "displacement",
+            ),
         l: () => store.update({ log: !store.state.log, view: null }),
         n: () => store.update({ numbers: !store.state.numbers }),
         t: actions.tour,
         m: () => store.update({ marks: !store.state.marks }),
-        d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
+        d: () =>
+            store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
         c: actions.copyLink,
         Escape: () => select(-1),
         "?": actions.help,
@@ -148,7 +185,10 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         if (event.ctrlKey || event.metaKey || event.altKey || writes !== null || scrolls || presses) {
             return;
         }
-        const act = (event.shiftKey ? shifted[event.key] : undefined) ?? plain[event.key] ?? plain[event.key.toLowerCase()];
+        const act =
+            (event.shiftKey ? shifted[event.key] : undefined) ??
+            plain[event.key] ??
+            plain[event.key.toLowerCase()];
         if (act !== undefined) {
             event.preventDefault();
             act();

@@ -20,7 +20,10 @@ export const SAMPLE = 24;
 
 type Draw = (context: CanvasRenderingContext2D) => void;
 
-/** An entry: `key` is its layer, `period:N` for a period, `compared:K` for other results; empty for one without a switch. */
+/**
+ * An entry: `key` is its layer, `period:N` for a period, `compared:K` for other results; empty for one
+ * without a switch.
+ */
 export interface Entry {
     key: string;
     name: string;
@@ -44,9 +47,16 @@ export interface LegendOf {
 
 /** What the diagram shows, in the order of the legend. */
 export function entriesOf({ meta, solutions, marked, compared, theme }: LegendOf, state: State): Entry[] {
-    const shown = meta.branches.map((branch, place) => ({ ...branch, place })).filter(({ over, count }) => over === state.over && count > 0);
+    const shown = meta.branches
+        .map((branch, place) => ({ ...branch, place }))
+        .filter(({ over, count }) => over === state.over && count > 0);
     const periods = [...new Set(shown.map(({ period }) => period))].sort((a, b) => a - b);
-    const of = (layer: Layer, name: string, draw: Draw): Entry => ({ key: layer, name, draw, isOn: !state.off.has(layer) });
+    const of = (layer: Layer, name: string, draw: Draw): Entry => ({
+        key: layer,
+        name,
+        draw,
+        isOn: !state.off.has(layer),
+    });
     const entries: Entry[] = periods.map((period) => ({
         key: `period:${period}`,
         name: periodName(period),
@@ -61,16 +71,18 @@ export function entriesOf({ meta, solutions, marked, compared, theme }: LegendOf
     const own = new Set(shown.map(({ place }) => place));
     const seen = marked.filter(({ solution }) => own.has(solutions.branch[solution] ?? -1));
     for (const [mark, name] of state.marks ? namedMarks(seen, solutions) : []) {
-        entries.push(of(mark.layer, name, (context) => {
-            const path = newPath();
-            mark.outline(path, MIDDLE, SIZE / 2, mark.radius);
-            context.setLineDash([]);
-            context.lineWidth = 1.1;
-            context.fillStyle = mark.isFilled ? theme.look.ink : theme.look.paper;
-            context.fill(path as Path2D);
-            context.strokeStyle = mark.isPale ? theme.look.pale : theme.look.ink;
-            context.stroke(path as Path2D);
-        }));
+        entries.push(
+            of(mark.layer, name, (context) => {
+                const path = newPath();
+                mark.outline(path, MIDDLE, SIZE / 2, mark.radius);
+                context.setLineDash([]);
+                context.lineWidth = 1.1;
+                context.fillStyle = mark.isFilled ? theme.look.ink : theme.look.paper;
+                context.fill(path as Path2D);
+                context.strokeStyle = mark.isPale ? theme.look.pale : theme.look.ink;
+                context.stroke(path as Path2D);
+            }),
+        );
     }
     if (isOverFrequency(state)) {
         entries.push(...layers(meta, theme).map(([layer, name, draw]) => of(layer, name, draw)));
@@ -78,16 +90,32 @@ export function entriesOf({ meta, solutions, marked, compared, theme }: LegendOf
             entries.push({ key: "", name: "the Poincaré section shown", draw: upright(theme), isOn: true });
         }
     }
-    compared.forEach(({ name, isDrawn }, place) => entries.push({ key: `compared:${place}`, name, draw: line(comparedColour(theme, place), [], 0, 1.6), isOn: isDrawn }));
+    compared.forEach(({ name, isDrawn }, place) =>
+        entries.push({
+            key: `compared:${place}`,
+            name,
+            draw: line(comparedColour(theme, place), [], 0, 1.6),
+            isOn: isDrawn,
+        }),
+    );
     return entries;
 }
 
 /** A line of samples with their names, each a switch; drawn anew when the colours change. */
 export function legend(of: LegendOf, store: Store): { root: HTMLElement; fill: () => void } {
-    const root = element("div", { class: "legend", role: "group", "aria-label": "Legend: each entry is a switch" });
+    const root = element("div", {
+        class: "legend",
+        role: "group",
+        "aria-label": "Legend: each entry is a switch",
+    });
     const fill = (): void => {
-        const focused = document.activeElement instanceof HTMLElement && root.contains(document.activeElement) ? document.activeElement.dataset["layer"] : undefined;
-        root.replaceChildren(...entriesOf(of, store.state).map((entry) => made(entry, () => press(of, store, entry))));
+        const focused =
+            document.activeElement instanceof HTMLElement && root.contains(document.activeElement)
+                ? document.activeElement.dataset["layer"]
+                : undefined;
+        root.replaceChildren(
+            ...entriesOf(of, store.state).map((entry) => made(entry, () => press(of, store, entry))),
+        );
         root.querySelector<HTMLElement>(`[data-layer="${focused ?? "none"}"]`)?.focus();
     };
     fill();
@@ -125,50 +153,68 @@ function press({ meta, compared }: LegendOf, store: Store, { key, isOn }: Entry)
 
 /** The layers of which there is something, each with its name and its sample. */
 function layers(meta: Meta, theme: Theme): [Layer, string, Draw][] {
-    const dot = (layer: DotLayer): Draw => (context) => drawDots(context, layer, [[MIDDLE, SIZE / 2]], 1, theme.look);
-    const counts = MEASURED.map(([layer]) => meta.measured.reduce((sum, { points }) => sum + points.filter(({ motion }) => motion === layer).length, 0));
-    const found = MEASURED.filter((_, k) => (counts[k] ?? 0) > 0).map(([layer, name]): [Layer, string, Draw] => [layer, name, dot(layer)]);
+    const dot =
+        (layer: DotLayer): Draw =>
+        (context) =>
+            drawDots(context, layer, [[MIDDLE, SIZE / 2]], 1, theme.look);
+    const counts = MEASURED.map(([layer]) =>
+        meta.measured.reduce(
+            (sum, { points }) => sum + points.filter(({ motion }) => motion === layer).length,
+            0,
+        ),
+    );
+    const found = MEASURED.filter((_, k) => (counts[k] ?? 0) > 0).map(
+        ([layer, name]): [Layer, string, Draw] => [layer, name, dot(layer)],
+    );
     if (meta.motions.length > 0) {
         found.push(["irregular", "motion of a sweep that does not repeat", dot("irregular")]);
     }
     if (meta.chaos.length > 0) {
-        found.push(["chaos", "chaotic motion found", (context) => {
-            context.fillStyle = theme.look.shade;
-            context.fillRect(0, 0, SAMPLE, SIZE);
-            context.fillStyle = theme.look.pale;
-            context.fillRect(0, 0, SAMPLE, 4);
-        }]);
+        found.push([
+            "chaos",
+            "chaotic motion found",
+            (context) => {
+                context.fillStyle = theme.look.shade;
+                context.fillRect(0, 0, SAMPLE, SIZE);
+                context.fillStyle = theme.look.pale;
+                context.fillRect(0, 0, SAMPLE, 4);
+            },
+        ]);
     }
     return found;
 }
 
-const line = (colour: string, dash: readonly number[], strokes = 0, width = dash.length > 0 ? 1.1 : 2): Draw => (context) => {
-    const [along, across] = [newPath(), newPath()];
-    along.moveTo(0, SIZE / 2);
-    along.lineTo(SAMPLE, SIZE / 2);
-    for (let k = 0; k < strokes; k++) {
-        const x = MIDDLE + 3 * (k - (strokes - 1) / 2);
-        across.moveTo(x, SIZE / 2 - 5);
-        across.lineTo(x, SIZE / 2 + 5);
-    }
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.setLineDash([...dash]);
-    context.stroke(along as Path2D);
-    context.setLineDash([]);
-    context.lineWidth = 1.1;
-    context.stroke(across as Path2D);
-};
+const line =
+    (colour: string, dash: readonly number[], strokes = 0, width = dash.length > 0 ? 1.1 : 2): Draw =>
+    (context) => {
+        const [along, across] = [newPath(), newPath()];
+        along.moveTo(0, SIZE / 2);
+        along.lineTo(SAMPLE, SIZE / 2);
+        for (let k = 0; k < strokes; k++) {
+            const x = MIDDLE + 3 * (k - (strokes - 1) / 2);
+            across.moveTo(x, SIZE / 2 - 5);
+            across.lineTo(x, SIZE / 2 + 5);
+        }
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.setLineDash([...dash]);
+        context.stroke(along as Path2D);
+        context.setLineDash([]);
+        context.lineWidth = 1.1;
+        context.stroke(across as Path2D);
+    };
 
-const upright = (theme: Theme): Draw => (context) => {
-    const path = newPath();
-    path.moveTo(MIDDLE, 0);
-    path.lineTo(MIDDLE, SIZE);
-    context.strokeStyle = theme.look.pale;
-    context.lineWidth = 1.5;
-    context.setLineDash([2, 3]);
-    context.stroke(path as Path2D);
-};
+const upright =
+    (theme: Theme): Draw =>
+    (context) => {
+        const path = newPath();
+        path.moveTo(MIDDLE, 0);
+        path.lineTo(MIDDLE, SIZE);
+        context.strokeStyle = theme.look.pale;
+        context.lineWidth = 1.5;
+        context.setLineDash([2, 3]);
+        context.stroke(path as Path2D);
+    };
 
 function made({ key, name, draw, isOn }: Entry, pressed: () => void): HTMLElement {
     const canvas = element("canvas", { "aria-hidden": "true" });
@@ -183,7 +229,17 @@ function made({ key, name, draw, isOn }: Entry, pressed: () => void): HTMLElemen
     if (key === "") {
         return element("span", { class: "item" }, [canvas, name]);
     }
-    const root = element("button", { type: "button", class: "item", title: "On or off", "data-layer": key, "aria-pressed": String(isOn) }, [canvas, name]);
+    const root = element(
+        "button",
+        {
+            type: "button",
+            class: "item",
+            title: "On or off",
+            "data-layer": key,
+            "aria-pressed": String(isOn),
+        },
+        [canvas, name],
+    );
     root.addEventListener("click", pressed);
     return root;
 }

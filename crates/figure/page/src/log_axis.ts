@@ -1,4 +1,5 @@
-// Ticks of a logarithmic axis: at 1 to 9 times powers of ten, labelled where there is room; where fewer than three of them are seen, at equal distances.
+// Ticks of a logarithmic axis: at 1 to 9 times powers of ten, labelled where there is room; where fewer than
+// three of them are seen, at equal distances.
 
 import { commonPart, logTicks, ticks } from "./format";
 
@@ -33,7 +34,8 @@ export function logAxis(low: number, high: number, room: number): LogAxis {
     };
     const few = perDecade >= 2.5 ? "125" : "1";
     // A label at every tick only where there are hardly any others.
-    const mantissas = perDecade >= 9 && splits.filter((value) => isLabelled(value, few)).length < 3 ? "123456789" : few;
+    const mantissas =
+        perDecade >= 9 && splits.filter((value) => isLabelled(value, few)).length < 3 ? "123456789" : few;
     const labels = logTicks(splits.map((value) => (isLabelled(value, mantissas) ? value : null)));
     return { splits, labels, common: 0 };
 }

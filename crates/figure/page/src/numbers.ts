@@ -9,7 +9,10 @@ export function isStable(solutions: Solutions, solution: number): boolean {
     return ((solutions.flags[solution] ?? 0) & STABLE) !== 0;
 }
 
-/** What is known of the stability of a solution: marginal where a multiplier is on the unit circle as well as it is known. */
+/**
+ * What is known of the stability of a solution: marginal where a multiplier is on the unit circle as well
+ * as it is known.
+ */
 export function stabilityOf(solutions: Solutions, solution: number): string {
     const isMarginal = ((solutions.flags[solution] ?? 0) & MARGINAL) !== 0;
     return isMarginal ? "marginal" : isStable(solutions, solution) ? "stable" : "unstable";
@@ -29,8 +32,13 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
     const energy = solutions.energy[solution] ?? NaN;
     return [
         ["Frequency", hertz(solutions.frequency[solution] ?? NaN)],
-        ...(over > 0 ? [[name, `${digits(solutions.parameter[solution] ?? NaN, 7)} ${unit}`] as [string, string]] : []),
-        ["Branch", `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`],
+        ...(over > 0
+            ? [[name, `${digits(solutions.parameter[solution] ?? NaN, 7)} ${unit}`] as [string, string]]
+            : []),
+        [
+            "Branch",
+            `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`,
+        ],
         ["Stability", stabilityOf(solutions, solution)],
         ...(events === "" ? [] : [["Event", events] as [string, string]]),
         ["Max. displacement", value("displacement")],
@@ -39,6 +47,13 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
         ["Max. impact velocity", value("velocity")],
         ["Contacts per orbit period", String(solutions.contacts[solution] ?? 0)],
         ["Leading multiplier", `${complex(re, im)}, modulus ${digits(Math.hypot(re, im), 5)}`],
-        ...(Number.isNaN(energy) ? [] : [["Energy at phase 0", `${digits(MEASURES.energy.factor * energy, 6)} ${MEASURES.energy.unit}`] as [string, string]]),
+        ...(Number.isNaN(energy)
+            ? []
+            : [
+                  [
+                      "Energy at phase 0",
+                      `${digits(MEASURES.energy.factor * energy, 6)} ${MEASURES.energy.unit}`,
+                  ] as [string, string],
+              ]),
     ];
 }

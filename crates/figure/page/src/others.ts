@@ -7,7 +7,11 @@ import type { Saying } from "./saying";
 export class Others {
     readonly list: Compared[] = [];
 
-    constructor(private readonly meta: Meta, private readonly saying: Saying, private readonly changed: () => void) {}
+    constructor(
+        private readonly meta: Meta,
+        private readonly saying: Saying,
+        private readonly changed: () => void,
+    ) {}
 
     /** Opens files, and says what cannot be read. */
     async open(files: readonly Pick<File, "name" | "text">[]): Promise<void> {

@@ -46,7 +46,10 @@ export class SvgOutline implements Outline {
 let make: () => Outline = () => new Path2D();
 let aside = 0.08;
 
-/** How far a line may pass beside points that it leaves out (pixels): an SVG is looked at closer than the page. */
+/**
+ * How far a line may pass beside points that it leaves out (pixels): an SVG is looked at closer than the
+ * page.
+ */
 export function tolerance(): number {
     return aside;
 }

@@ -25,16 +25,30 @@ export function dotsOf(meta: Meta, state: State): Dot[] {
     }
     const { factor } = MEASURES[quantity];
     const dots: Dot[] = [];
-    const add = (layer: Dot["layer"], [frequency, value]: readonly [number | null, number | null], of: Dot["of"]): void => {
+    const add = (
+        layer: Dot["layer"],
+        [frequency, value]: readonly [number | null, number | null],
+        of: Dot["of"],
+    ): void => {
         if (frequency !== null && value !== null && !off.has(layer)) {
-            dots.push({ layer, frequency, x: MEASURES.frequency.factor * frequency, value: factor * value, of });
+            dots.push({
+                layer,
+                frequency,
+                x: MEASURES.frequency.factor * frequency,
+                value: factor * value,
+                of,
+            });
         }
     };
     if (quantity === "displacement") {
-        meta.motions.forEach((motion) => add("irregular", [motion.frequency, motion.displacement], { motion }));
+        meta.motions.forEach((motion) =>
+            add("irregular", [motion.frequency, motion.displacement], { motion }),
+        );
     }
     for (const series of meta.measured.filter((one) => one.quantity === quantity)) {
-        series.points.forEach((point) => add(point.motion, shifted ? point.shifted : point.measured, { series, point }));
+        series.points.forEach((point) =>
+            add(point.motion, shifted ? point.shifted : point.measured, { series, point }),
+        );
     }
     return dots;
 }
@@ -43,7 +57,11 @@ export function dotsOf(meta: Meta, state: State): Dot[] {
 export function dotText(dot: Dot, { quantity }: State): [string, string][] {
     const { factor, unit, name } = MEASURES[quantity === "parameter" ? "frequency" : quantity];
     if ("motion" in dot.of) {
-        return [["Motion of a sweep", dot.of.motion.kind], ["Frequency", hertz(dot.frequency)], [`Max. ${name}`, `${digits(dot.value, 6)} ${unit}`]];
+        return [
+            ["Motion of a sweep", dot.of.motion.kind],
+            ["Frequency", hertz(dot.frequency)],
+            [`Max. ${name}`, `${digits(dot.value, 6)} ${unit}`],
+        ];
     }
     const { series, point } = dot.of;
     const place = ([frequency, value]: readonly [number | null, number | null]): string =>

@@ -1,4 +1,5 @@
-// The marks of what lies over the branches: told apart by shape, and by a dot within from the marks of bifurcations.
+// The marks of what lies over the branches: told apart by shape, and by a dot within from the marks of
+// bifurcations.
 
 import type { Look } from "./data";
 import { newPath, type Outline } from "./outline";
@@ -8,7 +9,13 @@ import type { Dot } from "./overlay";
 export const RADIUS = 3.6;
 
 /** Draws marks of a kind at places in canvas pixels. */
-export function drawDots(context: CanvasRenderingContext2D, layer: Dot["layer"], places: readonly (readonly [number, number])[], density: number, look: Look): void {
+export function drawDots(
+    context: CanvasRenderingContext2D,
+    layer: Dot["layer"],
+    places: readonly (readonly [number, number])[],
+    density: number,
+    look: Look,
+): void {
     const [outline, within] = [newPath(), newPath()];
     const radius = RADIUS * density;
     for (const [x, y] of places) {

@@ -12,17 +12,28 @@ import { MEASURES } from "./units";
 const REACH = 24;
 
 /** `beside`: the solution that is meant where the point cannot be; -1 for none. */
-export type Picked = { solution: number } | { dot: Dot; beside: number } | { range: [number, number]; frequency: number };
+export type Picked =
+    { solution: number } | { dot: Dot; beside: number } | { range: [number, number]; frequency: number };
 
 /** What lies nearest to a place in CSS pixels of the frame; null for nothing. */
-export function pick(meta: Meta, curves: Curves, state: State, frame: Frame, left: number, top: number): Picked | null {
+export function pick(
+    meta: Meta,
+    curves: Curves,
+    state: State,
+    frame: Frame,
+    left: number,
+    top: number,
+): Picked | null {
     const { bbox } = frame.plot;
     const density = frame.density;
     const scales = scalesOf(frame.range(), bbox);
     const [x, y] = [bbox.left + left * density, bbox.top + top * density];
     const { factor } = MEASURES.frequency;
     const frequency = ((x - scales.left) / scales.perX + scales.lowX) / factor;
-    const range = state.off.has("chaos") || !isOverFrequency(state) ? null : rangeAt(meta, frequency, (3 * density) / scales.perX / factor);
+    const range =
+        state.off.has("chaos") || !isOverFrequency(state)
+            ? null
+            : rangeAt(meta, frequency, (3 * density) / scales.perX / factor);
     if (range !== null && top < STRIP) {
         return { range, frequency };
     }

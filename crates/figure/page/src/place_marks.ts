@@ -1,4 +1,5 @@
-// Where marks are drawn: none covers another one. Those that say most take their places first; the others appear when there is room, as one zooms in.
+// Where marks are drawn: none covers another one. Those that say most take their places first; the others
+// appear when there is room, as one zooms in.
 
 import { MARKS, type Mark, type Marked } from "./marks";
 import type { State } from "./state";
@@ -10,7 +11,10 @@ export interface PlacedMark {
     at: [number, number];
 }
 
-/** Least distance of two marks at most (CSS pixels): the size of the cells in which neighbours are looked for. */
+/**
+ * Least distance of two marks at most (CSS pixels): the size of the cells in which neighbours are looked
+ * for.
+ */
 const CELL = 2 * MARKS.reduce((most, { room }) => Math.max(most, room), 0);
 
 /**
@@ -19,7 +23,12 @@ const CELL = 2 * MARKS.reduce((most, { room }) => Math.max(most, room), 0);
  * * `marked`: in the order in which they take their places.
  * * `place`: of a solution; null where it is not seen or its branch is not drawn.
  */
-export function placeMarks(marked: readonly Marked[], { off }: Pick<State, "off">, place: (solution: number) => [number, number] | null, density: number): PlacedMark[] {
+export function placeMarks(
+    marked: readonly Marked[],
+    { off }: Pick<State, "off">,
+    place: (solution: number) => [number, number] | null,
+    density: number,
+): PlacedMark[] {
     const taken = new Map<number, PlacedMark[]>();
     const placed: PlacedMark[] = [];
     const cell = CELL * density;
@@ -43,11 +52,21 @@ export function placeMarks(marked: readonly Marked[], { off }: Pick<State, "off"
 }
 
 /** Whether a mark is nearer to one that has its place than both have room. */
-function isCrowded(taken: Map<number, PlacedMark[]>, { mark, at: [x, y] }: PlacedMark, [column, row]: [number, number], key: (column: number, row: number) => number, density: number): boolean {
+function isCrowded(
+    taken: Map<number, PlacedMark[]>,
+    { mark, at: [x, y] }: PlacedMark,
+    [column, row]: [number, number],
+    key: (column: number, row: number) => number,
+    density: number,
+): boolean {
     for (let across = column - 1; across <= column + 1; across++) {
         for (let down = row - 1; down <= row + 1; down++) {
             for (const other of taken.get(key(across, down)) ?? []) {
-                const [right, below, apart] = [x - other.at[0], y - other.at[1], (mark.room + other.mark.room) * density];
+                const [right, below, apart] = [
+                    x - other.at[0],
+                    y - other.at[1],
+                    (mark.room + other.mark.room) * density,
+                ];
                 if (right * right + below * below < apart * apart) {
                     return true;
                 }

@@ -5,11 +5,9 @@ import type { Compared } from "./compared";
 import type { Curves } from "./curves";
 import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
-import { diagramCsv, diagramPng, diagramSvg, download, fileName } from "./export";
 import { Frame, NARROWEST, type Range } from "./frame";
 import { listenToGestures } from "./gestures";
 import { KeptDrawing } from "./kept_drawing";
-import type { LegendOf } from "./legend";
 import type { Marked } from "./marks";
 import { dotsOf } from "./overlay";
 import { pick, type Picked } from "./pick";
@@ -25,7 +23,12 @@ const PRINTED_HEIGHT = 440;
 const NONE: ReadonlySet<number> = new Set();
 
 export class Response {
-    readonly host = element("div", { class: "response", tabindex: "0", role: "application", "aria-label": "Response diagram: arrow keys go along the branches, ? lists all keys" });
+    readonly host = element("div", {
+        class: "response",
+        tabindex: "0",
+        role: "application",
+        "aria-label": "Response diagram: arrow keys go along the branches, ? lists all keys",
+    });
     private readonly tip = element("div", { class: "tip", role: "status" });
     readonly frame: Frame;
     private readonly kept = new KeptDrawing();
@@ -37,7 +40,11 @@ export class Response {
         private readonly curves: Curves,
         private readonly store: Store,
         private readonly theme: Theme,
-        private readonly over: { marked: readonly Marked[]; numbers: ReadonlyMap<number, number>; compared: readonly Compared[] },
+        private readonly over: {
+            marked: readonly Marked[];
+            numbers: ReadonlyMap<number, number>;
+            compared: readonly Compared[];
+        },
         private readonly openSection: (place: number) => void,
         parent: HTMLElement,
     ) {
@@ -48,8 +55,12 @@ export class Response {
                 xLabel: () => axisLabel(measureOf(meta, store.state.across, store.state.over)),
                 yLabel: () => axisLabel(measureOf(meta, store.state.quantity, store.state.over)),
                 range: () => this.range(),
-                paint: (context, frame) => (this.host.dataset["branches"] = String(paintResponse(context, frame, this.scene()))),
-                height: () => (theme.printing ? PRINTED_HEIGHT : Math.round(Math.max(320, Math.min(620, 0.58 * window.innerHeight)))),
+                paint: (context, frame) =>
+                    (this.host.dataset["branches"] = String(paintResponse(context, frame, this.scene()))),
+                height: () =>
+                    theme.printing
+                        ? PRINTED_HEIGHT
+                        : Math.round(Math.max(320, Math.min(620, 0.58 * window.innerHeight))),
             },
             theme,
         );
@@ -63,7 +74,15 @@ export class Response {
 
     /** What is drawn now. */
     scene(): Scene {
-        return { meta: this.meta, solutions: this.solutions, curves: this.curves, state: this.store.state, theme: this.theme, kept: this.kept, ...this.over };
+        return {
+            meta: this.meta,
+            solutions: this.solutions,
+            curves: this.curves,
+            state: this.store.state,
+            theme: this.theme,
+            kept: this.kept,
+            ...this.over,
+        };
     }
 
     /** Draws at the next frame of the screen, once for all that happens until then. */
@@ -77,20 +96,6 @@ export class Response {
         }
     }
 
-    /** What is seen, as the contents of a file. */
-    async saved(ending: "svg" | "png" | "csv", of: LegendOf): Promise<Blob> {
-        if (ending === "csv") {
-            return new Blob([diagramCsv(this.frame, this.scene())], { type: "text/csv" });
-        }
-        const svg = diagramSvg(this.frame, this.scene(), of);
-        return ending === "svg" ? new Blob([svg], { type: "image/svg+xml" }) : diagramPng(svg);
-    }
-
-    /** Hands what is seen to the reader as a file. */
-    async save(ending: "svg" | "png" | "csv", of: LegendOf): Promise<void> {
-        download(await this.saved(ending, of), fileName(this.meta, this.scene(), ending));
-    }
-
     /** Draws at once; for measuring how long that takes. */
     redraw(): void {
         this.frame.redraw();
@@ -99,7 +104,10 @@ export class Response {
     /** Where a solution is drawn (CSS pixels of the window). */
     placeOf(solution: number): [number, number] {
         const { quantity, over } = this.store.state;
-        return this.pointAt(this.curves.across(this.store.state)[solution] ?? NaN, this.curves.values(quantity, over)[solution] ?? NaN);
+        return this.pointAt(
+            this.curves.across(this.store.state)[solution] ?? NaN,
+            this.curves.values(quantity, over)[solution] ?? NaN,
+        );
     }
 
     private range(): Range {
@@ -116,17 +124,29 @@ export class Response {
         const { state } = this.store;
         const { factor } = MEASURES.frequency;
         const [low, high] = this.meta.range;
-        const over = dotsOf(this.meta, state).filter(({ frequency }) => frequency >= low && frequency <= high).map(({ value }) => value);
-        const others = state.over !== 0 ? [] : this.over.compared.filter(({ isDrawn }) => isDrawn).flatMap(({ curves }) => curves.upright({ ...state, hidden: NONE }) ?? []);
+        const over = dotsOf(this.meta, state)
+            .filter(({ frequency }) => frequency >= low && frequency <= high)
+            .map(({ value }) => value);
+        const others =
+            state.over !== 0
+                ? []
+                : this.over.compared
+                      .filter(({ isDrawn }) => isDrawn)
+                      .flatMap(({ curves }) => curves.upright({ ...state, hidden: NONE }) ?? []);
         const y = this.curves.upright(state, [...over, ...others]);
-        const x = isOverFrequency(state) ? ([factor * low, factor * high] as [number, number]) : (this.curves.extent(this.curves.across(state), state.hidden) ?? [0, 1]);
+        const x = isOverFrequency(state)
+            ? ([factor * low, factor * high] as [number, number])
+            : (this.curves.extent(this.curves.across(state), state.hidden) ?? [0, 1]);
         return { x, y: y ?? (state.log ? [0.1, 1] : [0, 1]), logY: state.log };
     }
 
     /** Where a place of the diagram is, in the units of its axes (CSS pixels of the window). */
     pointAt(across: number, value: number): [number, number] {
         const box = this.frame.plot.over.getBoundingClientRect();
-        return [box.left + this.frame.plot.valToPos(across, "x"), box.top + this.frame.plot.valToPos(value, "y")];
+        return [
+            box.left + this.frame.plot.valToPos(across, "x"),
+            box.top + this.frame.plot.valToPos(value, "y"),
+        ];
     }
 
     /** Shows all of a range of the frequency (Hz), with something on both sides. */
@@ -134,7 +154,10 @@ export class Response {
         const { factor } = MEASURES.frequency;
         const [low, high] = [factor * range[0], factor * range[1]];
         const margin = 0.1 * (high - low) || 0.01 * factor * (this.meta.range[1] - this.meta.range[0]);
-        this.store.update({ across: "parameter", view: this.store.state.across === "parameter" ? this.store.state.view : null });
+        this.store.update({
+            across: "parameter",
+            view: this.store.state.across === "parameter" ? this.store.state.view : null,
+        });
         this.change((from, to, axis) => (axis === 0 ? [low - margin, high + margin] : [from, to]));
     }
 
@@ -168,16 +191,21 @@ export class Response {
         const at = this.place(solution);
         const whole = this.whole();
         this.change((low, high, axis) => {
-            const [from, to] = axis === 0 ? whole.x : (log ? whole.y.map(Math.log10) : whole.y);
+            const [from, to] = axis === 0 ? whole.x : log ? whole.y.map(Math.log10) : whole.y;
             const half = Math.min(0.5 * (high - low), 0.5 * shareOfRange * ((to ?? 1) - (from ?? 0)));
             const middle = at[axis];
-            return middle === undefined || !Number.isFinite(middle) ? [low, high] : [middle - half, middle + half];
+            return middle === undefined || !Number.isFinite(middle)
+                ? [low, high]
+                : [middle - half, middle + half];
         });
     }
 
     /** Values of a solution on both axes, as they are drawn. */
     private place(solution: number): [number | undefined, number | undefined] {
-        return [this.curves.across(this.store.state)[solution], this.curves.levels(this.store.state)[solution]];
+        return [
+            this.curves.across(this.store.state)[solution],
+            this.curves.levels(this.store.state)[solution],
+        ];
     }
 
     /** Moves the view to a solution that is not in it. */
@@ -186,7 +214,8 @@ export class Response {
         if (this.store.state.view !== null) {
             this.change((low, high, axis) => {
                 const place = at[axis];
-                const isSeen = place === undefined || !Number.isFinite(place) || (place >= low && place <= high);
+                const isSeen =
+                    place === undefined || !Number.isFinite(place) || (place >= low && place <= high);
                 const half = 0.5 * (high - low);
                 return isSeen ? [low, high] : [place - half, place + half];
             });
@@ -199,7 +228,8 @@ export class Response {
         const across = of(x[0], x[1], 0);
         const up = logY ? of(Math.log10(y[0]), Math.log10(y[1]), 1) : of(y[0], y[1], 1);
         const view: View = { x: across, y: logY ? [10 ** up[0], 10 ** up[1]] : up };
-        const enough = (low: number, high: number): boolean => high - low > 2 * NARROWEST * Math.max(Math.abs(low), Math.abs(high));
+        const enough = (low: number, high: number): boolean =>
+            high - low > 2 * NARROWEST * Math.max(Math.abs(low), Math.abs(high));
         if (enough(...view.x) && enough(...view.y) && across[1] - across[0] < 1e9) {
             this.store.update({ view });
         }
@@ -209,7 +239,10 @@ export class Response {
         return pick(this.meta, this.curves, this.store.state, this.frame, left, top);
     }
 
-    /** A click: on a solution, or on a measured point beside one, its orbit, on a motion that does not repeat or a chaotic range the nearest section. */
+    /**
+     * A click: on a solution, or on a measured point beside one, its orbit, on a motion that does not
+     * repeat or a chaotic range the nearest section.
+     */
     private choose(picked: Picked | null): void {
         if (picked === null) {
             return;
@@ -220,7 +253,11 @@ export class Response {
             this.openSection(nearestSection(this.meta, picked.frequency, picked.range));
         } else if ("motion" in picked.dot.of) {
             const { frequency, kind } = picked.dot.of.motion;
-            this.openSection(this.meta.sections.findIndex((section) => section.frequency === frequency && section.kind === kind));
+            this.openSection(
+                this.meta.sections.findIndex(
+                    (section) => section.frequency === frequency && section.kind === kind,
+                ),
+            );
         } else if (picked.beside >= 0) {
             this.store.update({ selected: picked.beside });
         }

@@ -85,7 +85,12 @@ function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, sta
     }
 }
 
-function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, { kept, shift }: { kept: KeptDrawing; shift: readonly [number, number] }): number {
+function paintBranches(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    scene: Scene,
+    { kept, shift }: { kept: KeptDrawing; shift: readonly [number, number] },
+): number {
     const { meta, state, theme } = scene;
     const density = frame.density;
     let drawn = 0;
@@ -125,14 +130,30 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
 /** The marks that are drawn, with their places. */
 export function marksOf(frame: Frame, scene: Scene): PlacedMark[] {
     const kept = scene.kept ?? new KeptDrawing();
-    return shiftedMarks(kept, scene, kept.shiftTo(scene, scalesOf(frame.range(), frame.plot.bbox), frame.density));
+    return shiftedMarks(
+        kept,
+        scene,
+        kept.shiftTo(scene, scalesOf(frame.range(), frame.plot.bbox), frame.density),
+    );
 }
 
-function shiftedMarks(kept: KeptDrawing, scene: Scene, [across, down]: readonly [number, number]): PlacedMark[] {
-    return scene.state.marks ? kept.marksOf(scene).map((one) => ({ ...one, at: [one.at[0] + across, one.at[1] + down] })) : [];
+function shiftedMarks(
+    kept: KeptDrawing,
+    scene: Scene,
+    [across, down]: readonly [number, number],
+): PlacedMark[] {
+    return scene.state.marks
+        ? kept.marksOf(scene).map((one) => ({ ...one, at: [one.at[0] + across, one.at[1] + down] }))
+        : [];
 }
 
-function paintMarks(context: CanvasRenderingContext2D, frame: Frame, { theme }: Scene, placed: readonly PlacedMark[], isBehind: boolean): void {
+function paintMarks(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    { theme }: Scene,
+    placed: readonly PlacedMark[],
+    isBehind: boolean,
+): void {
     for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind).toReversed()) {
         const places = placed.filter((one) => one.mark === mark).map(({ at }) => at);
         if (places.length > 0) {
@@ -142,7 +163,12 @@ function paintMarks(context: CanvasRenderingContext2D, frame: Frame, { theme }: 
 }
 
 /** Numbers of special points beside their marks, where one has room. */
-function paintNumbers(context: CanvasRenderingContext2D, frame: Frame, { state, theme, numbers }: Scene, placed: readonly PlacedMark[]): void {
+function paintNumbers(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    { state, theme, numbers }: Scene,
+    placed: readonly PlacedMark[],
+): void {
     if (!state.numbers) {
         return;
     }
@@ -152,12 +178,31 @@ function paintNumbers(context: CanvasRenderingContext2D, frame: Frame, { state, 
     context.textBaseline = "middle";
     context.lineJoin = "round";
     const boxes: [number, number, number][] = [];
-    for (const { solution, at: [x, y], mark } of placed.filter((one) => one.mark.layer !== "grazing")) {
-        const isSeen = y > frame.plot.bbox.top + 6 * density && y < frame.plot.bbox.top + frame.plot.bbox.height - 6 * density;
+    for (const {
+        solution,
+        at: [x, y],
+        mark,
+    } of placed.filter((one) => one.mark.layer !== "grazing")) {
+        const isSeen =
+            y > frame.plot.bbox.top + 6 * density &&
+            y < frame.plot.bbox.top + frame.plot.bbox.height - 6 * density;
         const text = isSeen ? String(numbers.get(solution) ?? "") : "";
-        const box: [number, number, number] = [x + mark.room * density, y - 7 * density, 7 * density * text.length + 2 * density];
-        const isFree = boxes.every(([left, top, width]) => Math.abs(top - box[1]) > 12 * density || box[0] > left + width || box[0] + box[2] < left);
-        const coversMark = placed.some((other) => other.solution !== solution && other.at[0] > box[0] - 3 * density && other.at[0] < box[0] + box[2] && Math.abs(other.at[1] - y) < 9 * density);
+        const box: [number, number, number] = [
+            x + mark.room * density,
+            y - 7 * density,
+            7 * density * text.length + 2 * density,
+        ];
+        const isFree = boxes.every(
+            ([left, top, width]) =>
+                Math.abs(top - box[1]) > 12 * density || box[0] > left + width || box[0] + box[2] < left,
+        );
+        const coversMark = placed.some(
+            (other) =>
+                other.solution !== solution &&
+                other.at[0] > box[0] - 3 * density &&
+                other.at[0] < box[0] + box[2] &&
+                Math.abs(other.at[1] - y) < 9 * density,
+        );
         if (text !== "" && isFree && !coversMark) {
             boxes.push(box);
             context.lineWidth = 3 * density;
@@ -180,7 +225,9 @@ function placeOf(across: Float64Array, levels: Float64Array, k: number, scales: 
 function paintOverlay(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
     const dots = dotsOf(meta, state);
     for (const layer of DOTS.toReversed()) {
-        const places = dots.filter((dot) => dot.layer === layer).map((dot) => [frame.toX(dot.x), frame.toY(dot.value)] as const);
+        const places = dots
+            .filter((dot) => dot.layer === layer)
+            .map((dot) => [frame.toX(dot.x), frame.toY(dot.value)] as const);
         if (places.length > 0) {
             drawDots(context, layer, places, frame.density, theme.look);
         }
@@ -198,7 +245,10 @@ function paintSelected(context: CanvasRenderingContext2D, frame: Frame, scene: S
     }
     const density = frame.density;
     context.setLineDash([]);
-    for (const [width, colour] of [[5, theme.look.paper], [2.2, theme.look.ink]] as const) {
+    for (const [width, colour] of [
+        [5, theme.look.paper],
+        [2.2, theme.look.ink],
+    ] as const) {
         const ring = newPath();
         ring.arc(x, y, 7 * density, 0, 2 * Math.PI);
         context.lineWidth = width * density;

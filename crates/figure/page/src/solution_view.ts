@@ -1,4 +1,5 @@
-// The selected solution: its numbers and multipliers, its orbit or the nearest one carried, the structure in motion.
+// The selected solution: its numbers and multipliers, its orbit or the nearest one carried, the structure in
+// motion.
 
 import { Animation } from "./animation";
 import { orbitText, type Meta, type Solutions } from "./data";
@@ -57,13 +58,18 @@ export class SolutionView {
         if (selected < 0) {
             this.numbers.replaceChildren();
             this.start.replaceChildren();
-            this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";
+            this.which.textContent =
+                this.solutions.count === 0
+                    ? "No periodic solution is stored."
+                    : "Click on a solution of the diagram, or press an arrow key.";
             [...this.orbitParts, this.multipliers.root].forEach((part) => (part.hidden = true));
             this.root.dataset["orbit"] = "";
             return;
         }
         const rows = numbersOf(this.meta, this.solutions, selected);
-        this.numbers.replaceChildren(...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]));
+        this.numbers.replaceChildren(
+            ...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]),
+        );
         this.showStart(selected);
         this.showMultipliers(selected);
         const place = nearestOrbit(this.meta, this.solutions, selected);
@@ -90,14 +96,27 @@ export class SolutionView {
             return;
         }
         const command = `hammerbeam run STUDY.toml --from ${this.meta.folder || "RESULTS"}:${number} --out NEW`;
-        const copy = button("Copy command", "Copy a command that starts branches of a study at this point", () => this.copy(command));
-        this.start.replaceChildren(`Special point ${number}. A study, also one with changed parameters, starts here by `, element("code", {}, [command]), " ", copy);
+        const copy = button(
+            "Copy command",
+            "Copy a command that starts branches of a study at this point",
+            () => this.copy(command),
+        );
+        this.start.replaceChildren(
+            `Special point ${number}. A study, also one with changed parameters, starts here by `,
+            element("code", {}, [command]),
+            " ",
+            copy,
+        );
     }
 
     private showMultipliers(selected: number): void {
         this.multipliers.root.hidden = false;
         const whose = `of the selected solution, at ${hertz(this.solutions.frequency[selected] ?? NaN)}`;
-        this.multipliers.show(this.multipliersOf(selected), whose, this.table === null ? -1 : this.meta.multipliers.most);
+        this.multipliers.show(
+            this.multipliersOf(selected),
+            whose,
+            this.table === null ? -1 : this.meta.multipliers.most,
+        );
     }
 
     /** Takes the multipliers of all solutions in, when they are decoded. */

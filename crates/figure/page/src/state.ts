@@ -13,7 +13,10 @@ export interface View {
 export const DOTS = ["periodic", "aperiodic", "unknown", "irregular"] as const;
 export type DotLayer = (typeof DOTS)[number];
 
-/** What has a switch in the legend besides the periods: what lies over or behind the branches, kinds of lines, kinds of marks. */
+/**
+ * What has a switch in the legend besides the periods: what lies over or behind the branches, kinds of
+ * lines, kinds of marks.
+ */
 export const LAYERS = [
     ...DOTS,
     "chaos",

@@ -1,8 +1,10 @@
-// What paints on a canvas, taken down as SVG: the part of a canvas context that the painters of the response diagram use.
+// What paints on a canvas, taken down as SVG: the part of a canvas context that the painters of the response
+// diagram use.
 
 import { short, type SvgOutline } from "./outline";
 
-const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
+const escaped = (text: string): string =>
+    text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
 const ANCHORS: Partial<Record<CanvasTextAlign, string>> = { center: "middle", right: "end", end: "end" };
 
 export class SvgContext {
@@ -47,12 +49,16 @@ export class SvgContext {
     }
 
     fillRect(x: number, y: number, width: number, height: number): void {
-        this.parts.push(`<rect x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}" fill="${this.fillStyle}"/>`);
+        this.parts.push(
+            `<rect x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}" fill="${this.fillStyle}"/>`,
+        );
     }
 
     /** A line between two places. */
     line(from: readonly [number, number], to: readonly [number, number]): void {
-        this.parts.push(`<path d="M${short(from[0])} ${short(from[1])}L${short(to[0])} ${short(to[1])}" fill="none"${this.pen()}/>`);
+        this.parts.push(
+            `<path d="M${short(from[0])} ${short(from[1])}L${short(to[0])} ${short(to[1])}" fill="none"${this.pen()}/>`,
+        );
     }
 
     fillText(text: string, x: number, y: number, turned = false): void {
@@ -65,9 +71,18 @@ export class SvgContext {
 
     private write(text: string, [x, y]: [number, number], look: string, turned: boolean): void {
         const [, size = "12", family = "sans-serif"] = /([\d.]+)px (.*)/.exec(this.font) ?? [];
-        const down = this.textBaseline === "middle" ? 0.35 * Number(size) : this.textBaseline === "top" ? 0.8 * Number(size) : 0;
-        const place = turned ? `transform="translate(${short(x)} ${short(y)}) rotate(-90)"` : `x="${short(x)}" y="${short(y + down)}"`;
-        this.parts.push(`<text ${place} font-family="${escaped(family)}" font-size="${size}" text-anchor="${ANCHORS[this.textAlign] ?? "start"}" ${look}>${escaped(text)}</text>`);
+        const down =
+            this.textBaseline === "middle"
+                ? 0.35 * Number(size)
+                : this.textBaseline === "top"
+                  ? 0.8 * Number(size)
+                  : 0;
+        const place = turned
+            ? `transform="translate(${short(x)} ${short(y)}) rotate(-90)"`
+            : `x="${short(x)}" y="${short(y + down)}"`;
+        this.parts.push(
+            `<text ${place} font-family="${escaped(family)}" font-size="${size}" text-anchor="${ANCHORS[this.textAlign] ?? "start"}" ${look}>${escaped(text)}</text>`,
+        );
     }
 
     private pen(): string {

@@ -1,4 +1,5 @@
-// A table whose rows are sorted by a press on the head of a column, filtered by words, and made as many as are read.
+// A table whose rows are sorted by a press on the head of a column, filtered by words, and made as many as
+// are read.
 
 import { element } from "./dom";
 
@@ -30,7 +31,12 @@ export class Table<Row> {
      * * `first`: the column by which rows are sorted at first.
      * * `finish`: what a row has besides its cells.
      */
-    constructor(private readonly columns: readonly Column<Row>[], first: number, private readonly finish: (made: HTMLElement, row: Row) => void, hint: string) {
+    constructor(
+        private readonly columns: readonly Column<Row>[],
+        first: number,
+        private readonly finish: (made: HTMLElement, row: Row) => void,
+        hint: string,
+    ) {
         this.sorted = { column: first, falls: false };
         this.heads = columns.map(({ head, by }, column) => {
             const cell = element("th", { scope: "col" }, by === undefined ? [head] : []);
@@ -41,9 +47,17 @@ export class Table<Row> {
             }
             return cell;
         });
-        const box = element("input", { type: "search", placeholder: "filter", "aria-label": hint, title: hint });
+        const box = element("input", {
+            type: "search",
+            placeholder: "filter",
+            "aria-label": hint,
+            title: hint,
+        });
         box.addEventListener("input", () => {
-            this.words = box.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
+            this.words = box.value
+                .toLowerCase()
+                .split(/\s+/)
+                .filter((word) => word !== "");
             this.most = ROWS;
             this.fill();
         });
@@ -52,7 +66,10 @@ export class Table<Row> {
             this.most += ROWS;
             this.fill();
         });
-        const table = element("table", {}, [element("thead", {}, [element("tr", {}, this.heads)]), this.body]);
+        const table = element("table", {}, [
+            element("thead", {}, [element("tr", {}, this.heads)]),
+            this.body,
+        ]);
         this.root = element("div", { class: "scroll", tabindex: "0" }, [table, this.more]);
     }
 
@@ -67,23 +84,44 @@ export class Table<Row> {
     }
 
     private text(row: Row): string {
-        return this.columns.map(({ cell }) => { const made = cell(row); return typeof made === "string" ? made : (made.textContent ?? ""); }).join(" ").toLowerCase();
+        return this.columns
+            .map(({ cell }) => {
+                const made = cell(row);
+                return typeof made === "string" ? made : (made.textContent ?? "");
+            })
+            .join(" ")
+            .toLowerCase();
     }
 
     private fill(): void {
         const { column, falls } = this.sorted;
         const by = this.columns[column]?.by ?? (() => 0);
-        const kept = this.words.length === 0 ? [...this.rows] : this.rows.filter((row) => { const text = this.text(row); return this.words.every((word) => text.includes(word)); });
+        const kept =
+            this.words.length === 0
+                ? [...this.rows]
+                : this.rows.filter((row) => {
+                      const text = this.text(row);
+                      return this.words.every((word) => text.includes(word));
+                  });
         const compared = (a: number | string, b: number | string): number => (a < b ? -1 : a > b ? 1 : 0);
         kept.sort((a, b) => (falls ? -1 : 1) * compared(by(a), by(b)));
-        this.heads.forEach((head, k) => (k === column ? head.setAttribute("aria-sort", falls ? "descending" : "ascending") : head.removeAttribute("aria-sort")));
+        this.heads.forEach((head, k) =>
+            k === column
+                ? head.setAttribute("aria-sort", falls ? "descending" : "ascending")
+                : head.removeAttribute("aria-sort"),
+        );
         this.body.replaceChildren(...kept.slice(0, this.most).map((row) => this.made(row)));
         this.more.hidden = kept.length <= this.most;
-        this.count.textContent = kept.length > this.most ? `${this.most} of ${kept.length}` : `${kept.length}`;
+        this.count.textContent =
+            kept.length > this.most ? `${this.most} of ${kept.length}` : `${kept.length}`;
     }
 
     private made(row: Row): HTMLElement {
-        const made = element("tr", {}, this.columns.map(({ cell }) => element("td", {}, [cell(row)])));
+        const made = element(
+            "tr",
+            {},
+            this.columns.map(({ cell }) => element("td", {}, [cell(row)])),
+        );
         this.finish(made, row);
         return made;
     }

@@ -1,5 +1,6 @@
 // What tests and benchmarks see of the page.
 
+import { saved } from "./export";
 import type { LegendOf } from "./legend";
 import type { Multiplier } from "./multiplier_table";
 import type { Orbit } from "./orbit";
@@ -29,7 +30,19 @@ declare global {
     }
 }
 
-export function forTests({ response, store, view, others, of }: { response: Response; store: Store; view: SolutionView; others: Others; of: LegendOf }): void {
+export function forTests({
+    response,
+    store,
+    view,
+    others,
+    of,
+}: {
+    response: Response;
+    store: Store;
+    view: SolutionView;
+    others: Others;
+    of: LegendOf;
+}): void {
     window.hammerbeam = {
         redraw: () => response.redraw(),
         zoom: (factor) => response.zoom([factor, factor]),
@@ -41,14 +54,25 @@ export function forTests({ response, store, view, others, of }: { response: Resp
         unitCircle: () => view.unitCircle(),
         multipliersOf: (solution) => view.multipliersOf(solution),
         saved: async (ending) => {
-            const blob = await response.saved(ending, of);
+            const blob = await saved(response.frame, response.scene(), ending, of);
             return ending === "png" ? `${blob.type} ${blob.size}` : blob.text();
         },
         compare: (name, text) => others.open([{ name, text: () => Promise.resolve(text) }]),
-        marks: () => marksOf(response.frame, response.scene()).map(({ mark, solution, at }) => ({ layer: mark.layer, solution, at, room: mark.room * response.frame.density })),
+        marks: () =>
+            marksOf(response.frame, response.scene()).map(({ mark, solution, at }) => ({
+                layer: mark.layer,
+                solution,
+                at,
+                room: mark.room * response.frame.density,
+            })),
         labels: () => {
             const { ticks, label } = response.frame;
-            return { x: ticks.x.labelled.map(([, text]) => text), y: ticks.y.labelled.map(([, text]) => text), titles: [label.x, label.y], minor: ticks.y.minor.length };
+            return {
+                x: ticks.x.labelled.map(([, text]) => text),
+                y: ticks.y.labelled.map(([, text]) => text),
+                titles: [label.x, label.y],
+                minor: ticks.y.minor.length,
+            };
         },
     };
 }

@@ -11,10 +11,21 @@ import type { State } from "./state";
 import { MEASURES } from "./units";
 
 /** Of the numbers of a solution those that are told beside the pointer. */
-const WANTED = ["Frequency", "Branch", "Stability", "Event", "Max. displacement", "Max. acceleration", "Max. contact force", "Leading multiplier"];
+const WANTED = [
+    "Frequency",
+    "Branch",
+    "Stability",
+    "Event",
+    "Max. displacement",
+    "Max. acceleration",
+    "Max. contact force",
+    "Leading multiplier",
+];
 
 export function tipText(meta: Meta, solutions: Solutions, state: State, picked: Picked): Node[] {
-    return rowsOf(meta, solutions, state, picked).map(([name, text]) => element("div", {}, [element("b", {}, [name]), ` ${text}`]));
+    return rowsOf(meta, solutions, state, picked).map(([name, text]) =>
+        element("div", {}, [element("b", {}, [name]), ` ${text}`]),
+    );
 }
 
 function rowsOf(meta: Meta, solutions: Solutions, state: State, picked: Picked): [string, string][] {
@@ -25,8 +36,14 @@ function rowsOf(meta: Meta, solutions: Solutions, state: State, picked: Picked):
         return dotText(picked.dot, state);
     }
     const section = meta.sections[nearestSection(meta, picked.frequency, picked.range)];
-    const opens = section === undefined ? "no motion is stored" : `the Poincaré section at ${shortHertz(section.frequency, 6)}`;
-    return [["Chaotic motion", rangeText(picked.range)], ["Click", opens]];
+    const opens =
+        section === undefined
+            ? "no motion is stored"
+            : `the Poincaré section at ${shortHertz(section.frequency, 6)}`;
+    return [
+        ["Chaotic motion", rangeText(picked.range)],
+        ["Click", opens],
+    ];
 }
 
 /** A range of the frequency, or a single one. */

@@ -3,12 +3,36 @@
 import { element } from "./dom";
 
 const STOPS: readonly (readonly [selector: string, heading: string, text: string])[] = [
-    [".diagram", "The response diagram", "Each line is a branch of periodic solutions: solid where they are stable, dashed where they are unstable. Marks are bifurcations; more of them appear as you zoom in. Zoom with the wheel, a box or two fingers; click on a solution to see its motion."],
-    [".legend", "The legend", "Every entry is a switch: a kind of solutions, of lines or of marks, other results that you compare with."],
-    [".controls", "What the axes show", "Any stored quantity over the frequency, over another quantity or over another parameter that was varied. Save takes what is seen as SVG, PNG or CSV. Compare draws other results behind these."],
-    [".solution", "The selected solution", "Its numbers, the structure in motion, its Floquet multipliers, its orbit over time, in the phase plane and as a spectrum. Arrow keys go along the branch."],
-    ["#branches", "Branches", "All branches with their ranges. Press a head to sort, type to filter, untick to leave a branch out."],
-    ["#bifurcations", "Bifurcations", "A row leads to its point. By its number a new run starts there, also with changed parameters."],
+    [
+        ".diagram",
+        "The response diagram",
+        "Each line is a branch of periodic solutions: solid where they are stable, dashed where they are unstable. Marks are bifurcations; more of them appear as you zoom in. Zoom with the wheel, a box or two fingers; click on a solution to see its motion.",
+    ],
+    [
+        ".legend",
+        "The legend",
+        "Every entry is a switch: a kind of solutions, of lines or of marks, other results that you compare with.",
+    ],
+    [
+        ".controls",
+        "What the axes show",
+        "Any stored quantity over the frequency, over another quantity or over another parameter that was varied. Save takes what is seen as SVG, PNG or CSV. Compare draws other results behind these.",
+    ],
+    [
+        ".solution",
+        "The selected solution",
+        "Its numbers, the structure in motion, its Floquet multipliers, its orbit over time, in the phase plane and as a spectrum. Arrow keys go along the branch.",
+    ],
+    [
+        "#branches",
+        "Branches",
+        "All branches with their ranges. Press a head to sort, type to filter, untick to leave a branch out.",
+    ],
+    [
+        "#bifurcations",
+        "Bifurcations",
+        "A row leads to its point. By its number a new run starts there, also with changed parameters.",
+    ],
 ];
 
 /** Starts the tour; Escape or the last step ends it, and the focus goes back to where it was. */
@@ -26,7 +50,11 @@ export function startTour(): void {
     const back = element("button", { type: "button" }, ["Back"]);
     const next = element("button", { type: "button" });
     const stop = element("button", { type: "button" }, ["End"]);
-    const card = element("dialog", { class: "tour", "aria-live": "polite" }, [heading, text, element("div", { class: "controls" }, [back, next, stop])]);
+    const card = element("dialog", { class: "tour", "aria-live": "polite" }, [
+        heading,
+        text,
+        element("div", { class: "controls" }, [back, next, stop]),
+    ]);
     let place = 0;
     const show = (): void => {
         const at = stops[place];

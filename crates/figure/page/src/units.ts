@@ -2,7 +2,10 @@
 
 import type { Meta, Quantity, Solutions } from "./data";
 
-/** What an axis of the response diagram can show. `parameter` is that along which branches were followed: mostly the frequency. */
+/**
+ * What an axis of the response diagram can show. `parameter` is that along which branches were followed:
+ * mostly the frequency.
+ */
 export type Axis = "parameter" | Quantity | "multiplier" | "contacts" | "energy";
 
 export interface Measure {
@@ -15,7 +18,16 @@ export interface Measure {
     factor: number;
 }
 
-const PREFIXES: readonly (readonly [string, number])[] = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9], ["p", 1e-12]];
+const PREFIXES: readonly (readonly [string, number])[] = [
+    ["G", 1e9],
+    ["M", 1e6],
+    ["k", 1e3],
+    ["", 1],
+    ["m", 1e-3],
+    ["µ", 1e-6],
+    ["n", 1e-9],
+    ["p", 1e-12],
+];
 
 /** The measures of this page; `chooseUnits` fits their units to its values. */
 export const MEASURES: Record<Quantity | "multiplier" | "contacts" | "energy" | "frequency", Measure> = {
@@ -35,7 +47,8 @@ export const MEASURES: Record<Quantity | "multiplier" | "contacts" | "energy" | 
  * * `least`: the smallest number for it that is easily read.
  */
 export function prefixFor(largest: number, least = 0.2): readonly [string, number] {
-    const suits = ([prefix, size]: readonly [string, number]): boolean => largest / size >= (size > 1 ? 1 : prefix === "" ? least : 0.2);
+    const suits = ([prefix, size]: readonly [string, number]): boolean =>
+        largest / size >= (size > 1 ? 1 : prefix === "" ? least : 0.2);
     return (Number.isFinite(largest) && largest > 0 ? PREFIXES.find(suits) : undefined) ?? ["", 1];
 }
 
@@ -51,12 +64,20 @@ function largestOf(values: ArrayLike<number>): number {
 
 /** Fits the units to what the page holds. */
 export function chooseUnits(meta: Meta, solutions: Solutions): void {
-    const set = (key: keyof typeof MEASURES, [prefix, size]: readonly [string, number], unit: string): void => {
+    const set = (
+        key: keyof typeof MEASURES,
+        [prefix, size]: readonly [string, number],
+        unit: string,
+    ): void => {
         MEASURES[key] = { ...MEASURES[key], unit: `${prefix}${unit}`, factor: 1 / size };
     };
     const maxima = solutions.maxima;
-    const measured = (quantity: Quantity): number[] => meta.measured.filter((one) => one.quantity === quantity).flatMap(({ points }) => points.map(({ shifted }) => shifted[1] ?? 0));
-    const largest = (quantity: Quantity): number => Math.max(largestOf(maxima[quantity]), largestOf(measured(quantity)));
+    const measured = (quantity: Quantity): number[] =>
+        meta.measured
+            .filter((one) => one.quantity === quantity)
+            .flatMap(({ points }) => points.map(({ shifted }) => shifted[1] ?? 0));
+    const largest = (quantity: Quantity): number =>
+        Math.max(largestOf(maxima[quantity]), largestOf(measured(quantity)));
     const motions = largestOf(meta.motions.map(({ displacement }) => displacement ?? 0));
     const displacement = Math.max(largest("displacement"), motions);
     if (displacement > 0) {
@@ -68,7 +89,11 @@ export function chooseUnits(meta: Meta, solutions: Solutions): void {
     set("acceleration", prefixFor(Math.min(largest("acceleration"), 999)), "m/s²");
     set("velocity", prefixFor(Math.min(largest("velocity"), 999)), "m/s");
     const highest = meta.range[1];
-    set("frequency", highest >= 1e4 ? prefixFor(highest) : highest < 0.01 ? prefixFor(highest) : ["", 1], "Hz");
+    set(
+        "frequency",
+        highest >= 1e4 ? prefixFor(highest) : highest < 0.01 ? prefixFor(highest) : ["", 1],
+        "Hz",
+    );
 }
 
 /** The label of an axis: what and in which unit. */
@@ -79,7 +104,9 @@ export function axisLabel({ title, unit }: Measure): string {
 /** What the parameter of a set of branches measures: 0 is the frequency. */
 export function parameterMeasure(meta: Meta, over: number): Measure {
     const parameter = meta.parameters[over - 1];
-    return parameter === undefined ? MEASURES.frequency : { name: parameter.title, title: parameter.title, unit: parameter.unit, factor: 1 };
+    return parameter === undefined
+        ? MEASURES.frequency
+        : { name: parameter.title, title: parameter.title, unit: parameter.unit, factor: 1 };
 }
 
 export function measureOf(meta: Meta, axis: Axis, over: number): Measure {

@@ -1,4 +1,5 @@
-// Columns of numbers as the page carries them: second differences of their bits, byte by byte, deflated (see packed.rs of the figure crate).
+// Columns of numbers as the page carries them: second differences of their bits, byte by byte, deflated (see
+// packed.rs of the figure crate).
 
 import { bytesOf } from "./base64";
 

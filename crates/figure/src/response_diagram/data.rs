@@ -147,3 +147,8 @@ impl ResponseQuantity {
         }
     }
 }
+
+/// Solutions of a period multiple in words.
+pub(super) fn period_name(multiple: u32) -> String {
+    if multiple <= 1 { "harmonic".to_owned() } else { format!("1/{multiple} subharmonic") }
+}

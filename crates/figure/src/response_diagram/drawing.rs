@@ -1,7 +1,7 @@
 //! The layout of title, legend and panels.
 
 use super::{
-    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings},
+    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings, period_name},
     panel::ResponsePanel,
 };
 use crate::{
@@ -272,8 +272,4 @@ fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram) -> Vec<Vec<Legen
 fn mark_name(mark: Mark, panels: &[ResponsePanel]) -> String {
     let stands_for_both = mark == Mark::Flip && panels.iter().any(|panel| panel.branches_at_flips() > 0);
     if stands_for_both { "flip, branch point of twice the period".to_owned() } else { mark.name().to_owned() }
-}
-
-pub(super) fn period_name(multiple: u32) -> String {
-    if multiple <= 1 { "harmonic".to_owned() } else { format!("1/{multiple} subharmonic") }
 }

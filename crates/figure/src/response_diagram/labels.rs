@@ -1,7 +1,7 @@
 //! Names beside the lines: where branches of several periods are drawn, the longest line of each has its name
 //! beside it if one fits between lines, marks and frame. The legend names them all the same.
 
-use super::drawing::period_name;
+use super::data::period_name;
 use crate::{
     decimate::distance,
     font::CAPITAL_HEIGHT,

@@ -11,7 +11,7 @@ use crate::{
     JobError, MirrorImage, Observer, OrbitSolver, PreparedStudy, StoredBranches,
     run::report::BranchReport,
     settled::settled_states,
-    special_point::states_near,
+    special_point::{NearPoint, near_point},
     varied::{self, VariedOutcome},
 };
 
@@ -86,7 +86,14 @@ fn met_at(
 ) -> Result<Vec<PeriodicSolution>, JobError> {
     let store = Store::open(&origin.folder)?;
     let Some(number) = origin.special_point else { return Ok(solver.settled(&settled_states(&store)?)) };
-    let found = solver.near(&states_near(&store, number)?);
+    let system = PreparedStudy::of_store(&store)?.model.system;
+    let states = match near_point(&store, &system, number)? {
+        NearPoint::States(states) => states,
+        NearPoint::Missing { count } => {
+            return Err(JobError::NoSpecialPoint { results: origin.folder.clone(), number, count });
+        }
+    };
+    let found = solver.near(&states);
     if found.is_empty() {
         let results = origin.folder.display();
         observer.notice(&format!(
