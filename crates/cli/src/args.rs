@@ -1,11 +1,11 @@
 //! The command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
-use hammerbeam_jobs::verify::TOLERANCE;
+use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
 use hammerbeam_study::file::DrawnOrbit;
 
 use crate::{
@@ -181,9 +181,10 @@ pub struct RunOptions {
     pub out: PathBuf,
 
     /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
-    /// folder and that no branch holds; may be given several times
-    #[arg(long, value_name = "DIR")]
-    pub from: Vec<PathBuf>,
+    /// folder and that no branch holds; or at a special point of its branches, by the number that page.html
+    /// shows: results:12; may be given several times
+    #[arg(long, value_name = "DIR[:POINT]", value_parser = origin)]
+    pub from: Vec<RunOrigin>,
 
     /// Number of threads [default: all cores]; the results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
@@ -280,6 +281,10 @@ pub struct FigureOptions {
     /// Scale of the vertical axis of response diagrams
     #[arg(long, value_enum, default_value_t = ScaleName::Automatic)]
     pub scale: ScaleName,
+
+    /// Draw a crowded part of the frequency axis of response diagrams again below, larger: 84:93
+    #[arg(long, value_name = "FROM:TO", value_parser = detail)]
+    pub detail: Option<(f64, f64)>,
 
     /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may
     /// be given several times [default: those of the study]
@@ -447,6 +452,24 @@ fn resolution(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if (24.0..=1200.0).contains(&number) => Ok(number),
         _ => Err("must be 24 to 1200 pixels per inch".to_owned()),
+    }
+}
+
+/// `DIR`, or `DIR:POINT` for a special point; a folder whose name ends so is meant as a whole.
+fn origin(text: &str) -> Result<RunOrigin, std::convert::Infallible> {
+    let point = text.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
+    Ok(match point.filter(|_| !Path::new(text).is_dir()) {
+        Some((folder, number)) => RunOrigin { folder: folder.into(), special_point: Some(number) },
+        None => RunOrigin { folder: text.into(), special_point: None },
+    })
+}
+
+/// `FROM:TO` in hertz, in order.
+fn detail(text: &str) -> Result<(f64, f64), String> {
+    let ends = text.split_once(':').and_then(|(from, to)| Some((hertz(from)?, hertz(to)?)));
+    match ends {
+        Some((from, to)) if 0.0 < from && from < to && to.is_finite() => Ok((from, to)),
+        _ => Err("must be two frequencies in hertz, the lower one first: 84:93".to_owned()),
     }
 }
 

@@ -154,6 +154,21 @@ mod tests {
         assert_eq!(left_after(0.5, little_is_new), None, "what an earlier command did says nothing");
     }
 
+    /// A run of eight seconds is never said to take three minutes, whatever it does.
+    #[test]
+    fn what_is_left_is_at_most_nine_times_what_has_passed() {
+        for power in [0.2, 0.5, 1.0, 2.0, 5.0] {
+            let mut past = Past::from(0.0);
+            for second in seconds(8) {
+                let left = past.left(Duration::from_secs_f64(second), (second / 8.0).powf(power));
+                assert!(
+                    left.is_none_or(|left| left.as_secs_f64() <= 9.0 * second + 1e-6),
+                    "{left:?} at {second}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn nothing_is_said_while_work_stalls_or_leaps() {
         let stalled = seconds(40).map(|second| (second, if second < 20.0 { 0.01 * second } else { 0.2 }));

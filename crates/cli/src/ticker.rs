@@ -20,6 +20,8 @@ pub struct Ticker {
     begun: Instant,
     changed: Instant,
     pace: Option<Pace>,
+    /// What was shown last.
+    shown: String,
 }
 
 impl Ticker {
@@ -39,7 +41,15 @@ impl Ticker {
         bar.set_style(style.expect("the template is constant").progress_chars("=> "));
         bar.set_prefix(what.to_owned());
         let now = Instant::now();
-        Self { bar, lines: Lines::begin(), what: what.to_owned(), begun: now, changed: now, pace: None }
+        Self {
+            bar,
+            lines: Lines::begin(),
+            what: what.to_owned(),
+            begun: now,
+            changed: now,
+            pace: None,
+            shown: String::new(),
+        }
     }
 
     /// So many are done.
@@ -61,11 +71,24 @@ impl Ticker {
         let message = left.unwrap_or_default() + &message();
         if self.bar.is_hidden() {
             let of = total.map(|total| format!(" of {total}")).unwrap_or_default();
-            self.lines.say(|| format!("{done}{of} {}, {message}", self.what));
+            self.shown = format!("{done}{of} {}, {message}", self.what);
+            self.say();
         } else {
             self.bar.set_position(done);
             self.bar.set_message(message);
         }
+    }
+
+    /// Says every ten seconds where the work is, where no bar can be shown: also while nothing is counted.
+    pub fn say(&mut self) {
+        let shown = match self.shown.as_str() {
+            "" => format!("{} under way", self.what),
+            shown => shown.to_owned(),
+        };
+        if !ProgressDrawTarget::stderr().is_hidden() {
+            return;
+        }
+        self.lines.say(|| shown);
     }
 
     /// Takes the bar away.

@@ -50,6 +50,9 @@ impl Observer for Watch {
     }
 
     fn interrupted(&mut self) -> bool {
+        if let Some(ticker) = &mut self.ticker {
+            ticker.say();
+        }
         self.interrupt.raised()
     }
 }

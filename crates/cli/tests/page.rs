@@ -17,8 +17,8 @@ use crate::common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
-    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
-    PageStructure, ResponseQuantity, SectionPlane,
+    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
+    PageSolution, PageStop, PageStructure, ResponseQuantity, SectionPlane,
 };
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{Side, states_at_phase};
@@ -170,12 +170,12 @@ fn odd_pages(workshop: &Workshop) -> Value {
         ..Page::default()
     };
     let pages = [
-        ("nine periods", periods, 9, vec!["period 9"], "No orbit of this branch"),
+        ("nine periods", periods, 9, vec!["1/9 subharmonic"], "No orbit of this branch"),
         (
             "a branch of one point",
             lone,
             2,
-            vec!["& <nothing> else", "Click on a solution"],
+            vec!["& <nothing> else", "1/2 subharmonic"],
             "No orbit of this branch",
         ),
         (
@@ -224,6 +224,8 @@ fn everything() -> Page {
         fold: k == 5,
         ..PageSolution::default()
     };
+    let over_the_gap =
+        |k: u32| PageSolution { frequency_hz: 20.0, parameter: 0.1 * f64::from(k), ..solution(k) };
     let wave = |count: u32, size: f64| -> Vec<f64> {
         (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
     };
@@ -274,12 +276,27 @@ fn everything() -> Page {
         title: "Two masses".to_owned(),
         point: "first".to_owned(),
         frequency_range_hz: (10.0, 30.0),
-        branches: vec![PageBranch {
-            id: 7,
-            period_multiple: 1,
-            ends: ["one".to_owned(), "other".to_owned()],
-            solutions: (0..20).map(solution).collect(),
+        parameters: vec![PageParameter {
+            title: "Gap of stop 1".to_owned(),
+            unit: "mm".to_owned(),
+            frequency_hz: 20.0,
         }],
+        branches: vec![
+            PageBranch {
+                id: 7,
+                period_multiple: 1,
+                over: 0,
+                ends: ["one".to_owned(), "other".to_owned()],
+                solutions: (0..20).map(solution).collect(),
+            },
+            PageBranch {
+                id: 8,
+                period_multiple: 2,
+                over: 1,
+                ends: ["one".to_owned(), "other".to_owned()],
+                solutions: (0..5).map(over_the_gap).collect(),
+            },
+        ],
         orbits,
         multipliers,
         structure: Some(PageStructure {

@@ -33,6 +33,7 @@ mod rig;
 mod run;
 mod same_bytes;
 mod signal;
+mod special_points;
 mod structures;
 mod unbounded;
 mod unwritable;

@@ -8,7 +8,8 @@
 //! | `selection.rs` | what of a folder is drawn, and in which formats |
 //! | `drawn.rs` | files as they are drawn, on the threads of a pool |
 //! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
-//! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions that need not repeat |
+//! | `varied.rs`, `multipliers.rs`, `motions.rs` | branches in other parameters, multipliers, motions |
+//! | `parameter.rs` | parameters in words |
 //! | [`orbit`] | one orbit over its period |
 //! | `compare.rs` | measured points over branches |
 //! | `page.rs`, `page/` | the page |
@@ -38,6 +39,7 @@ mod motions;
 mod multipliers;
 pub mod orbit;
 mod page;
+mod parameter;
 mod selection;
 mod structure;
 mod varied;
@@ -58,6 +60,8 @@ pub use compare::draw_compared;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, draw_into};
 pub use error::DrawingError;
 pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};
+
+use parameter::{axis_label, file_name};
 
 /// Resolution of the PNG files, in pixels per inch, where none is asked for.
 pub const RESOLUTION: f64 = 300.0;
@@ -121,7 +125,7 @@ fn draw_kind(
 ) -> Result<(), DrawingError> {
     match kind {
         FigureKind::Structure => draw_linear(drawn, file, model),
-        FigureKind::Response => draw_response(store, file, selection.scale, drawn)?,
+        FigureKind::Response => draw_response(store, file, selection, drawn)?,
         FigureKind::Vary => varied::draw(store, selection.scale, drawn)?,
         FigureKind::Curves => draw_curves(store, drawn)?,
         FigureKind::Multipliers => multipliers::draw(store, drawn)?,
@@ -157,7 +161,7 @@ pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
 fn draw_response(
     store: &Store,
     file: &StudyFile,
-    scale: FigureScale,
+    selection: &FigureSelection,
     drawn: &mut Drawn<'_>,
 ) -> Result<(), DrawingError> {
     let diagram = diagram(store, file.study.excitation.range_hz())?;
@@ -165,7 +169,9 @@ fn draw_response(
         return Ok(());
     }
     for (word, quantity) in quantities(&diagram.curves) {
-        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale, drawn)));
+        let settings =
+            ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
     }
     Ok(())
 }
@@ -196,6 +202,7 @@ fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
         displacement_scale: choice,
         acceleration_scale: choice,
         contact_scale: choice,
+        detail_hz: None,
     }
 }
 
@@ -262,27 +269,6 @@ fn codimension_two(events: &str) -> String {
         event => event.strip_prefix("resonance-").map(str::to_owned),
     };
     events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
-}
-
-/// A parameter as part of a file name.
-fn file_name(parameter: &str) -> String {
-    parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
-}
-
-/// A parameter in words, with its unit.
-fn axis_label(parameter: &str) -> String {
-    let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
-    let stop = owner.strip_prefix("stop.").map_or(String::new(), |stop| format!(" of stop {stop}"));
-    match key {
-        "amplitude_m" => "Excitation amplitude (m)".to_owned(),
-        "amplitude_n" => "Excitation amplitude (N)".to_owned(),
-        "gap_m" => format!("Gap{stop} (m)"),
-        "stiffness_n_m" => format!("Stiffness{stop} (N/m)"),
-        "stiffness_n_m15" => format!("Stiffness{stop} (N/m^1.5)"),
-        "stiffness_n_m3" => format!("Stiffness{stop} (N/m³)"),
-        "modal_ratio" => "Modal damping ratio (–)".to_owned(),
-        _ => parameter.to_owned(),
-    }
 }
 
 fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {

@@ -6,6 +6,7 @@ mod irregular;
 mod measured;
 mod orbits;
 mod shape;
+mod varied;
 
 use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
 use hammerbeam_orbit::{Side, Stability};
@@ -40,6 +41,7 @@ pub fn draw(
         point: file.study.response.point.clone(),
         frequency_range_hz: (low, high),
         notice: notice(store, &records)?,
+        folder_name: store.folder().file_name().unwrap_or_default().to_string_lossy().into_owned(),
         branches: records.iter().zip(&stored).map(|(record, places)| branch(record, places)).collect(),
         multipliers: multipliers(store, &records, drawn)?,
         structure: Some(shape::structure(file, model)),
@@ -50,6 +52,8 @@ pub fn draw(
         figures: gallery::figures(store, (file, model), drawn)?,
         ..Page::default()
     };
+    energies(store, (&records, &stored), &model.system.model().natural_frequencies, &mut page.branches)?;
+    varied::add(store, &mut page)?;
     let most = page.room_for_orbits();
     page.orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
     if !drawn.is_stopped() {
@@ -113,6 +117,37 @@ fn places(store: &Store, record: &BranchRecord) -> Result<Vec<Placed>, StoreErro
     Ok(places)
 }
 
+/// Energies of all solutions whose orbits start at phase 0; those of damaged ones stay unknown.
+///
+/// `½ Σ (q'_k² + ω_k² q_k²)` over the modes `k`, which have a mass of one: kinetic energy and that of the
+/// structure's springs, without the stops [J].
+fn energies(
+    store: &Store,
+    (records, stored): (&[BranchRecord], &[Vec<Placed>]),
+    rates: &[f64],
+    branches: &mut [PageBranch],
+) -> Result<(), StoreError> {
+    for ((record, placed), branch) in records.iter().zip(stored).zip(branches) {
+        for (placed, solution) in placed.iter().zip(&mut branch.solutions) {
+            match store.solution(record.start, placed.side, placed.number) {
+                Err(error) if error.is_of_solutions() => {}
+                found => {
+                    let found = found?;
+                    let state = found.nodes.first().filter(|_| found.phase == 0.0);
+                    solution.energy_j = state.map_or(f64::NAN, |state| energy(state, rates));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn energy(state: &[f64], rates: &[f64]) -> f64 {
+    let (displacements, velocities) = state.split_at(state.len() / 2);
+    let modes = displacements.iter().zip(velocities).zip(rates);
+    0.5 * modes.map(|((q, v), rate)| v * v + (rate * q).powi(2)).sum::<f64>()
+}
+
 fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
     let end = |walk: &WalkRecord| {
         walk.reason.as_ref().map_or_else(|| "not finished".to_owned(), |reason| reason.message.clone())
@@ -120,6 +155,7 @@ fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
     PageBranch {
         id: record.id,
         period_multiple: record.period_multiple,
+        over: 0,
         ends: [end(&record.down), end(&record.up)],
         solutions: places.iter().map(|placed| solution(&placed.row)).collect(),
     }
@@ -128,6 +164,8 @@ fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
 fn solution(row: &Row) -> PageSolution {
     PageSolution {
         frequency_hz: row.frequency_hz,
+        parameter: row.frequency_hz,
+        energy_j: f64::NAN,
         displacement_m: row.maxima.displacement,
         acceleration_m_s2: row.maxima.acceleration,
         force_n: row.maxima.contact_force,

@@ -89,6 +89,8 @@ pub struct FigureSelection {
     pub kinds: Vec<FigureKind>,
     /// Scale of the vertical axis of response diagrams.
     pub scale: FigureScale,
+    /// Part of the frequency axis of response diagrams that is drawn again below, larger [Hz].
+    pub detail_hz: Option<(f64, f64)>,
     /// Orbits at frequencies.
     pub orbits: Vec<DrawnOrbit>,
     /// Cut-off of the filter behind which accelerations of orbits are drawn as well [Hz].
@@ -103,6 +105,7 @@ impl FigureSelection {
         Self {
             kinds: FigureKind::ALL.to_vec(),
             scale: FigureScale::Automatic,
+            detail_hz: None,
             orbits: figures.orbits.clone(),
             low_pass_hz: figures.low_pass_hz,
         }

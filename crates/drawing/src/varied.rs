@@ -7,7 +7,11 @@ use hammerbeam_results::{
     store::{PieceRecord, StoredVariedRow},
 };
 
-use super::{Album, axis_label, file_name, quantities, settings};
+use super::{
+    Album,
+    parameter::{axis_label, file_name},
+    quantities, settings,
+};
 use crate::{DrawingError, FigureScale};
 
 /// Draws every `[[vary]]` of the study.

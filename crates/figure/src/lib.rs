@@ -30,13 +30,13 @@
 //! | module | contents |
 //! |---|---|
 //! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
-//! | `scale`, `ticks`, `axis`, `plot` | linear and logarithmic scales, their ticks, a frame with two axes |
+//! | `scale`, `ticks`, `axis`, `axis_unit`, `plot` | linear and logarithmic scales, their ticks, units that suit them, a frame with two axes |
 //! | `stretch` | a branch divided where its stability changes |
 //! | `decimate`, `line` | fewer points for the same line, dashes |
 //! | `chart` | panels on top of each other under one legend |
 //! | `layer` | lines, dots, intervals, cells, shades, reference lines |
 //! | `sketch` | symbols of mechanics: walls, springs, dampers, arrows, dimension lines |
-//! | `marks`, `dots`, `legend` | a mark for each kind of event, thinned where they overlap; the legend |
+//! | `marks`, `dots`, `legend` | a mark for each kind of event; the legend |
 //! | `text`, `font` | lines with italic parts, numbers as printed, widths of the bundled font's glyphs |
 //! | `page` | the page that shows a results folder: contents, coding, HTML file; its script is in `page/` |
 //! | `svg` | the few elements we need, in points |
@@ -64,6 +64,7 @@
 //!   Helvetica, which have the same widths.
 
 mod axis;
+mod axis_unit;
 mod base64;
 mod basin_map;
 mod bifurcation;
@@ -117,8 +118,8 @@ pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample};
 pub use page::{
     MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageImpulse,
-    PageLink, PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution,
-    PageStop, PageStructure, SectionPlane,
+    PageLink, PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
+    PageSolution, PageStop, PageStructure, SectionPlane,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{

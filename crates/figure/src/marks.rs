@@ -1,10 +1,7 @@
-//! One mark for each kind of event on a branch, and thinning of marks.
-
-use std::collections::HashMap;
+//! One mark for each kind of event on a branch.
 
 use crate::{
-    decimate::distance,
-    style::{INK, PALE_INK, PAPER},
+    style::{INK, PALE_INK, PAPER, Style},
     svg::{PagePoint, Stroke, SvgWriter, number},
 };
 
@@ -39,9 +36,20 @@ impl Mark {
         matches!(self, Self::Grazing | Self::OfUnstable)
     }
 
-    /// The places of the marks that are drawn.
-    pub(crate) fn thin_out(self, places: &[PagePoint], least_distance: f64) -> Vec<PagePoint> {
-        thin_out(places, if self.is_behind() { 1.5 * least_distance } else { least_distance })
+    /// Room around the place of a mark (pt): two marks are no nearer to each other than theirs together.
+    pub(crate) fn room(self, style: &Style) -> f64 {
+        let radius = style.mark_radius;
+        let reach = match self {
+            Self::Flip => 1.6 * radius,
+            Self::NeimarkSacker => 1.3 * radius,
+            Self::BranchPoint => 1.4 * radius,
+            Self::Fold => 0.8 * radius,
+            Self::FoldAtGrazing => 1.1 * radius,
+            Self::OfUnstable => 0.7 * radius,
+            Self::Grazing => 1.3 * radius,
+        };
+        let least = if self.is_behind() { 0.75 } else { 0.5 } * style.mark_distance;
+        (reach + 0.25).max(least)
     }
 
     /// The name in the legend.
@@ -111,47 +119,9 @@ pub(crate) fn square(at: PagePoint, half: f64) -> String {
     format!("M{} {}h{side}v{side}h-{side}z", number(at.x - half), number(at.y - half))
 }
 
-/// The places at least `least_distance` from all earlier ones that stay.
-fn thin_out(places: &[PagePoint], least_distance: f64) -> Vec<PagePoint> {
-    let cell_of = |place: PagePoint| {
-        ((place.x / least_distance).floor() as i64, (place.y / least_distance).floor() as i64)
-    };
-    let mut cells: HashMap<(i64, i64), Vec<PagePoint>> = HashMap::new();
-    let mut kept = Vec::new();
-    for &place in places {
-        let (column, row) = cell_of(place);
-        let near = (column - 1..=column + 1)
-            .flat_map(|column| (row - 1..=row + 1).map(move |row| (column, row)))
-            .filter_map(|cell| cells.get(&cell))
-            .flatten()
-            .any(|&other| distance(place, other) < least_distance);
-        if !near {
-            cells.entry((column, row)).or_default().push(place);
-            kept.push(place);
-        }
-    }
-    kept
-}
-
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::*;
-
-    proptest! {
-        #[test]
-        fn marks_that_stay_are_apart_and_cover_those_that_go(
-            places in prop::collection::vec((-20.0..20.0, -20.0..20.0), 0..200),
-        ) {
-            let places: Vec<PagePoint> = places.into_iter().map(|(x, y)| PagePoint { x, y }).collect();
-            let kept = thin_out(&places, 3.0);
-            for (i, &a) in kept.iter().enumerate() {
-                prop_assert!(kept[..i].iter().all(|&b| distance(a, b) >= 3.0));
-            }
-            prop_assert!(places.iter().all(|&a| kept.iter().any(|&b| distance(a, b) < 3.0)));
-        }
-    }
 
     #[test]
     fn every_mark_has_its_own_outline() {

@@ -2,7 +2,7 @@
 //! network.
 //!
 //! The file contains a short script and its data: small data as JSON, solutions and their multipliers as
-//! little-endian arrays, and orbits as records, in base64. Solutions are decoded when the page opens,
+//! deflated columns, and orbits as records, in base64. Solutions are decoded when the page opens,
 //! multipliers when a solution is selected for the first time. Orbits are decoded individually on demand: the
 //! length of each record is a multiple of three bytes, so that its position in the base64 text is known.
 //! Their values are rounded to less than a pixel of the drawings (`page/orbits/record.rs`).
@@ -18,8 +18,11 @@ mod measured;
 mod motions;
 mod multipliers;
 mod orbits;
+mod packed;
 
-pub use content::{Page, PageBranch, PageLink, PagePlace, PageSolution, PageStop, PageStructure};
+pub use content::{
+    Page, PageBranch, PageLink, PageParameter, PagePlace, PageSolution, PageStop, PageStructure,
+};
 pub use figures::{PageFigure, PageFigures};
 pub use measured::{PageMeasured, PageMeasuredPoint};
 pub use motions::{PageMotion, PageSection, SectionPlane};

@@ -6,7 +6,10 @@
 mod data;
 mod drawing;
 mod joined;
+mod labels;
 mod panel;
+mod quantity;
+mod spread;
 
 pub use data::{
     MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,

@@ -150,8 +150,8 @@ pub struct Style {
     pub tick_length: f64,
     /// Radius of a mark (pt).
     pub mark_radius: f64,
-    /// Least distance between two marks of a kind (pt); closer ones are left out. For grazing marks it is
-    /// half as much again.
+    /// Least distance between two marks (pt); closer ones are left out. Larger marks keep more, so that none
+    /// covers another; for pale marks it is half as much again.
     pub mark_distance: f64,
     /// Distance of two groups of strokes across a line, and of two strokes of a group (pt).
     pub stroke_spacing: (f64, f64),

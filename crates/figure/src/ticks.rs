@@ -80,15 +80,22 @@ fn linear_label(value: f64, step: f64, step_exponent: i32, magnitude: f64) -> St
     power_of_ten(&decimal(value / 10f64.powi(exponent), decimals), exponent)
 }
 
-/// Decades, with labels at 2 and 5 if there is room, and ticks at 2 to 9 if they can be distinguished.
+/// Decades, with labels at 2 and 5 if there is room, and ticks at 2 to 9 if they can be distinguished. Every
+/// tick has a label only where there is room and hardly any other.
 /// Labels of decades may be almost twice as close as others before some are left out.
 fn logarithmic(scale: &Scale, wanted: f64) -> Vec<Tick> {
     let decades = (scale.to / scale.from).log10();
     if !decades.is_normal() {
         return Vec::new();
     }
+    let is_within = |value: f64| (0.0..=1.0).contains(&scale.share(value));
+    let count = |mantissas: &[u8]| {
+        let exponents = scale.from.log10().floor() as i32..=scale.to.log10().ceil() as i32;
+        let values = exponents.flat_map(|exponent| mantissas.iter().map(move |&one| (one, exponent)));
+        values.filter(|&(one, exponent)| is_within(f64::from(one) * 10f64.powi(exponent))).count()
+    };
     let mantissas: &[u8] = match wanted / decades {
-        room if room >= 9.0 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
+        room if room >= 9.0 && count(&[1, 2, 5]) < 3 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
         room if room >= 2.5 => &[1, 2, 5],
         _ => &[1],
     };

@@ -24,6 +24,7 @@ fn figure_3(solutions: usize) -> Page {
     let branch = |id| PageBranch {
         id,
         period_multiple: id % 3 + 1,
+        over: 0,
         ends: ["end of the frequency range at 110 Hz".to_owned(), "not finished".to_owned()],
         solutions: (0..of_branch).map(solution).collect(),
     };

@@ -257,3 +257,82 @@ proptest! {
         }
     }
 }
+
+/// A branch of period 2 with many flips close to each other, stable on one side of the middle only.
+fn crowd() -> Vec<ResponsePoint> {
+    let flip = |k: u32| ResponsePoint {
+        flip: k % 2 == 1,
+        stable: k > 300,
+        ..point(30.0 + 0.01 * f64::from(k), 1.0 + 1e-3 * f64::from(k))
+    };
+    (0..=400).map(flip).collect()
+}
+
+/// Places of the diamonds of a figure (pt).
+fn diamonds(svg: &str) -> Vec<(f64, f64)> {
+    // The first one is in the legend.
+    let paths = svg.split("<path d=\"").filter(|path| path.contains("l2.08 2.08l-2.08 2.08"));
+    let path = paths.last().unwrap_or_default();
+    let start = |one: &str| {
+        let (x, rest) = one.split_once(' ')?;
+        Some((x.parse().ok()?, rest.split('l').next()?.parse().ok()?))
+    };
+    path.split('M').filter_map(start).collect()
+}
+
+#[test]
+fn marks_keep_a_distance_and_those_of_stable_solutions_come_first() {
+    let figure = displacement(&diagram(&[(2, &crowd())]));
+    let places = diamonds(&figure.svg());
+    assert!(places.len() > 5, "{}", figure.svg().len());
+    for (k, one) in places.iter().enumerate() {
+        for other in &places[..k] {
+            let away = (one.0 - other.0).hypot(one.1 - other.1);
+            assert!(away >= 4.6, "{away} pt");
+        }
+    }
+    // Flips of unstable solutions have another mark: a diamond is right of where stability begins.
+    let left = places.iter().map(|place| place.0).fold(f64::INFINITY, f64::min);
+    let right = places.iter().map(|place| place.0).fold(0.0, f64::max);
+    assert!(right - left < 0.3 * 174.0 / 25.4 * 72.0, "{left} {right}");
+    assert!(figure.description().contains("marked at"), "what is left out is counted");
+}
+
+#[test]
+fn a_detail_is_drawn_again_below_with_its_own_axis() {
+    let whole = diagram(&[(1, &folded_branch())]);
+    let settings = ResponseSettings { detail_hz: Some((35.0, 41.0)), ..ResponseSettings::default() };
+    let figure = whole.draw_with(&[ResponseQuantity::Displacement], &settings).unwrap();
+    assert_eq!(figure.svg().matches(">Excitation frequency (Hz)<").count(), 2);
+    assert!(figure.svg().contains(">36<") && figure.svg().contains(">40<"));
+    let alone = displacement(&whole);
+    assert!(figure.height_mm() > 1.5 * alone.height_mm());
+    for detail_hz in [(41.0, 35.0), (f64::NAN, 40.0)] {
+        let settings = ResponseSettings { detail_hz: Some(detail_hz), ..ResponseSettings::default() };
+        let error = whole.draw_with(&[ResponseQuantity::Displacement], &settings);
+        assert!(matches!(error, Err(FigureError::FrequencyRange { .. })));
+    }
+}
+
+#[test]
+fn units_suit_the_range_of_both_axes() {
+    let small = |k: u32| ResponsePoint {
+        frequency_hz: 64_600.0 + f64::from(k),
+        displacement_m: 7.3e-9 * f64::from(k),
+        stable: true,
+        ..ResponsePoint::default()
+    };
+    let points: Vec<ResponsePoint> = (1..11).map(small).collect();
+    let svg = displacement(&diagram(&[(1, &points)])).svg();
+    assert!(svg.contains("frequency (kHz)") && svg.contains("| (nm)"));
+    assert!(svg.contains(">64.602<") || svg.contains(">64.605<"), "numbers of the axis are in kHz");
+}
+
+#[test]
+fn lines_of_several_periods_are_named_beside_them() {
+    let at = |height: f64| -> Vec<ResponsePoint> {
+        (0..20).map(|k| point(20.0 + f64::from(k), height + 0.01 * f64::from(k))).collect()
+    };
+    let svg = displacement(&diagram(&[(1, &at(1.0)), (2, &at(4.0))])).svg();
+    assert_eq!(svg.matches(">1/2 subharmonic<").count(), 2, "in the legend and beside its line");
+}

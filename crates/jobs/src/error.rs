@@ -54,6 +54,9 @@ pub enum JobError {
     /// Measured points cannot be compared.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),
+    /// A special point that a results folder does not have.
+    #[error("{} has no special point {number}: it has {count}, numbered from 1", results.display())]
+    NoSpecialPoint { results: PathBuf, number: u32, count: u32 },
     /// There is nothing to compare with.
     #[error("{} holds no branch to compare with", results.display())]
     NoBranches { results: PathBuf },

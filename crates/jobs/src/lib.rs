@@ -14,6 +14,7 @@
 //! | `branch` | one side of a branch, row by row |
 //! | [`orbits`] | all periodic solutions at one frequency |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
+//! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`comparison`] | measured points held against stored branches |
@@ -43,6 +44,7 @@ pub mod rig;
 pub mod run;
 pub mod settled;
 pub mod simulate;
+pub mod special_point;
 pub mod sweep;
 pub mod update;
 pub mod varied;

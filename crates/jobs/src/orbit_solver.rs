@@ -89,17 +89,25 @@ impl<'m> OrbitSolver<'m> {
     /// find are left out.
     #[must_use]
     pub fn settled(&self, motions: &[SettledState]) -> Vec<PeriodicSolution> {
+        motions.iter().filter_map(|motion| self.orbit_at(motion)).filter(PeriodicSolution::stable).collect()
+    }
+
+    /// The periodic solution, stable or not, that is found from the first of these states that leads to one.
+    #[must_use]
+    pub fn near(&self, motions: &[SettledState]) -> Vec<PeriodicSolution> {
+        motions.iter().find_map(|motion| self.orbit_at(motion)).into_iter().collect()
+    }
+
+    /// The periodic solution that Newton's method finds from a state; none outside of the range, and of
+    /// another structure.
+    fn orbit_at(&self, motion: &SettledState) -> Option<PeriodicSolution> {
         let [low, high] = [self.range_hz.0, self.range_hz.1];
-        let fits = |motion: &&SettledState| {
-            motion.state.len() == 2 * self.model.system.dof() && (low..=high).contains(&motion.frequency_hz)
-        };
-        let orbit = |motion: &SettledState| {
-            let orbit = (motion.frequency_hz, motion.period_multiple);
-            let found =
-                settled_orbit(&self.model.system, self.response(), &motion.state, orbit, &self.settings);
-            found.ok().flatten().filter(PeriodicSolution::stable)
-        };
-        motions.iter().filter(fits).filter_map(orbit).collect()
+        let fits =
+            motion.state.len() == 2 * self.model.system.dof() && (low..=high).contains(&motion.frequency_hz);
+        let orbit = (motion.frequency_hz, motion.period_multiple);
+        let found =
+            || settled_orbit(&self.model.system, self.response(), &motion.state, orbit, &self.settings);
+        fits.then(found)?.ok()?
     }
 
     /// Stable solutions of large amplitude besides those known; motions that cannot be computed are no reason

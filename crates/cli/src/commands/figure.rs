@@ -56,6 +56,7 @@ fn selection(options: &FigureOptions, file: &StudyFile) -> FigureSelection {
     FigureSelection {
         kinds: if kinds.is_empty() { all.kinds } else { kinds },
         scale: options.scale.into(),
+        detail_hz: options.detail,
         orbits: if options.orbit.is_empty() { all.orbits } else { options.orbit.clone() },
         low_pass_hz: options.low_pass.or(all.low_pass_hz),
     }

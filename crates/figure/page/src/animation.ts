@@ -9,6 +9,7 @@ import { layoutOf } from "./mass_layout";
 import { largestDisplacement, poseAt } from "./motion";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
+import { MEASURES } from "./units";
 
 const HEIGHT = 260;
 
@@ -16,7 +17,13 @@ export class Animation {
     readonly root: HTMLElement;
     private readonly canvas = element("canvas", { role: "img", "aria-label": "The structure in motion" });
     private readonly play = button("Pause", "Play or pause (space)", () => this.toggle());
-    private readonly slider = element("input", { type: "range", min: "0", max: "1", step: "any", "aria-label": "Instant in the orbit period" });
+    private readonly slider = element("input", {
+        type: "range",
+        min: "0",
+        max: "1",
+        step: "any",
+        "aria-label": "Instant in the orbit period",
+    });
     private readonly speed = element("p", { class: "note" });
     private orbit: Orbit | null = null;
     private frequency = 1;
@@ -26,8 +33,17 @@ export class Animation {
     private playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     private last = 0;
 
-    constructor(private readonly structure: Structure | null, private readonly theme: Theme, private readonly at: (instant: number) => void) {
-        const speeds = [["2", "2 s"], ["4", "4 s"], ["8", "8 s"], ["20", "20 s"]] as const;
+    constructor(
+        private readonly structure: Structure | null,
+        private readonly theme: Theme,
+        private readonly at: (instant: number) => void,
+    ) {
+        const speeds = [
+            ["2", "2 s"],
+            ["4", "4 s"],
+            ["8", "8 s"],
+            ["20", "20 s"],
+        ] as const;
         const pace = choice("One excitation period takes", speeds, (seconds) => {
             this.seconds = Number(seconds);
             this.tell();
@@ -38,8 +54,15 @@ export class Animation {
             this.instant = Number(this.slider.value) * (this.orbit?.period ?? 1);
             this.draw();
         });
-        this.root = panel("The structure in motion", "motion", [this.canvas, element("div", { class: "controls" }, [this.play, this.slider, pace.root]), this.speed]);
-        this.canvas.addEventListener("mousemove", ({ offsetX }) => (this.canvas.title = this.nameAt(offsetX)));
+        this.root = panel("The structure in motion", "motion", [
+            this.canvas,
+            element("div", { class: "controls" }, [this.play, this.slider, pace.root]),
+            this.speed,
+        ]);
+        this.canvas.addEventListener(
+            "mousemove",
+            ({ offsetX }) => (this.canvas.title = this.nameAt(offsetX)),
+        );
         theme.listen(() => this.draw());
         new ResizeObserver(() => this.draw()).observe(this.canvas);
         requestAnimationFrame((now) => this.step(now));
@@ -95,7 +118,12 @@ export class Animation {
         if (this.structure.beam) {
             this.enlarged = drawBeam(sketch, this.structure, pose, (0.36 * HEIGHT) / largest);
         } else {
-            this.isNamed = drawMasses(sketch, this.structure, pose, layoutOf(this.structure.places.length, width).room / largest);
+            this.isNamed = drawMasses(
+                sketch,
+                this.structure,
+                pose,
+                layoutOf(this.structure.places.length, width).room / largest,
+            );
         }
         this.tell();
         this.at(this.instant);
@@ -114,9 +142,13 @@ export class Animation {
 
     private tell(): void {
         const slower = this.seconds * this.frequency;
-        const pace = slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
-        const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
-        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
+        const pace =
+            slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
+        const size =
+            this.enlarged > 0
+                ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.`
+                : "";
+        const text = `Played ${pace}.${size} Largest displacement: ${digits(MEASURES.displacement.factor * this.largest, 3)} ${MEASURES.displacement.unit}. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }

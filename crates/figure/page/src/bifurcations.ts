@@ -5,6 +5,8 @@ import { button, choice, element, panel, toggle } from "./dom";
 import { digits } from "./format";
 import { besideStable, eventNames } from "./marks";
 import type { Store } from "./state";
+import { Table } from "./table";
+import { measureOf, parameterMeasure } from "./units";
 
 const KINDS = [
     ["all", "all but grazing", FOLD | FLIP | NEIMARK_SACKER | BRANCH_POINT],
@@ -14,9 +16,6 @@ const KINDS = [
     ["branch-point", "branch point", BRANCH_POINT],
     ["grazing", "grazing", GRAZING],
 ] as const;
-
-/** Rows that are made at a time. */
-const ROWS = 150;
 
 /** Solutions with an event among the bits. */
 export function eventsOf(solutions: Solutions, bits: number): number[] {
@@ -29,58 +28,109 @@ export function eventsOf(solutions: Solutions, bits: number): number[] {
     return found;
 }
 
-export function bifurcationTable(meta: Meta, solutions: Solutions, store: Store, jump: (solution: number) => void): HTMLElement {
+export function bifurcationTable(
+    meta: Meta,
+    solutions: Solutions,
+    numbers: ReadonlyMap<number, number>,
+    store: Store,
+    jump: (solution: number) => void,
+): HTMLElement {
     let bits: number = KINDS[0][2];
     let ofStable = false;
-    let rows = ROWS;
-    const body = element("tbody");
-    const count = element("span", { class: "note" });
-    const more = button("more rows", "Show more rows", () => {
-        rows += ROWS;
-        fill();
-    });
-    const row = (solution: number): HTMLElement => {
-        const frequency = button((solutions.frequency[solution] ?? NaN).toFixed(5), "Go to this point", () => jump(solution));
-        const displacement = digits(1e3 * (solutions.maxima.displacement[solution] ?? NaN), 4);
-        const branch = meta.branches[solutions.branch[solution] ?? 0];
-        const cells = [frequency, eventNames(solutions.flags[solution] ?? 0), String(branch?.id ?? "–"), displacement];
-        const made = element("tr", { "data-solution": String(solution) }, cells.map((cell) => element("td", {}, [cell])));
-        made.classList.toggle("current", solution === store.state.selected);
-        return made;
-    };
+    const measure = () => parameterMeasure(meta, store.state.over);
+    const displacement = measureOf(meta, "displacement", 0);
+    const value = (k: number): number => solutions.parameter[k] ?? NaN;
+    const head = element("span", {}, [""]);
+    const table = new Table<number>(
+        [
+            { head: "no.", cell: (k) => String(numbers.get(k) ?? "–"), by: (k) => numbers.get(k) ?? k },
+            {
+                head: "at",
+                cell: (k) =>
+                    button(
+                        place(measure().factor * value(k)),
+                        `Go to this point, at ${measure().name} in ${measure().unit}`,
+                        () => jump(k),
+                    ),
+                by: value,
+            },
+            {
+                head: "event",
+                cell: (k) => eventNames(solutions.flags[k] ?? 0),
+                by: (k) => eventNames(solutions.flags[k] ?? 0),
+            },
+            {
+                head: "of",
+                cell: (k) => (besideStable(solutions, k) ? "stable" : "unstable"),
+                by: (k) => (besideStable(solutions, k) ? 0 : 1),
+            },
+            {
+                head: "branch",
+                cell: (k) => String(meta.branches[solutions.branch[k] ?? 0]?.id ?? "–"),
+                by: (k) => solutions.branch[k] ?? 0,
+            },
+            {
+                head: displacement.unit,
+                cell: (k) => digits(displacement.factor * (solutions.maxima.displacement[k] ?? NaN), 4),
+                by: (k) => solutions.maxima.displacement[k] ?? NaN,
+            },
+        ],
+        1,
+        (row, solution) => {
+            row.dataset["solution"] = String(solution);
+            row.classList.toggle("current", solution === store.state.selected);
+        },
+        "Filter bifurcations, by any word or number in a row",
+    );
     const fill = (): void => {
         const { hidden } = store.state;
-        const found = eventsOf(solutions, bits).filter((k) => !hidden.has(solutions.branch[k] ?? 0) && (!ofStable || besideStable(solutions, k)));
-        found.sort((a, b) => (solutions.frequency[a] ?? 0) - (solutions.frequency[b] ?? 0));
-        body.replaceChildren(...found.slice(0, rows).map(row));
-        more.hidden = found.length <= rows;
-        count.textContent = found.length === 0 ? "None on the branches drawn." : found.length > rows ? `${rows} of ${found.length}` : `${found.length}`;
+        head.textContent = `at: ${measure().name} in ${measure().unit || "its unit"}.`;
+        table.show(
+            eventsOf(solutions, bits).filter(
+                (k) => !hidden.has(solutions.branch[k] ?? 0) && (!ofStable || besideStable(solutions, k)),
+            ),
+        );
+        if (table.count.textContent === "0") {
+            table.count.textContent = "None on the branches drawn.";
+        }
     };
-    const kinds = choice("Kind", KINDS.map(([value, text]) => [value, text] as const), (value) => {
-        bits = KINDS.find(([kind]) => kind === value)?.[2] ?? bits;
-        rows = ROWS;
-        fill();
-    });
+    const kinds = choice(
+        "Kind",
+        KINDS.map(([kind, text]) => [kind, text] as const),
+        (chosen) => {
+            bits = KINDS.find(([kind]) => kind === chosen)?.[2] ?? bits;
+            fill();
+        },
+    );
     const stable = toggle("of stable solutions", (on) => {
         ofStable = on;
-        rows = ROWS;
         fill();
     });
     store.listen((state, changed) => {
-        if (changed.has("hidden")) {
+        if (changed.has("hidden") || changed.has("over")) {
             fill();
         }
         if (changed.has("selected")) {
-            for (const one of body.querySelectorAll("tr")) {
+            for (const one of table.root.querySelectorAll("tr")) {
                 one.classList.toggle("current", one.dataset["solution"] === String(state.selected));
             }
         }
     });
     fill();
-    const heads = ["Hz", "event", "branch", "mm"].map((text) => element("th", { scope: "col" }, [text]));
-    const table = element("table", {}, [element("thead", {}, [element("tr", {}, heads)]), body]);
-    return panel("Bifurcations", "bifurcations", [
-        element("div", { class: "controls" }, [kinds.root, stable.root, count]),
-        element("div", { class: "scroll", tabindex: "0" }, [table, more]),
+    const note = element("p", { class: "note" }, [
+        "No.: the number by which ",
+        element("code", {}, [`hammerbeam run STUDY --from ${meta.folder || "RESULTS"}:NO`]),
+        " starts at the point, also with changed parameters. ",
+        head,
     ]);
+    return panel("Bifurcations", "bifurcations", [
+        element("div", { class: "controls" }, [kinds.root, stable.root, table.filter, table.count]),
+        table.root,
+        note,
+    ]);
+}
+
+/** With five decimals, or six digits where that is more. */
+function place(value: number): string {
+    return Math.abs(value) >= 10 ? value.toFixed(5) : String(Number(value.toPrecision(7)));
 }

@@ -2,70 +2,139 @@
 
 import type { Branch, Meta, Solutions } from "./data";
 import { button, element, panel } from "./dom";
+import { periodName } from "./format";
 import type { Store } from "./state";
+import { Table } from "./table";
 import type { Theme } from "./theme";
+import { parameterMeasure } from "./units";
 
-export function branchList(meta: Meta, solutions: Solutions, store: Store, theme: Theme, shown: (branch: Branch) => void): HTMLElement {
-    const boxes: HTMLInputElement[] = [];
-    const swatches: HTMLElement[] = [];
-    const rows: HTMLElement[] = [];
-    // A hundredth of the range of the study, two at least.
-    const decimals = Math.max(2, Math.ceil(2 - Math.log10(meta.range[1] - meta.range[0] || 1)));
-    meta.branches.forEach((branch, place) => {
+interface Listed extends Branch {
+    place: number;
+    range: [number, number];
+    box: HTMLInputElement;
+    swatch: HTMLElement;
+}
+
+export function branchList(
+    meta: Meta,
+    solutions: Solutions,
+    store: Store,
+    theme: Theme,
+    shown: (branch: Branch) => void,
+): HTMLElement {
+    const listed = meta.branches.map((branch, place): Listed => {
         const box = element("input", { type: "checkbox", "aria-label": `Draw branch ${branch.id}` });
         box.addEventListener("change", () => {
             const hidden = new Set(store.state.hidden);
-            if (box.checked) {
-                hidden.delete(place);
-            } else {
-                hidden.add(place);
-            }
+            box.checked ? hidden.delete(place) : hidden.add(place);
             store.update({ hidden });
         });
-        const swatch = element("span", { class: "swatch" });
-        const name = button(`${branch.id}`, `Show branch ${branch.id}. Its ends: ${branch.ends.join("; ")}`, () => shown(branch));
-        const [low, high] = rangeOf(solutions, branch, decimals);
-        const cells = [box, element("span", {}, [swatch, name]), String(branch.period), `${low}–${high}`, String(branch.count)];
-        const row = element("tr", {}, cells.map((cell) => element("td", {}, [cell])));
-        boxes.push(box);
-        swatches.push(swatch);
-        rows.push(row);
+        return {
+            ...branch,
+            place,
+            range: rangeOf(solutions, branch),
+            box,
+            swatch: element("span", { class: "swatch" }),
+        };
     });
-    const update = (): void => {
-        const { hidden, selected } = store.state;
-        const current = selected < 0 ? -1 : (solutions.branch[selected] ?? -1);
-        boxes.forEach((box, place) => (box.checked = !hidden.has(place)));
-        rows.forEach((row, place) => row.classList.toggle("current", place === current));
+    const name = (branch: Listed): Node =>
+        element("span", {}, [
+            branch.swatch,
+            button(`${branch.id}`, `Show branch ${branch.id}. Its ends: ${branch.ends.join("; ")}`, () =>
+                shown(branch),
+            ),
+        ]);
+    const ends = ({ count, range, over }: Listed): string => {
+        const { factor } = parameterMeasure(meta, over);
+        return count === 0
+            ? "–"
+            : range.map((value) => decimal(factor * value, factor * spanOf(meta, listed, over))).join("–");
     };
-    const paint = (): void => swatches.forEach((swatch, place) => (swatch.style.background = theme.period(meta.branches[place]?.period ?? 1)));
+    const made = new Map<HTMLElement, number>();
+    const table = new Table<Listed>(
+        [
+            { head: "", cell: ({ box }) => box },
+            { head: "branch", cell: name, by: ({ id }) => id },
+            { head: "solutions", cell: ({ period }) => periodName(period), by: ({ period }) => period },
+            { head: "from–to", cell: ends, by: ({ range }) => range[0] },
+            { head: "points", cell: ({ count }) => String(count), by: ({ count }) => count },
+        ],
+        1,
+        (row, { place }) => {
+            made.set(row, place);
+            row.dataset["branch"] = String(place);
+            row.classList.toggle("current", place === currentOf());
+        },
+        "Filter branches, by number or kind: 1/2",
+    );
+    const currentOf = (): number =>
+        store.state.selected < 0 ? -1 : (solutions.branch[store.state.selected] ?? -1);
+    const update = (): void => {
+        listed.forEach(({ box, place }) => (box.checked = !store.state.hidden.has(place)));
+        made.forEach((place, row) => row.classList.toggle("current", place === currentOf()));
+    };
+    const paint = (): void =>
+        listed.forEach(({ swatch, period }) => (swatch.style.background = theme.period(period)));
+    const own = (): Listed[] => listed.filter(({ over }) => over === store.state.over);
+    const hideAllBut = (keep: (branch: Listed) => boolean): void =>
+        store.update({
+            hidden: new Set(
+                listed
+                    .filter((branch) => branch.over !== store.state.over || !keep(branch))
+                    .map(({ place }) => place),
+            ),
+        });
+    const switches = element("div", { class: "controls" });
+    const fill = (): void => {
+        const periods = [...new Set(own().map(({ period }) => period))].sort((a, b) => a - b);
+        const single = periods.map((period) =>
+            button(periodName(period), `Draw ${periodName(period)} solutions alone`, () =>
+                hideAllBut((branch) => branch.period === period),
+            ),
+        );
+        switches.replaceChildren(
+            button("all", "Draw all branches", () => hideAllBut(() => true)),
+            button("none", "Draw no branch", () => hideAllBut(() => false)),
+            ...(periods.length > 1 ? single : []),
+            table.filter,
+        );
+        made.clear();
+        table.show(own());
+        update();
+    };
     store.listen((_, changed) => {
-        if (changed.has("hidden") || changed.has("selected")) {
+        if (changed.has("over")) {
+            fill();
+        } else if (changed.has("hidden") || changed.has("selected")) {
             update();
         }
     });
     theme.listen(paint);
-    update();
+    fill();
     paint();
-    const hideAllBut = (keep: (branch: Branch) => boolean): void =>
-        store.update({ hidden: new Set(meta.branches.map((branch, place) => (keep(branch) ? -1 : place)).filter((place) => place >= 0)) });
-    const periods = [...new Set(meta.branches.map((branch) => branch.period))].sort((a, b) => a - b);
-    const switches = [
-        button("all", "Draw all branches", () => hideAllBut(() => true)),
-        button("none", "Draw no branch", () => hideAllBut(() => false)),
-        ...(periods.length > 1 ? periods.map((period) => button(`period ${period}`, `Draw branches of period ${period} alone`, () => hideAllBut((branch) => branch.period === period))) : []),
-    ];
-    const heads = ["", "branch", "period", "Hz", "solutions"].map((text) => element("th", { scope: "col" }, [text]));
-    const table = element("table", {}, [element("thead", {}, [element("tr", {}, heads)]), element("tbody", {}, rows)]);
-    return panel(`Branches (${meta.branches.length})`, "branches", [element("div", { class: "controls" }, switches), element("div", { class: "scroll", tabindex: "0" }, [table])]);
+    return panel(`Branches (${meta.branches.length})`, "branches", [switches, table.root]);
 }
 
-/** Ends of the frequency range of a branch, with so many decimals. */
-function rangeOf(solutions: Solutions, branch: Branch, decimals: number): [string, string] {
+/** Ends of the range of the parameter of a branch. */
+function rangeOf({ parameter }: Solutions, branch: Branch): [number, number] {
     let [low, high] = [Infinity, -Infinity];
     for (let k = branch.first; k < branch.first + branch.count; k++) {
-        const frequency = solutions.frequency[k] ?? NaN;
-        low = Math.min(low, frequency);
-        high = Math.max(high, frequency);
+        const value = parameter[k] ?? NaN;
+        low = Math.min(low, value);
+        high = Math.max(high, value);
     }
-    return branch.count === 0 ? ["–", "–"] : [low.toFixed(decimals), high.toFixed(decimals)];
+    return [low, high];
+}
+
+/** Width of the range of all branches over a parameter. */
+function spanOf(meta: Meta, listed: readonly Listed[], over: number): number {
+    const own = listed.filter((branch) => branch.over === over && branch.count > 0);
+    return over === 0
+        ? meta.range[1] - meta.range[0]
+        : Math.max(...own.map(({ range }) => range[1])) - Math.min(...own.map(({ range }) => range[0]));
+}
+
+/** With so many decimals that a hundredth of a range is told, two at least. */
+function decimal(value: number, span: number): string {
+    return value.toFixed(Math.min(12, Math.max(2, Math.ceil(2 - Math.log10(span || 1)))));
 }

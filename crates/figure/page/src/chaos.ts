@@ -1,9 +1,15 @@
 // Ranges of chaotic motion, and the stored motion that is nearest to a frequency.
 
 import type { Meta } from "./data";
+import type { State } from "./state";
 
 /** Height (CSS pixels) of the strip above a chaotic range where a click always means the range. */
 export const STRIP = 12;
+
+/** Whether the diagram is over the frequency, as measured points and chaotic ranges are. */
+export function isOverFrequency({ across, over }: Pick<State, "across" | "over">): boolean {
+    return across === "parameter" && over === 0;
+}
 
 /** The chaotic range that holds a frequency, or lies no farther from it than `near` (Hz). */
 export function rangeAt(meta: Meta, frequency: number, near: number): [number, number] | null {
@@ -17,13 +23,22 @@ export function chaoticSections(meta: Meta): number[] {
     return chaotic.length > 0 ? chaotic : all;
 }
 
-/** Place of the section nearest to a frequency, the first of several; within a range if one lies there; -1 for none. */
+/**
+ * Place of the section nearest to a frequency, the first of several; within a range if one lies there; -1
+ * for none.
+ */
 export function nearestSection(meta: Meta, frequency: number, range: [number, number] | null): number {
     const away = (place: number): number => Math.abs((meta.sections[place]?.frequency ?? NaN) - frequency);
-    const isWithin = (place: number): boolean => range !== null && (meta.sections[place]?.frequency ?? NaN) >= range[0] && (meta.sections[place]?.frequency ?? NaN) <= range[1];
+    const isWithin = (place: number): boolean =>
+        range !== null &&
+        (meta.sections[place]?.frequency ?? NaN) >= range[0] &&
+        (meta.sections[place]?.frequency ?? NaN) <= range[1];
     const all = chaoticSections(meta);
     const within = all.filter(isWithin);
-    return (within.length > 0 ? within : all).reduce((best, place) => (best < 0 || away(place) < away(best) ? place : best), -1);
+    return (within.length > 0 ? within : all).reduce(
+        (best, place) => (best < 0 || away(place) < away(best) ? place : best),
+        -1,
+    );
 }
 
 /** Place of the chaotic motion before or behind a place. */

@@ -1,8 +1,21 @@
-// The solutions as they are drawn: a quantity in the unit of its axis, on a linear or logarithmic scale, in pixels.
+// The solutions as they are drawn: what both axes show in their units, on a linear or logarithmic scale, in
+// pixels.
 
-import type { Measured, Quantity, Solutions } from "./data";
-import { MEASURES } from "./format";
+import type { Measured, Meta, Quantity, Solutions } from "./data";
 import type { Range } from "./frame";
+import type { State } from "./state";
+import { measureOf, type Axis } from "./units";
+
+/** The quantities that a vertical axis always has, where they are not zero throughout. */
+const VERTICAL: readonly Axis[] = [
+    "displacement",
+    "acceleration",
+    "force",
+    "velocity",
+    "multiplier",
+    "energy",
+    "contacts",
+];
 
 /** From values to pixels; `log` where the vertical axis is logarithmic. */
 export interface Scales {
@@ -29,83 +42,166 @@ export function scalesOf(range: Range, box: Box): Scales {
     const [lowX, highX] = range.x;
     const [lowY, highY] = [level(range.y[0]), level(range.y[1])];
     const { left, top, width, height } = box;
-    return { left, top, width, height, perX: width / (highX - lowX), perY: height / (highY - lowY), lowX, lowY, log: range.logY };
+    return {
+        left,
+        top,
+        width,
+        height,
+        perX: width / (highX - lowX),
+        perY: height / (highY - lowY),
+        lowX,
+        lowY,
+        log: range.logY,
+    };
 }
 
 export class Curves {
     private readonly kept = new Map<string, Float64Array>();
 
-    constructor(readonly solutions: Solutions) {}
+    constructor(
+        private readonly meta: Meta,
+        readonly solutions: Solutions,
+    ) {}
 
-    /** A quantity in the unit of its axis; its logarithm to base 10 where the axis is logarithmic, NaN where it has none. */
-    levels(quantity: Quantity, log: boolean): Float64Array {
-        const key = `${quantity} ${log}`;
-        let levels = this.kept.get(key);
-        if (levels === undefined) {
-            const { factor } = MEASURES[quantity];
-            const of = (value: number): number => {
-                const scaled = factor * value;
-                return log ? (scaled > 0 ? Math.log10(scaled) : NaN) : scaled;
-            };
-            levels = Float64Array.from(this.solutions.maxima[quantity], of);
-            this.kept.set(key, levels);
+    /** What an axis shows, in its unit. */
+    values(axis: Axis, over: number): Float64Array {
+        const { frequency, parameter, maxima, multiplierRe, multiplierIm, contacts, energy } = this.solutions;
+        const { factor } = measureOf(this.meta, axis, over);
+        const scaled = (column: ArrayLike<number>): Float64Array =>
+            this.keep(`${axis} ${factor}`, () => Float64Array.from(column, (value) => factor * value));
+        switch (axis) {
+            case "parameter":
+                return scaled(over === 0 ? frequency : parameter);
+            case "multiplier":
+                return this.keep(axis, () =>
+                    Float64Array.from(multiplierRe, (re, k) => Math.hypot(re, multiplierIm[k] ?? NaN)),
+                );
+            case "contacts":
+                return scaled(contacts);
+            case "energy":
+                return scaled(energy);
+            default:
+                return scaled(maxima[axis]);
         }
-        return levels;
     }
 
-    /** Quantities of which there is something, measured ones among them: without contacts over a time there are no forces. */
-    present(measured: readonly Measured[]): Quantity[] {
-        const always: readonly Quantity[] = ["displacement", "acceleration", ...measured.map(({ quantity }) => quantity)];
-        return (Object.keys(MEASURES) as Quantity[]).filter((quantity) => always.includes(quantity) || this.solutions.maxima[quantity].some((value) => value > 0));
+    /** The values of the horizontal axis. */
+    across({ across, over }: State): Float64Array {
+        return this.values(across, over);
     }
 
-    /** Least and largest of a quantity among the branches that are drawn, and of other values, widened a little; null where nothing is. */
-    extent(quantity: Quantity, log: boolean, hidden: ReadonlySet<number>, others: readonly number[] = []): [number, number] | null {
-        const levels = this.levels(quantity, log);
+    /**
+     * The values of the vertical axis; their logarithms to base 10 where it is logarithmic, NaN where they
+     * have none.
+     */
+    levels({ quantity, log, over }: Pick<State, "quantity" | "log" | "over">): Float64Array {
+        const values = this.values(quantity, over);
+        return log
+            ? this.keep(`log ${quantity} ${over}`, () =>
+                  values.map((value) => (value > 0 ? Math.log10(value) : NaN)),
+              )
+            : values;
+    }
+
+    private keep(key: string, make: () => Float64Array): Float64Array {
+        let found = this.kept.get(key);
+        if (found === undefined) {
+            found = make();
+            this.kept.set(key, found);
+        }
+        return found;
+    }
+
+    /**
+     * Vertical axes of which there is something, measured ones among them: without contacts over a time
+     * there are no forces.
+     */
+    present(measured: readonly Measured[]): Axis[] {
+        const always: readonly Axis[] = [
+            "displacement",
+            "acceleration",
+            ...measured.map(({ quantity }): Quantity => quantity),
+        ];
+        return VERTICAL.filter(
+            (axis) => always.includes(axis) || this.values(axis, 0).some((value) => value > 0),
+        );
+    }
+
+    /**
+     * Least and largest value of a column among the branches that are drawn, and of others, widened a
+     * little; null where nothing is.
+     */
+    extent(
+        levels: Float64Array,
+        hidden: ReadonlySet<number>,
+        others: Iterable<number> = [],
+    ): [number, number] | null {
         let [low, high] = [Infinity, -Infinity];
-        for (let k = 0; k < levels.length; k++) {
-            const level = levels[k] ?? NaN;
-            if (Number.isFinite(level) && !hidden.has(this.solutions.branch[k] ?? 0)) {
-                low = Math.min(low, level);
-                high = Math.max(high, level);
-            }
-        }
-        for (const value of others) {
-            const level = log ? Math.log10(value) : value;
+        const take = (level: number): void => {
             if (Number.isFinite(level)) {
-                [low, high] = [Math.min(low, level), Math.max(high, level)];
+                low = level < low ? level : low;
+                high = level > high ? level : high;
             }
+        };
+        this.meta.branches.forEach(({ first, count }, place) => {
+            for (let k = first; k < first + count && !hidden.has(place); k++) {
+                take(levels[k] ?? NaN);
+            }
+        });
+        for (const level of others) {
+            take(level);
         }
         if (low > high) {
             return null;
         }
         const margin = 0.04 * (high - low || Math.abs(high) || 1);
-        if (log) {
-            return [10 ** (low - margin), 10 ** (high + margin)];
+        return [low - margin, high + margin];
+    }
+
+    /** The ends of the vertical axis that hold everything that is drawn. */
+    upright(state: State, others: readonly number[] = []): [number, number] | null {
+        const { log, hidden } = state;
+        const extent = this.extent(this.levels(state), hidden, log ? others.map(Math.log10) : others);
+        if (extent === null || log) {
+            return extent === null ? null : [10 ** extent[0], 10 ** extent[1]];
         }
-        return [low >= 0 && low < 0.3 * high ? 0 : low - margin, high + margin];
+        const [low, high] = extent;
+        const margin = (high - low) * (0.04 / 1.08);
+        return [low + margin >= 0 && low + margin < 0.3 * high ? 0 : low, high];
     }
 
     /** Whether values span so much that a logarithmic axis is the better one. */
-    spansMuch(quantity: Quantity): boolean {
-        const extent = this.extent(quantity, true, new Set());
-        return extent !== null && extent[1] / extent[0] > 40;
+    spansMuch(quantity: Axis, over = 0): boolean {
+        const extent = this.extent(this.levels({ quantity, log: true, over }), new Set());
+        return extent !== null && extent[1] - extent[0] > Math.log10(40);
     }
 
-    /** The solution nearest to a place in canvas pixels, within so many of them, and its distance; -1 for none. */
-    nearest(quantity: Quantity, scales: Scales, hidden: ReadonlySet<number>, place: [number, number], within: number): [solution: number, distance: number] {
-        const levels = this.levels(quantity, scales.log);
-        const { frequency, branch } = this.solutions;
-        const [x, y] = [(place[0] - scales.left) / scales.perX + scales.lowX, (scales.top + scales.height - place[1]) / scales.perY + scales.lowY];
+    /**
+     * The solution nearest to a place in canvas pixels, within so many of them, and its distance; -1 for
+     * none.
+     */
+    nearest(
+        state: State,
+        scales: Scales,
+        place: [number, number],
+        within: number,
+    ): [solution: number, distance: number] {
+        const [across, levels] = [this.across(state), this.levels(state)];
+        const [x, y] = [
+            (place[0] - scales.left) / scales.perX + scales.lowX,
+            (scales.top + scales.height - place[1]) / scales.perY + scales.lowY,
+        ];
         let [best, least] = [-1, within * within];
-        for (let k = 0; k < levels.length; k++) {
-            const across = ((frequency[k] ?? NaN) - x) * scales.perX;
-            const up = ((levels[k] ?? NaN) - y) * scales.perY;
-            const distance = across * across + up * up;
-            if (distance < least && !hidden.has(branch[k] ?? 0)) {
-                [best, least] = [k, distance];
+        this.meta.branches.forEach(({ first, count }, branch) => {
+            for (let k = first; k < first + count && !state.hidden.has(branch); k++) {
+                const right = ((across[k] ?? NaN) - x) * scales.perX;
+                const up = ((levels[k] ?? NaN) - y) * scales.perY;
+                const distance = right * right + up * up;
+                if (distance < least) {
+                    [best, least] = [k, distance];
+                }
             }
-        }
+        });
         return [best, Math.sqrt(least)];
     }
 }

@@ -1,6 +1,7 @@
 // What the page is given: what is small as JSON, solutions as columns (see columns.rs of the figure crate).
 
 import { bytesOf } from "./base64";
+import { Unpacker } from "./unpack";
 
 export interface Look {
     periods: string[];
@@ -21,6 +22,19 @@ export interface Branch {
     /** Number of its first solution over all branches end to end. */
     first: number;
     count: number;
+    /**
+     * The parameter along which it was followed: 0 for the frequency, else the number of one of
+     * `parameters`, from 1.
+     */
+    over: number;
+}
+
+/** A parameter other than the frequency over which there are branches. */
+export interface Parameter {
+    title: string;
+    unit: string;
+    /** The frequency that its branches are at (Hz). */
+    frequency: number;
 }
 
 export interface Place {
@@ -110,6 +124,9 @@ export interface Meta {
     range: [number, number];
     notice: string;
     branches: Branch[];
+    parameters: Parameter[];
+    /** Name of the results folder, for commands. */
+    folder: string;
     /** Solutions whose orbits are carried, and the lengths of their records in bytes. */
     orbits: { solutions: number[]; lengths: number[] };
     /** Of how many solutions, and how many of one of them at most, those that are not carried included. */
@@ -119,7 +136,10 @@ export interface Meta {
     chaos: [number, number][];
     sections: Section[];
     measured: Measured[];
-    /** Printed figures; the names of those that had no room, and of those that could not be drawn with the reason. */
+    /**
+     * Printed figures; the names of those that had no room, and of those that could not be drawn with the
+     * reason.
+     */
     figures: { carried: Figure[]; noRoom: string[]; refused: [string, string][] };
     look: { light: Look; dark: Look };
 }
@@ -127,16 +147,27 @@ export interface Meta {
 export type Quantity = "displacement" | "acceleration" | "force" | "velocity";
 
 /** Bits of the flags of a solution. */
-export const STABLE = 1, FOLD = 2, FLIP = 4, NEIMARK_SACKER = 8, BRANCH_POINT = 16, GRAZING = 32, MARGINAL = 64;
+export const STABLE = 1,
+    FOLD = 2,
+    FLIP = 4,
+    NEIMARK_SACKER = 8,
+    BRANCH_POINT = 16,
+    GRAZING = 32,
+    MARGINAL = 64;
 
 export interface Solutions {
     count: number;
+    /** Excitation frequency (Hz). */
     frequency: Float64Array;
+    /** The parameter along which the branch of a solution was followed; for most the frequency. */
+    parameter: Float64Array;
     maxima: Record<Quantity, Float32Array>;
     multiplierRe: Float32Array;
     multiplierIm: Float32Array;
-    contacts: Uint16Array;
-    flags: Uint16Array;
+    /** Mechanical energy of the structure at phase 0 (J); NaN where it is not known. */
+    energy: Float32Array;
+    contacts: Uint32Array;
+    flags: Uint32Array;
     /** Place of the branch of each solution in the list of branches. */
     branch: Uint16Array;
 }
@@ -149,31 +180,41 @@ export function readMeta(): Meta {
     return JSON.parse(textOf("meta")) as Meta;
 }
 
-export function readSolutions(branches: Branch[]): Solutions {
-    const buffer = bytesOf(textOf("solutions")).buffer;
-    const count = branches.reduce((sum, branch) => sum + branch.count, 0);
-    let at = 0;
-    const single = (): Float32Array => {
-        const column = new Float32Array(buffer, at, count);
-        at += 4 * count;
-        return column;
-    };
-    const whole = (): Uint16Array => {
-        const column = new Uint16Array(buffer, at, count);
-        at += 2 * count;
-        return column;
-    };
-    const frequency = new Float64Array(buffer, 0, count);
-    at = 8 * count;
-    const maxima = { displacement: single(), acceleration: single(), force: single(), velocity: single() };
-    const [multiplierRe, multiplierIm] = [single(), single()];
-    const [contacts, flags] = [whole(), whole()];
-    const branch = new Uint16Array(count);
-    branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
-    return { count, frequency, maxima, multiplierRe, multiplierIm, contacts, flags, branch };
+/** The deflated columns of solutions in base64. */
+export function solutionText(): string {
+    return textOf("solutions");
 }
 
-/** The base64 text of the multipliers of all solutions. */
+/** Solutions from their columns (see columns.rs of the figure crate). */
+export function readSolutions(branches: readonly Branch[], bytes: Uint8Array<ArrayBuffer>): Solutions {
+    const count = branches.reduce((sum, branch) => sum + branch.count, 0);
+    const others = branches.reduce((sum, branch) => sum + (branch.over > 0 ? branch.count : 0), 0);
+    const columns = new Unpacker(bytes);
+    const frequency = columns.double(count);
+    // Branches over other parameters come last.
+    const parameter = others === 0 ? frequency : frequency.slice();
+    parameter.set(columns.double(others), count - others);
+    const single = (): Float32Array => columns.single(count);
+    const maxima = { displacement: single(), acceleration: single(), force: single(), velocity: single() };
+    const [multiplierRe, multiplierIm, energy] = [single(), single(), single()];
+    const [contacts, flags] = [columns.whole(count, 2), columns.whole(count, 2)];
+    const branch = new Uint16Array(count);
+    branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
+    return {
+        count,
+        frequency,
+        parameter,
+        maxima,
+        multiplierRe,
+        multiplierIm,
+        energy,
+        contacts,
+        flags,
+        branch,
+    };
+}
+
+/** The multipliers of all solutions, deflated, in base64. */
 export function multiplierText(): string {
     return textOf("floquet");
 }
@@ -187,8 +228,12 @@ export function readFigures(): string[] {
 export function readSection({ x, y, points }: Section): [number, number][] {
     const bytes = bytesOf(points);
     const steps = new Uint16Array(bytes.buffer, 0, bytes.length >> 1);
-    const value = ([low, high]: [number | null, number | null], step: number): number => (low ?? NaN) + ((high ?? NaN) - (low ?? NaN)) * (step / 65535);
-    return Array.from({ length: steps.length >> 1 }, (_, k) => [value(x, steps[2 * k] ?? 0), value(y, steps[2 * k + 1] ?? 0)]);
+    const value = ([low, high]: [number | null, number | null], step: number): number =>
+        (low ?? NaN) + ((high ?? NaN) - (low ?? NaN)) * (step / 65535);
+    return Array.from({ length: steps.length >> 1 }, (_, k) => [
+        value(x, steps[2 * k] ?? 0),
+        value(y, steps[2 * k + 1] ?? 0),
+    ]);
 }
 
 /** The base64 text of all orbits. */

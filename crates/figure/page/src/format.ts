@@ -1,6 +1,6 @@
 // Numbers as they are read: a point, thin digits, units.
 
-import type { Quantity } from "./data";
+import { MEASURES } from "./units";
 
 /** So many significant digits; powers of ten for what is very small or very large. */
 export function digits(value: number, count: number): string {
@@ -12,7 +12,11 @@ export function digits(value: number, count: number): string {
         return "0";
     }
     const text =
-        size < 1e-3 || size >= 1e6 ? value.toExponential(count - 1) : size >= 10 ** count ? value.toFixed(0) : value.toPrecision(count);
+        size < 1e-3 || size >= 1e6
+            ? value.toExponential(count - 1)
+            : size >= 10 ** count
+              ? value.toFixed(0)
+              : value.toPrecision(count);
     return text.replace("e+", "e").replaceAll("-", "−");
 }
 
@@ -20,7 +24,8 @@ export function digits(value: number, count: number): string {
 const LONGEST = 7;
 
 /**
- * What the labels of an axis have in common, where they would have too many digits to stand beside each other; 0 where they have not.
+ * What the labels of an axis have in common, where they would have too many digits to stand beside each
+ * other; 0 where they have not.
  *
  * It has no more digits than it needs to leave short labels: its last one is that of the width of the axis.
  *
@@ -34,11 +39,14 @@ export function commonPart(low: number, high: number, distance: number): number 
     }
     const last = Math.ceil(Math.log10(high - low));
     const nearer = low < 0 ? high : low;
-    return last >= 0 ? Math.trunc(nearer / 10 ** last) * 10 ** last : Number((Math.trunc(nearer * 10 ** -last) / 10 ** -last).toFixed(Math.min(20, -last)));
+    return last >= 0
+        ? Math.trunc(nearer / 10 ** last) * 10 ** last
+        : Number((Math.trunc(nearer * 10 ** -last) / 10 ** -last).toFixed(Math.min(20, -last)));
 }
 
 /**
- * Labels of ticks at a distance, all of them with the digits that tell neighbours apart; powers of ten where they are very small or very large.
+ * Labels of ticks at a distance, all of them with the digits that tell neighbours apart; powers of ten where
+ * they are very small or very large.
  *
  * * `common`: what they leave out.
  */
@@ -54,7 +62,9 @@ export function ticks(marked: readonly (number | null)[], distance: number, comm
         }
         const size = Math.floor(Math.log10(Math.abs(value)) + 1e-12);
         const text =
-            largest >= 1e6 || largest < 1e-3 ? value.toExponential(Math.min(15, Math.max(0, size - last))).replace("e+", "e") : value.toFixed(Math.min(15, Math.max(0, -last)));
+            largest >= 1e6 || largest < 1e-3
+                ? value.toExponential(Math.min(15, Math.max(0, size - last))).replace("e+", "e")
+                : value.toFixed(Math.min(15, Math.max(0, -last)));
         return text.replaceAll("-", "−");
     };
     return splits.map((value) => (value === null ? "" : plain(value)));
@@ -66,12 +76,23 @@ export function logTicks(splits: readonly (number | null)[]): string[] {
         if (value === null) {
             return "";
         }
-        return value >= 1e5 || value < 1e-3 ? value.toExponential(0).replace("e+", "e").replaceAll("-", "−") : String(Number(value.toPrecision(3)));
+        return value >= 1e5 || value < 1e-3
+            ? value.toExponential(0).replace("e+", "e").replaceAll("-", "−")
+            : String(Number(value.toPrecision(3)));
     });
 }
 
+/** A frequency in the unit of this page. */
 export function hertz(value: number): string {
-    return `${value.toFixed(6)} Hz`;
+    const { factor, unit } = MEASURES.frequency;
+    const decimals = Math.min(12, 6 + Math.max(0, Math.round(-Math.log10(factor))));
+    return `${(factor * value).toFixed(decimals)} ${unit}`;
+}
+
+/** A frequency with so many digits, in the unit of this page. */
+export function shortHertz(value: number, count: number): string {
+    const { factor, unit } = MEASURES.frequency;
+    return `${digits(factor * value, count)} ${unit}`;
 }
 
 /** A real number, or a complex pair. */
@@ -82,22 +103,7 @@ export function complex(re: number, im: number): string {
     return `${digits(re, 4)} ± ${digits(Math.abs(im), 4)}i`;
 }
 
-export interface Measure {
-    name: string;
-    label: string;
-    unit: string;
-    /** From SI to the unit. */
-    factor: number;
-}
-
-export const MEASURES: Record<Quantity, Measure> = {
-    displacement: { name: "displacement", label: "Maximum displacement (mm)", unit: "mm", factor: 1e3 },
-    acceleration: { name: "acceleration", label: "Maximum acceleration (m/s²)", unit: "m/s²", factor: 1 },
-    force: { name: "contact force", label: "Maximum contact force (N)", unit: "N", factor: 1 },
-    velocity: { name: "impact velocity", label: "Maximum impact velocity (m/s)", unit: "m/s", factor: 1 },
-};
-
-/** The word for a period multiple. */
+/** Solutions of a period multiple in words, as printed figures have them. */
 export function periodName(period: number): string {
-    return period === 1 ? "period 1" : `period ${period} (1/${period})`;
+    return period <= 1 ? "harmonic" : `1/${period} subharmonic`;
 }

@@ -12,6 +12,12 @@ export interface Range {
     logY: boolean;
 }
 
+/** Labelled ticks of an axis with their values, and those that have no label. */
+export interface Ticks {
+    labelled: [value: number, label: string][];
+    minor: number[];
+}
+
 export interface Painter {
     (context: CanvasRenderingContext2D, frame: Frame): void;
 }
@@ -65,7 +71,9 @@ function commonOf(plot: uPlot, axis: "x" | "y", distance: number): number {
 /** A label of an axis that says what is left out at its ticks: "Frequency − 39.69 (Hz)". */
 function less(label: string, common: number): string {
     const [name = "", unit = ""] = label.split(/ (?=\([^()]*\)$)/);
-    return common === 0 ? label : `${name} ${common > 0 ? "−" : "+"} ${Math.abs(common)}${unit === "" ? "" : ` ${unit}`}`;
+    return common === 0
+        ? label
+        : `${name} ${common > 0 ? "−" : "+"} ${Math.abs(common)}${unit === "" ? "" : ` ${unit}`}`;
 }
 
 export class Frame {
@@ -73,9 +81,19 @@ export class Frame {
     /** Characters of the last label of the horizontal axis. */
     private lastLabel = 0;
     private logY: boolean;
+    /** What the axes have now, labels with what is left out at their ticks. */
+    readonly label = { x: "", y: "" };
+    readonly ticks: { x: Ticks; y: Ticks } = {
+        x: { labelled: [], minor: [] },
+        y: { labelled: [], minor: [] },
+    };
     private readonly listeners: (() => void)[] = [];
 
-    constructor(readonly host: HTMLElement, private readonly options: FrameOptions, private readonly theme: Theme) {
+    constructor(
+        readonly host: HTMLElement,
+        private readonly options: FrameOptions,
+        private readonly theme: Theme,
+    ) {
         this.logY = options.range().logY;
         this.plot = this.create();
         new ResizeObserver(() => this.resize()).observe(host);
@@ -129,8 +147,25 @@ export class Frame {
         return { ...range, x: widen(x), y: widen(y) };
     }
 
+    /** Remembers the ticks of an axis. */
+    private keep(axis: "x" | "y", splits: readonly number[], labels: readonly string[]): string[] {
+        const all = splits.map((value, k): [number, string] => [value, labels[k] ?? ""]);
+        this.ticks[axis] = {
+            labelled: all.filter(([, label]) => label !== ""),
+            minor: all.filter(([, label]) => label === "").map(([value]) => value),
+        };
+        return [...labels];
+    }
+
     private create(): uPlot {
-        return new uPlot(this.plotOptions(), [[0, 1], [null, null]], this.host);
+        return new uPlot(
+            this.plotOptions(),
+            [
+                [0, 1],
+                [null, null],
+            ],
+            this.host,
+        );
     }
 
     private resize(): void {
@@ -167,28 +202,65 @@ export class Frame {
             axes: [
                 {
                     ...common,
-                    label: (plot: uPlot, _: number, distance: number) => less(this.options.xLabel(), commonOf(plot, "x", distance)),
+                    label: (plot: uPlot, _: number, distance: number) =>
+                        (this.label.x = less(this.options.xLabel(), commonOf(plot, "x", distance))),
                     labelSize: 20,
                     size: 30,
                     space: this.options.space ?? WIDE,
                     values: (plot, splits, __, ___, distance) => {
                         const labels = ticks(splits, distance, commonOf(plot, "x", distance));
                         this.lastLabel = labels.at(-1)?.length ?? 0;
-                        return labels;
+                        return this.keep("x", splits, labels);
                     },
                 },
                 {
                     ...common,
-                    label: (plot: uPlot, _: number, distance: number) => less(this.options.yLabel(), logY ? logarithmic(plot).common : commonOf(plot, "y", distance)),
+                    label: (plot: uPlot, _: number, distance: number) =>
+                        (this.label.y = less(
+                            this.options.yLabel(),
+                            logY ? logarithmic(plot).common : commonOf(plot, "y", distance),
+                        )),
                     labelSize: 20,
-                    size: (_, labels) => Math.max(NARROW, 12 + CHARACTER * Math.max(0, ...(labels ?? []).map((label) => label.length))),
+                    size: (_, labels) =>
+                        Math.max(
+                            NARROW,
+                            12 + CHARACTER * Math.max(0, ...(labels ?? []).map((label) => label.length)),
+                        ),
                     space: TALL,
-                    ...(logY ? { splits: (plot: uPlot) => logarithmic(plot).splits, filter: (_: uPlot, splits: number[]) => splits } : {}),
-                    values: (plot, splits, __, ___, distance) => (logY ? logarithmic(plot).labels : ticks(splits, distance, commonOf(plot, "y", distance))),
+                    ...(logY
+                        ? {
+                              splits: (plot: uPlot) => this.labelled(plot),
+                              filter: (_: uPlot, splits: number[]) => splits,
+                          }
+                        : {}),
+                    values: (plot, splits, __, ___, distance) =>
+                        logY
+                            ? this.ticks.y.labelled.map(([, label]) => label)
+                            : this.keep("y", splits, ticks(splits, distance, commonOf(plot, "y", distance))),
                 },
             ],
             hooks: { draw: [(plot) => this.paint(plot)] },
         };
+    }
+
+    /** The ticks of a logarithmic axis that have a label, and with it a line of the grid. */
+    private labelled(plot: uPlot): number[] {
+        const { splits, labels } = logarithmic(plot);
+        this.keep("y", splits, labels);
+        return this.ticks.y.labelled.map(([value]) => value);
+    }
+
+    /** Ticks without labels: short lines at the edge. */
+    private paintMinor(context: CanvasRenderingContext2D): void {
+        const { left } = this.plot.bbox;
+        context.strokeStyle = this.theme.look.pale;
+        context.lineWidth = this.density;
+        context.beginPath();
+        for (const value of this.ticks.y.minor) {
+            context.moveTo(left, this.toY(value));
+            context.lineTo(left + 4 * this.density, this.toY(value));
+        }
+        context.stroke();
     }
 
     /** The state of the context is left as it was: uPlot remembers what it has set. */
@@ -199,6 +271,7 @@ export class Frame {
         context.rect(bbox.left, bbox.top, bbox.width, bbox.height);
         context.save();
         context.clip();
+        this.paintMinor(context);
         this.options.paint(context, this);
         context.restore();
         context.strokeStyle = this.theme.look.pale;

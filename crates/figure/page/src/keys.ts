@@ -2,19 +2,21 @@
 
 import { eventsOf } from "./bifurcations";
 import { nextSection } from "./chaos";
-import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Quantity, type Solutions } from "./data";
+import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Solutions } from "./data";
 import { element } from "./dom";
 import type { Response } from "./response";
 import type { Store } from "./state";
+import type { Axis } from "./units";
 
 export interface Actions {
     response: Response;
     /** Those that can be shown. */
-    quantities: readonly Quantity[];
-    quantity: (quantity: Quantity) => void;
+    quantities: readonly Axis[];
+    quantity: (quantity: Axis) => void;
     section: (place: number) => void;
     play: () => void;
     copyLink: () => void;
+    tour: () => void;
     help: () => void;
 }
 
@@ -30,28 +32,54 @@ const LIST: readonly [string, string][] = [
     ["Q", "another quantity"],
     ["L", "logarithmic or linear"],
     ["M", "marks on or off"],
+    ["N", "numbers of special points on or off"],
     ["D", "dark or light"],
     ["C", "copy a link to what is shown"],
+    ["T", "a short tour of the page"],
     ["Esc", "no selection"],
     ["?", "this list"],
 ];
 
 const POINTER: readonly [string, string][] = [
-    ["Click", "the nearest solution; in a chaotic range, or on the strip above it, the nearest chaotic motion"],
+    [
+        "Click",
+        "the nearest solution; in a chaotic range, or on the strip above it, the nearest chaotic motion",
+    ],
     ["Wheel", "zoom (with Shift: frequency alone; with Alt: vertical axis alone)"],
     ["Drag", "zoom into a box"],
     ["Shift and drag", "move the view; so does the right button, or a finger"],
+    ["Two fingers", "zoom"],
     ["Double click", "everything"],
 ];
 
 /** What scrolls a list. */
-const SCROLLING: ReadonlySet<string> = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End", " "]);
+const SCROLLING: ReadonlySet<string> = new Set([
+    "ArrowUp",
+    "ArrowDown",
+    "ArrowLeft",
+    "ArrowRight",
+    "PageUp",
+    "PageDown",
+    "Home",
+    "End",
+    " ",
+]);
 
 export function helpDialog(): HTMLDialogElement {
     const list = (rows: readonly [string, string][]): HTMLElement =>
-        element("dl", { class: "keys" }, rows.flatMap(([key, text]) => [element("dt", {}, [key]), element("dd", {}, [text])]));
+        element(
+            "dl",
+            { class: "keys" },
+            rows.flatMap(([key, text]) => [element("dt", {}, [key]), element("dd", {}, [text])]),
+        );
     const close = element("form", { method: "dialog" }, [element("button", {}, ["Close"])]);
-    return element("dialog", { "aria-label": "Keys" }, [element("h2", {}, ["Keys"]), list(LIST), element("h2", {}, ["Pointer"]), list(POINTER), close]);
+    return element("dialog", { "aria-label": "Keys" }, [
+        element("h2", {}, ["Keys"]),
+        list(LIST),
+        element("h2", {}, ["Pointer"]),
+        list(POINTER),
+        close,
+    ]);
 }
 
 export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, actions: Actions): void {
@@ -80,7 +108,11 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         const branch = drawn(place, 1);
         if (branch !== undefined) {
             const isOn = selected >= 0 && !hidden.has(place);
-            select(isOn ? Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by)) : branch.first);
+            select(
+                isOn
+                    ? Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by))
+                    : branch.first,
+            );
         }
     };
     const stepBranch = (by: 1 | -1): void => {
@@ -92,7 +124,11 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
     };
     const stepEvent = (by: 1 | -1): void => {
         const { selected, hidden } = store.state;
-        const own = bifurcations.filter((k) => !hidden.has(solutions.branch[k] ?? 0) && (selected < 0 || solutions.branch[k] === solutions.branch[selected]));
+        const own = bifurcations.filter(
+            (k) =>
+                !hidden.has(solutions.branch[k] ?? 0) &&
+                (selected < 0 || solutions.branch[k] === solutions.branch[selected]),
+        );
         const found = by > 0 ? own.find((k) => k > selected) : own.findLast((k) => k < selected);
         if (found !== undefined) {
             select(found);
@@ -115,10 +151,18 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         "-": () => zoom(1 / 0.6),
         "0": () => store.update({ view: null }),
         " ": actions.play,
-        q: () => actions.quantity(actions.quantities[(actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length] ?? "displacement"),
+        q: () =>
+            actions.quantity(
+                actions.quantities[
+                    (actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length
+                ] ?? "displacement",
+            ),
         l: () => store.update({ log: !store.state.log, view: null }),
+        n: () => store.update({ numbers: !store.state.numbers }),
+        t: actions.tour,
         m: () => store.update({ marks: !store.state.marks }),
-        d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
+        d: () =>
+            store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
         c: actions.copyLink,
         Escape: () => select(-1),
         "?": actions.help,
@@ -141,7 +185,10 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         if (event.ctrlKey || event.metaKey || event.altKey || writes !== null || scrolls || presses) {
             return;
         }
-        const act = (event.shiftKey ? shifted[event.key] : undefined) ?? plain[event.key] ?? plain[event.key.toLowerCase()];
+        const act =
+            (event.shiftKey ? shifted[event.key] : undefined) ??
+            plain[event.key] ??
+            plain[event.key.toLowerCase()];
         if (act !== undefined) {
             event.preventDefault();
             act();

@@ -1,4 +1,5 @@
-// Ticks of a logarithmic axis: at 1 to 9 times powers of ten, labelled where there is room; where fewer than three of them are seen, at equal distances.
+// Ticks of a logarithmic axis: at 1 to 9 times powers of ten, labelled where there is room; where fewer than
+// three of them are seen, at equal distances.
 
 import { commonPart, logTicks, ticks } from "./format";
 
@@ -27,12 +28,15 @@ export function logAxis(low: number, high: number, room: number): LogAxis {
         return evenly(low, high, room);
     }
     const perDecade = room / decades;
-    const mantissas = perDecade >= 9 ? "123456789" : perDecade >= 2.5 ? "125" : "1";
-    const isLabelled = (value: number): boolean => {
+    const isLabelled = (value: number, mantissas: string): boolean => {
         const [mantissa = "", exponent = ""] = value.toExponential(0).split("e");
         return mantissas.includes(mantissa) && Number(exponent) % every === 0;
     };
-    const labels = logTicks(splits.map((value) => (isLabelled(value) ? value : null)));
+    const few = perDecade >= 2.5 ? "125" : "1";
+    // A label at every tick only where there are hardly any others.
+    const mantissas =
+        perDecade >= 9 && splits.filter((value) => isLabelled(value, few)).length < 3 ? "123456789" : few;
+    const labels = logTicks(splits.map((value) => (isLabelled(value, mantissas) ? value : null)));
     return { splits, labels, common: 0 };
 }
 

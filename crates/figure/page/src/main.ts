@@ -3,141 +3,202 @@
 import { Address } from "./address";
 import { bifurcationTable } from "./bifurcations";
 import { branchList } from "./branch_list";
-import { controls } from "./controls";
+import { controls, type Ending } from "./controls";
 import { Curves } from "./curves";
-import { readMeta, readSolutions, type Quantity } from "./data";
-import { button, element } from "./dom";
+import { multiplierText, readMeta, readSolutions, solutionText } from "./data";
+import { element } from "./dom";
+import { save as saveDiagram } from "./export";
 import { figurePanel } from "./figures";
-import { digits } from "./format";
+import { shortHertz } from "./format";
+import { firstSolution } from "./first";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
 import { legend } from "./legend";
-import type { Multiplier } from "./multiplier_table";
-import type { Orbit } from "./orbit";
+import { eventNumbers, markedSolutions } from "./marks";
+import { MultiplierTable } from "./multiplier_table";
+import { Others } from "./others";
 import { Response } from "./response";
+import { Saying } from "./saying";
 import { sectionPanel } from "./sections";
 import { SolutionView } from "./solution_view";
 import { Store, type State } from "./state";
+import { forTests } from "./testing";
 import { Theme } from "./theme";
+import { startTour } from "./tour";
+import { chooseUnits, MEASURES, type Axis } from "./units";
+import { inflated } from "./unpack";
 
-const meta = readMeta();
-const solutions = readSolutions(meta.branches);
-const curves = new Curves(solutions);
-const quantities = curves.present(meta.measured);
-const stateOf = (hash: string): State => fromHash(hash, meta, quantities, (quantity) => curves.spansMuch(quantity));
-const store = new Store(stateOf(location.hash));
-const theme = new Theme(meta, store);
+/** Makes the page from what it carries. */
+async function start(): Promise<void> {
+    const meta = readMeta();
+    const solutions = readSolutions(meta.branches, await inflated(solutionText()));
+    chooseUnits(meta, solutions);
+    const curves = new Curves(meta, solutions);
+    const quantities = curves.present(meta.measured);
+    const openings = {
+        quantities,
+        suits: (quantity: Axis, over: number) => curves.spansMuch(quantity, over),
+        first: firstSolution(meta, solutions),
+    };
+    const stateOf = (hash: string): State => fromHash(hash, meta, openings);
+    const store = new Store(stateOf(location.hash));
+    const theme = new Theme(meta, store);
+    const saying = new Saying();
+    const [marked, numbers] = [markedSolutions(solutions), eventNumbers(meta, solutions)];
 
-const page = document.getElementById("page") ?? document.body;
-const help = helpDialog();
-const said = element("p", { class: "note said", role: "status" });
-const view = new SolutionView(meta, solutions, store, theme);
-const diagram = element("div", { class: "diagram" });
-const zoom = (factor: number): void => response.zoomAboutSelected(factor);
-const whole = (): void => store.update({ view: null });
-/** Another quantity, with all of it seen on the scale that suits it. */
-const show = (quantity: Quantity): void => store.update({ quantity, log: curves.spansMuch(quantity), view: null });
-const showHelp = (): void => help.showModal();
+    const page = document.getElementById("page") ?? document.body;
+    const help = helpDialog();
+    const diagram = element("div", { class: "diagram" });
+    const others = new Others(meta, saying, () => {
+        shown.fill();
+        response.plan();
+    });
+    /** Opens the section at a place of their list; what the reader looks at stays where it is. */
+    const openSection = (place: number): void => {
+        if (place >= 0) {
+            store.update({ section: place });
+            saying.pointTo(
+                "section",
+                `The Poincaré section at ${shortHertz(meta.sections[place]?.frequency ?? NaN, 6)} is open.`,
+            );
+        }
+    };
+    const response = new Response(
+        meta,
+        solutions,
+        curves,
+        store,
+        theme,
+        { marked, numbers, compared: others.list },
+        openSection,
+        diagram,
+    );
+    const shown = legend({ meta, solutions, marked, compared: others.list, theme }, store);
+    others.takeDropsOn(diagram);
 
-/** Says something for some seconds. */
-function say(...words: (string | Node)[]): void {
-    window.clearTimeout(saying);
-    said.replaceChildren(...words);
-    saying = window.setTimeout(() => said.replaceChildren(), 6000);
-}
-let saying = 0;
-
-/** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
-async function copyLink(): Promise<void> {
-    address.write();
-    try {
-        await navigator.clipboard.writeText(location.href);
-        say("The link is copied.");
-    } catch {
-        say("The address of this page is the link.");
-    }
-}
-
-const copy = (): void => void copyLink();
-const counted = (count: number, one: string, several: string): string => `${count} ${count === 1 ? one : several}`;
-const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${meta.range[0]} to ${meta.range[1]} Hz${meta.point === "" ? "" : `; response of ${meta.point}`}`;
-page.append(
-    element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
-    ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
-    controls(meta, quantities, store, { quantity: show, whole, zoom, copyLink: copy, help: showHelp }),
-    said,
-    diagram,
-);
-const lists = element("div", { class: "lists" });
-/** Opens the section at a place of their list; what the reader looks at stays where it is. */
-const openSection = (place: number): void => {
-    if (place < 0) {
-        return;
-    }
-    store.update({ section: place });
-    const panel = document.getElementById("section");
-    const box = panel?.getBoundingClientRect();
-    if (panel && box && (box.top > window.innerHeight - 200 || box.bottom < 100)) {
-        const go = button("Go to it", "Scroll to the Poincaré section", () => {
-            panel.scrollIntoView({ block: "nearest" });
-            said.replaceChildren();
+    const view = new SolutionView(
+        meta,
+        solutions,
+        store,
+        theme,
+        numbers,
+        (text) => void saying.copy(text, "The command is copied."),
+    );
+    const address = new Address(
+        () => toHash(store.state, meta, solutions),
+        (hash) => store.update(stateOf(hash)),
+    );
+    store.listen(() => address.plan());
+    const copyLink = (): void => {
+        address.write();
+        void saying.copy(location.href, "The link is copied.", "The address of this page is the link.");
+    };
+    /** Another quantity, with all of it seen on the scale that suits it. */
+    const quantity = (chosen: Axis): void =>
+        store.update({ quantity: chosen, log: curves.spansMuch(chosen, store.state.over), view: null });
+    const over = (chosen: number): void => {
+        const hidden = new Set(
+            meta.branches.flatMap((branch, place) => (branch.over === chosen ? [] : [place])),
+        );
+        const branch = meta.branches.find((one) => one.over === chosen && one.count > 0);
+        const selected =
+            chosen === 0 || branch === undefined ? openings.first : branch.first + (branch.count >> 1);
+        store.update({
+            over: chosen,
+            across: "parameter",
+            hidden,
+            view: null,
+            selected,
+            log: curves.spansMuch(store.state.quantity, chosen),
         });
-        say(`The Poincaré section at ${digits(meta.sections[place]?.frequency ?? NaN, 6)} Hz is open.`, go);
-    }
-};
-const response = new Response(meta, solutions, curves, store, theme, openSection, diagram);
-const jump = (solution: number): void => {
-    store.update({ selected: solution });
-    response.show(solution, 0.05);
-};
-lists.append(
-    branchList(meta, solutions, store, theme, (branch) => store.update({ selected: branch.first + (branch.count >> 1) })),
-    bifurcationTable(meta, solutions, store, jump),
-    ...[sectionPanel(meta, store, theme, openSection, (range) => response.showRange(range))].filter((part) => part !== null),
-);
-const notes = [...new Set(meta.measured.map((series) => series.note))].filter((note) => note !== "");
-page.append(
-    legend(meta, solutions, store, theme),
-    ...notes.map((note) => element("p", { class: "note" }, [`Measured points: ${note}`])),
-    view.root,
-    lists,
-    ...[figurePanel(meta)].filter((part) => part !== null),
-    help,
-);
-if (solutions.count === 0) {
-    diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
-}
-view.show();
-listenToKeys(meta, solutions, store, { response, quantities, quantity: show, section: openSection, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
+    };
+    const showHelp = (): void => help.showModal();
+    const save = (ending: Ending): void =>
+        void saveDiagram(response.frame, response.scene(), ending, {
+            meta,
+            solutions,
+            marked,
+            compared: others.list,
+            theme,
+        });
+    const jump = (solution: number): void => {
+        store.update({ selected: solution });
+        response.show(solution, 0.05);
+    };
 
-const address = new Address(
-    () => toHash(store.state, meta, solutions),
-    (hash) => store.update(stateOf(hash)),
-);
-store.listen(() => address.plan());
+    const notes = [...new Set(meta.measured.map((series) => series.note))].filter((note) => note !== "");
+    const middle = (branch: { first: number; count: number }): void =>
+        store.update({ selected: branch.first + (branch.count >> 1) });
+    page.append(
+        element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle()])]),
+        ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
+        controls(meta, quantities, store, {
+            quantity,
+            across: (across) => store.update({ across, view: null }),
+            over,
+            whole: () => store.update({ view: null }),
+            zoom: (factor) => response.zoomAboutSelected(factor),
+            save,
+            compare: (files) => void others.open(files),
+            copyLink,
+            tour: startTour,
+            help: showHelp,
+        }),
+        saying.root,
+        diagram,
+        shown.root,
+        ...notes.map((note) => element("p", { class: "note" }, [`Measured points: ${note}`])),
+        view.root,
+        element("div", { class: "lists" }, [
+            branchList(meta, solutions, store, theme, middle),
+            bifurcationTable(meta, solutions, numbers, store, jump),
+            ...[sectionPanel(meta, store, theme, openSection, (range) => response.showRange(range))].filter(
+                (part) => part !== null,
+            ),
+        ]),
+        ...[figurePanel(meta)].filter((part) => part !== null),
+        help,
+    );
+    if (solutions.count === 0) {
+        diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
+    }
+    view.show();
+    listenToKeys(meta, solutions, store, {
+        response,
+        quantities,
+        quantity,
+        section: openSection,
+        play: () => view.animation.toggle(),
+        copyLink,
+        tour: startTour,
+        help: showHelp,
+    });
+    forTests({
+        response,
+        store,
+        view,
+        others,
+        of: { meta, solutions, marked, compared: others.list, theme },
+    });
+    // What is seen first is the diagram.
+    await new Promise((done) => requestAnimationFrame(() => window.setTimeout(done)));
+    view.take(new MultiplierTable(await inflated(multiplierText()), meta.multipliers.solutions));
 
-// For tests and benchmarks.
-declare global {
-    interface Window {
-        hammerbeam: {
-            redraw: () => void;
-            zoom: (factor: number) => void;
-            placeOf: (solution: number) => [number, number];
-            pointAt: (frequency: number, value: number) => [number, number];
-            state: () => State;
-            orbit: () => Orbit | null;
-            unitCircle: () => [across: number, up: number];
-            multipliersOf: (solution: number) => Multiplier[];
-        };
+    function subtitle(): string {
+        const counted = (count: number, one: string, several: string): string =>
+            `${count} ${count === 1 ? one : several}`;
+        const { factor, unit } = MEASURES.frequency;
+        const [low, high] = meta.range.map((end) => Number((factor * end).toPrecision(12)));
+        return `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${low} to ${high} ${unit}${meta.point === "" ? "" : `; response of ${meta.point}`}`;
     }
 }
-window.hammerbeam = {
-    redraw: () => response.redraw(),
-    zoom: (factor) => response.zoom([factor, factor]),
-    placeOf: (solution) => response.placeOf(solution),
-    pointAt: (frequency, value) => response.pointAt(frequency, value),
-    state: () => store.state,
-    orbit: () => view.orbit,
-    unitCircle: () => view.unitCircle(),
-    multipliersOf: (solution) => view.multipliersOf(solution),
-};
+
+start().catch((error: unknown) => {
+    console.error(error);
+    const page = document.getElementById("page") ?? document.body;
+    page.append(
+        element("p", { class: "notice", role: "alert" }, [
+            `The page cannot be shown: ${error instanceof Error ? error.message : String(error)}. A browser of 2023 or later is needed.`,
+        ]),
+    );
+});

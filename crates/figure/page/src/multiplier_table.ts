@@ -1,45 +1,51 @@
 // The multipliers of every solution (see multipliers.rs of the figure crate).
 
-import { bytesOf } from "./base64";
+import { Unpacker } from "./unpack";
 
 export type Multiplier = [re: number, im: number];
 
-export class MultiplierTable {
-    private readonly bytes: Uint8Array<ArrayBuffer>;
-    /** Where the record of each solution begins. */
-    private readonly offsets: Uint32Array;
+/** Bits of the heads that count the entries of a solution; those above them say which are pairs. */
+const COUNT_BITS = 4;
 
-    /** * `text`: the records in base64. */
-    constructor(text: string, solutions: number) {
-        this.bytes = bytesOf(text);
-        this.offsets = new Uint32Array(solutions);
-        let at = 0;
-        for (let k = 0; k < solutions; k++) {
-            this.offsets[k] = at;
-            const { entries, pairs } = this.head(at);
-            at += 2 + 3 * (entries + ones(pairs));
+export class MultiplierTable {
+    /** How many entries a solution has, and which are pairs. */
+    private readonly heads: Uint32Array;
+    /** The numbers of all solutions: the first number of each, then the second, and so on. */
+    private readonly numbers: Float32Array[] = [];
+    /** Where a solution stands among those that have a number. */
+    private readonly places: Uint32Array[] = [];
+
+    /** * `bytes`: columns, `solutions`: how many have one. */
+    constructor(bytes: Uint8Array<ArrayBuffer>, solutions: number) {
+        const columns = new Unpacker(bytes);
+        this.heads = columns.whole(solutions, 2);
+        const lengths = Uint8Array.from(this.heads, lengthOf);
+        const most = lengths.reduce((largest, length) => Math.max(largest, length), 0);
+        for (let k = 0; k < most; k++) {
+            const places = new Uint32Array(solutions);
+            let count = 0;
+            for (let solution = 0; solution < solutions; solution++) {
+                places[solution] = count;
+                count += (lengths[solution] ?? 0) > k ? 1 : 0;
+            }
+            this.places.push(places);
+            // Three bytes of a single precision number, the lowest one is not carried.
+            this.numbers.push(new Float32Array(columns.whole(count, 3).map((bits) => bits << 8).buffer));
         }
     }
 
     /** Those that are carried of a solution, largest first, both of a pair. */
     of(solution: number): Multiplier[] {
-        const begin = this.offsets[solution];
-        if (begin === undefined) {
-            return [];
-        }
-        const { entries, pairs } = this.head(begin);
-        let at = begin + 2;
-        const view = new DataView(new ArrayBuffer(4));
-        const number = (): number => {
-            const [low, middle, high] = this.bytes.subarray(at, at + 3);
-            at += 3;
-            view.setUint32(0, ((high ?? 0) << 24) | ((middle ?? 0) << 16) | ((low ?? 0) << 8));
-            return view.getFloat32(0);
-        };
+        const head = this.heads[solution] ?? 0;
         const found: Multiplier[] = [];
-        for (let k = 0; k < entries; k++) {
+        let next = 0;
+        const number = (): number => {
+            const place = this.places[next]?.[solution] ?? 0;
+            return this.numbers[next++]?.[place] ?? NaN;
+        };
+        for (let k = 0; k < (head & (2 ** COUNT_BITS - 1)); k++) {
             const re = number();
-            if (((pairs >> k) & 1) === 1) {
+            if (((head >> (COUNT_BITS + k)) & 1) === 1) {
                 const im = number();
                 found.push([re, im], [re, -im]);
             } else {
@@ -48,16 +54,12 @@ export class MultiplierTable {
         }
         return found;
     }
-
-    private head(at: number): { entries: number; pairs: number } {
-        const head = (this.bytes[at] ?? 0) | ((this.bytes[at + 1] ?? 0) << 8);
-        return { entries: head & 15, pairs: head >> 4 };
-    }
 }
 
-function ones(bits: number): number {
-    let count = 0;
-    for (let left = bits; left > 0; left >>= 1) {
+/** How many numbers a solution has. */
+function lengthOf(head: number): number {
+    let count = head & (2 ** COUNT_BITS - 1);
+    for (let left = head >> COUNT_BITS; left > 0; left >>= 1) {
         count += left & 1;
     }
     return count;

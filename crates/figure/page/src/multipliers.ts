@@ -22,16 +22,31 @@ export class Multipliers {
     private multipliers: Multiplier[] = [];
 
     constructor(private readonly theme: Theme) {
-        this.root = panel("Floquet multipliers", "multipliers", [this.whose, this.host, this.outside, this.list]);
+        this.root = panel("Floquet multipliers", "multipliers", [
+            this.whose,
+            this.host,
+            this.outside,
+            this.list,
+        ]);
     }
 
-    /** * `whose`: in words; `most`: how many there are, those that are not carried included. */
+    /**
+     * * `whose`: in words; `most`: how many there are, those that are not carried included; below 0 where
+     *   that is not known yet.
+     */
     show(multipliers: Multiplier[], whose: string, most: number): void {
         this.multipliers = multipliers;
         this.whose.textContent =
-            multipliers.length === 0 ? `The page has no multipliers ${whose}.` : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
+            most < 0
+                ? ""
+                : multipliers.length === 0
+                  ? `The page has no multipliers ${whose}.`
+                  : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
         // Of a pair the one above the axis stands for both.
-        const listed = multipliers.filter(([, im]) => im >= 0).slice(0, LISTED).map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
+        const listed = multipliers
+            .filter(([, im]) => im >= 0)
+            .slice(0, LISTED)
+            .map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
         this.list.replaceChildren(...listed);
         if (this.frame === null) {
             const range = (): { x: [number, number]; y: [number, number]; logY: false } => {
@@ -72,7 +87,10 @@ export class Multipliers {
     /** Says what lies outside the frame, of a pair one for both. */
     private tell(edges: Edges): void {
         const far = this.multipliers.filter((one) => one[1] >= 0 && !isWithin(one, edges));
-        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.map(([re, im]) => complex(re, im)).join(", ")}.`;
+        this.outside.textContent =
+            far.length === 0
+                ? ""
+                : `Outside the frame: ${far.map(([re, im]) => complex(re, im)).join(", ")}.`;
     }
 
     private paint(context: CanvasRenderingContext2D, frame: Frame): void {

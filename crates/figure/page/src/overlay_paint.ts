@@ -1,14 +1,22 @@
-// The marks of what lies over the branches: told apart by shape, and by a dot within from the marks of bifurcations.
+// The marks of what lies over the branches: told apart by shape, and by a dot within from the marks of
+// bifurcations.
 
 import type { Look } from "./data";
+import { newPath, type Outline } from "./outline";
 import type { Dot } from "./overlay";
 
 /** Half the size of a mark (CSS pixels). */
 export const RADIUS = 3.6;
 
 /** Draws marks of a kind at places in canvas pixels. */
-export function drawDots(context: CanvasRenderingContext2D, layer: Dot["layer"], places: readonly (readonly [number, number])[], density: number, look: Look): void {
-    const [outline, within] = [new Path2D(), new Path2D()];
+export function drawDots(
+    context: CanvasRenderingContext2D,
+    layer: Dot["layer"],
+    places: readonly (readonly [number, number])[],
+    density: number,
+    look: Look,
+): void {
+    const [outline, within] = [newPath(), newPath()];
     const radius = RADIUS * density;
     for (const [x, y] of places) {
         if (layer === "irregular") {
@@ -25,23 +33,23 @@ export function drawDots(context: CanvasRenderingContext2D, layer: Dot["layer"],
     if (layer === "irregular") {
         context.lineWidth = 1.3 * density;
         context.strokeStyle = look.pale;
-        context.stroke(outline);
+        context.stroke(outline as Path2D);
         return;
     }
     // A rim of paper, so that a mark is seen on a line of its colour.
     context.lineWidth = 3 * density;
     context.strokeStyle = look.paper;
-    context.stroke(outline);
+    context.stroke(outline as Path2D);
     context.fillStyle = layer === "aperiodic" ? look.ink : look.paper;
-    context.fill(outline);
+    context.fill(outline as Path2D);
     context.lineWidth = 1.2 * density;
     context.strokeStyle = look.ink;
-    context.stroke(outline);
+    context.stroke(outline as Path2D);
     context.fillStyle = layer === "aperiodic" ? look.paper : look.ink;
-    context.fill(within);
+    context.fill(within as Path2D);
 }
 
-function cross(path: Path2D, x: number, y: number, radius: number): void {
+function cross(path: Outline, x: number, y: number, radius: number): void {
     path.moveTo(x - radius, y - radius);
     path.lineTo(x + radius, y + radius);
     path.moveTo(x - radius, y + radius);

@@ -1,15 +1,19 @@
 // What lies in the frame of the response diagram, from back to front.
 
 import { scalesOf, type Curves, type Scales } from "./curves";
-import { STRIP } from "./chaos";
+import { isOverFrequency, STRIP } from "./chaos";
+import { paintCompared, type Compared } from "./compared";
 import type { Meta, Solutions } from "./data";
 import type { Frame } from "./frame";
-import { apart, drawMarks, MARKS, standsFor, type Mark } from "./marks";
+import { KeptDrawing } from "./kept_drawing";
+import { drawMarks, MARKS, type Marked } from "./marks";
+import { newPath } from "./outline";
 import { dotsOf } from "./overlay";
 import { drawDots } from "./overlay_paint";
-import { linesOf, type Strokes } from "./paths";
-import { LAYERS, type State } from "./state";
+import type { PlacedMark } from "./place_marks";
+import { DOTS, type State } from "./state";
 import type { Theme } from "./theme";
+import { MEASURES } from "./units";
 
 export interface Scene {
     meta: Meta;
@@ -17,23 +21,37 @@ export interface Scene {
     curves: Curves;
     state: State;
     theme: Theme;
-    marked: Map<Mark, number[]>;
+    marked: readonly Marked[];
+    /** Numbers of special points by their solutions. */
+    numbers: ReadonlyMap<number, number>;
+    compared: readonly Compared[];
+    /** What is kept while one pans; without it everything is made anew. */
+    kept?: KeptDrawing;
 }
 
 /** Dots of marginal lines and the gaps between (CSS pixels). */
-export const DOTS: readonly number[] = [2, 3];
+export const DOTTED: readonly number[] = [2, 3];
+export const SANS = "system-ui, -apple-system, 'Segoe UI', Roboto, Helvetica, Arial, sans-serif";
+
+/** Kinds of lines, with their widths and dashes (CSS pixels), from back to front. */
+const LINES: readonly (readonly ["unstable" | "marginal" | "stable", number, readonly number[]])[] = [
+    ["unstable", 1.1, [5, 3]],
+    ["marginal", 2, DOTTED],
+    ["stable", 2, []],
+];
 
 /** Draws everything; returns the number of branches of which something was drawn. */
 export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, scene: Scene): number {
     const scales = scalesOf(frame.range(), frame.plot.bbox);
+    const kept = scene.kept ?? new KeptDrawing();
+    const shift = kept.shiftTo(scene, scales, frame.density);
+    const marks = shiftedMarks(kept, scene, shift);
     paintChaos(context, frame, scene);
-    if (scene.state.marks) {
-        paintMarks(context, frame, scene, scales, true);
-    }
-    const drawn = paintBranches(context, frame, scene, scales);
-    if (scene.state.marks) {
-        paintMarks(context, frame, scene, scales, false);
-    }
+    paintMarks(context, frame, scene, marks, true);
+    paintCompared(context, frame, scene, scales);
+    const drawn = paintBranches(context, frame, scene, { kept, shift });
+    paintMarks(context, frame, scene, marks, false);
+    paintNumbers(context, frame, scene, marks);
     paintOverlay(context, frame, scene);
     paintSelected(context, frame, scene, scales);
     return drawn;
@@ -41,13 +59,15 @@ export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, s
 
 /** Chaotic ranges with a strip above them, and the frequency of the section that is shown. */
 function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
-    if (state.off.has("chaos")) {
+    if (state.off.has("chaos") || !isOverFrequency(state)) {
         return;
     }
+    const { factor } = MEASURES.frequency;
+    const toX = (hertz: number): number => frame.toX(factor * hertz);
     const { top, height } = frame.plot.bbox;
     for (const [low, high] of meta.chaos) {
-        const left = frame.toX(low);
-        const width = Math.max(frame.density, frame.toX(high) - left);
+        const left = toX(low);
+        const width = Math.max(frame.density, toX(high) - left);
         context.fillStyle = theme.look.shade;
         context.fillRect(left, top, width, height);
         context.fillStyle = theme.look.pale;
@@ -58,73 +78,145 @@ function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, sta
         context.strokeStyle = theme.look.pale;
         context.lineWidth = 1.5 * frame.density;
         context.setLineDash([2 * frame.density, 3 * frame.density]);
-        context.beginPath();
-        context.moveTo(frame.toX(section.frequency), top);
-        context.lineTo(frame.toX(section.frequency), top + height);
-        context.stroke();
+        const line = newPath();
+        line.moveTo(toX(section.frequency), top);
+        line.lineTo(toX(section.frequency), top + height);
+        context.stroke(line as Path2D);
     }
 }
 
-/** Strokes across the lines of a branch, in canvas pixels. */
-function strokesOf(count: number, density: number): Strokes {
-    return { count, spacing: 48 * density, apart: 3 * density, reach: 5 * density };
-}
-
-function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales): number {
-    const { meta, solutions, curves, state, theme } = scene;
-    const levels = curves.levels(state.quantity, state.log);
+function paintBranches(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    scene: Scene,
+    { kept, shift }: { kept: KeptDrawing; shift: readonly [number, number] },
+): number {
+    const { meta, state, theme } = scene;
     const density = frame.density;
     let drawn = 0;
     context.lineJoin = "round";
-    meta.branches.forEach((branch, place) => {
-        if (state.hidden.has(place) || branch.count === 0) {
+    context.save();
+    context.translate(...shift);
+    meta.branches.forEach(({ count, period }, place) => {
+        const lines = state.hidden.has(place) || count === 0 ? null : kept.linesOf(scene, place);
+        if (lines === null) {
             return;
         }
-        const lines = linesOf(solutions, levels, branch.first, branch.count, scales, strokesOf(theme.strokes(branch.period), density));
-        context.strokeStyle = context.fillStyle = theme.period(branch.period);
-        context.lineWidth = 1.1 * density;
-        context.setLineDash([5 * density, 3 * density]);
-        context.stroke(lines.unstable);
-        context.lineWidth = 2 * density;
-        context.setLineDash(DOTS.map((length) => length * density));
-        context.stroke(lines.marginal);
+        context.strokeStyle = context.fillStyle = theme.period(period);
+        for (const [look, width, dash] of LINES.filter(([look]) => !state.off.has(look))) {
+            context.lineWidth = width * density;
+            context.setLineDash(dash.map((length) => length * density));
+            context.stroke(lines[look] as Path2D);
+        }
         context.setLineDash([]);
-        context.stroke(lines.stable);
         context.lineWidth = 1.1 * density;
-        context.stroke(lines.strokes);
-        for (const [x, y, look] of lines.dots) {
-            context.beginPath();
-            context.arc(x, y, 3 * density, 0, 2 * Math.PI);
+        context.stroke(lines.strokes as Path2D);
+        for (const [x, y, look] of lines.dots.filter(([, , look]) => !state.off.has(look))) {
+            const dot = newPath();
+            dot.arc(x, y, 3 * density, 0, 2 * Math.PI);
             if (look === "stable") {
-                context.fill();
+                context.fill(dot as Path2D);
             } else {
                 context.lineWidth = (look === "marginal" ? 2 : 1.1) * density;
-                context.stroke();
+                context.stroke(dot as Path2D);
             }
         }
         drawn++;
     });
+    context.restore();
     return drawn;
 }
 
-function paintMarks(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales, isBehind: boolean): void {
-    for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind)) {
-        const others = MARKS.filter(standsFor(mark)).flatMap((other) => placesOf(other, scene, scales));
-        drawMarks(context, mark, apart(placesOf(mark, scene, scales), others, frame.density), frame.density, scene.theme.look);
+/** The marks that are drawn, with their places. */
+export function marksOf(frame: Frame, scene: Scene): PlacedMark[] {
+    const kept = scene.kept ?? new KeptDrawing();
+    return shiftedMarks(
+        kept,
+        scene,
+        kept.shiftTo(scene, scalesOf(frame.range(), frame.plot.bbox), frame.density),
+    );
+}
+
+function shiftedMarks(
+    kept: KeptDrawing,
+    scene: Scene,
+    [across, down]: readonly [number, number],
+): PlacedMark[] {
+    return scene.state.marks
+        ? kept.marksOf(scene).map((one) => ({ ...one, at: [one.at[0] + across, one.at[1] + down] }))
+        : [];
+}
+
+function paintMarks(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    { theme }: Scene,
+    placed: readonly PlacedMark[],
+    isBehind: boolean,
+): void {
+    for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind).toReversed()) {
+        const places = placed.filter((one) => one.mark === mark).map(({ at }) => at);
+        if (places.length > 0) {
+            drawMarks(context, mark, places, frame.density, theme.look);
+        }
     }
 }
 
-/** Where a mark is seen (canvas pixels). */
-function placesOf(mark: Mark, { solutions, curves, state, marked }: Scene, scales: Scales): [number, number][] {
-    const levels = curves.levels(state.quantity, state.log);
-    const { left, top, width, height } = scales;
-    const places = (marked.get(mark) ?? []).filter((k) => !state.hidden.has(solutions.branch[k] ?? 0)).map((k) => placeOf(solutions, levels, k, scales));
-    return places.filter(([x, y]) => x >= left && x <= left + width && y >= top && y <= top + height);
+/** Numbers of special points beside their marks, where one has room. */
+function paintNumbers(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    { state, theme, numbers }: Scene,
+    placed: readonly PlacedMark[],
+): void {
+    if (!state.numbers) {
+        return;
+    }
+    const density = frame.density;
+    context.font = `${11 * density}px ${SANS}`;
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    context.lineJoin = "round";
+    const boxes: [number, number, number][] = [];
+    for (const {
+        solution,
+        at: [x, y],
+        mark,
+    } of placed.filter((one) => one.mark.layer !== "grazing")) {
+        const isSeen =
+            y > frame.plot.bbox.top + 6 * density &&
+            y < frame.plot.bbox.top + frame.plot.bbox.height - 6 * density;
+        const text = isSeen ? String(numbers.get(solution) ?? "") : "";
+        const box: [number, number, number] = [
+            x + mark.room * density,
+            y - 7 * density,
+            7 * density * text.length + 2 * density,
+        ];
+        const isFree = boxes.every(
+            ([left, top, width]) =>
+                Math.abs(top - box[1]) > 12 * density || box[0] > left + width || box[0] + box[2] < left,
+        );
+        const coversMark = placed.some(
+            (other) =>
+                other.solution !== solution &&
+                other.at[0] > box[0] - 3 * density &&
+                other.at[0] < box[0] + box[2] &&
+                Math.abs(other.at[1] - y) < 9 * density,
+        );
+        if (text !== "" && isFree && !coversMark) {
+            boxes.push(box);
+            context.lineWidth = 3 * density;
+            context.strokeStyle = theme.look.paper;
+            context.strokeText(text, box[0], box[1]);
+            context.fillStyle = theme.look.ink;
+            context.fillText(text, box[0], box[1]);
+        }
+    }
 }
 
-function placeOf(solutions: Solutions, levels: Float64Array, k: number, scales: Scales): [number, number] {
+function placeOf(across: Float64Array, levels: Float64Array, k: number, scales: Scales): [number, number] {
     return [
-        scales.left + ((solutions.frequency[k] ?? NaN) - scales.lowX) * scales.perX,
+        scales.left + ((across[k] ?? NaN) - scales.lowX) * scales.perX,
         scales.top + scales.height - ((levels[k] ?? NaN) - scales.lowY) * scales.perY,
     ];
 }
@@ -132,9 +224,11 @@ function placeOf(solutions: Solutions, levels: Float64Array, k: number, scales: 
 /** Measured points, and motions that do not repeat behind them. */
 function paintOverlay(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
     const dots = dotsOf(meta, state);
-    for (const layer of [...LAYERS].reverse()) {
-        if (layer !== "chaos") {
-            const places = dots.filter((dot) => dot.layer === layer).map((dot) => [frame.toX(dot.frequency), frame.toY(dot.value)] as const);
+    for (const layer of DOTS.toReversed()) {
+        const places = dots
+            .filter((dot) => dot.layer === layer)
+            .map((dot) => [frame.toX(dot.x), frame.toY(dot.value)] as const);
+        if (places.length > 0) {
             drawDots(context, layer, places, frame.density, theme.look);
         }
     }
@@ -142,17 +236,23 @@ function paintOverlay(context: CanvasRenderingContext2D, frame: Frame, { meta, s
 
 function paintSelected(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales): void {
     const { solutions, curves, state, theme } = scene;
-    if (state.selected < 0) {
+    if (state.selected < 0 || state.hidden.has(solutions.branch[state.selected] ?? 0)) {
         return;
     }
-    const [x, y] = placeOf(solutions, curves.levels(state.quantity, state.log), state.selected, scales);
+    const [x, y] = placeOf(curves.across(state), curves.levels(state), state.selected, scales);
+    if (!Number.isFinite(x + y)) {
+        return;
+    }
     const density = frame.density;
     context.setLineDash([]);
-    for (const [width, colour] of [[5, theme.look.paper], [2.2, theme.look.ink]] as const) {
-        context.beginPath();
-        context.arc(x, y, 7 * density, 0, 2 * Math.PI);
+    for (const [width, colour] of [
+        [5, theme.look.paper],
+        [2.2, theme.look.ink],
+    ] as const) {
+        const ring = newPath();
+        ring.arc(x, y, 7 * density, 0, 2 * Math.PI);
         context.lineWidth = width * density;
         context.strokeStyle = colour;
-        context.stroke();
+        context.stroke(ring as Path2D);
     }
 }

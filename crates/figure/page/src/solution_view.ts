@@ -1,10 +1,11 @@
-// The selected solution: its numbers and multipliers, its orbit or the nearest one carried, the structure in motion.
+// The selected solution: its numbers and multipliers, its orbit or the nearest one carried, the structure in
+// motion.
 
 import { Animation } from "./animation";
-import { multiplierText, orbitText, type Meta, type Solutions } from "./data";
-import { element, panel } from "./dom";
+import { orbitText, type Meta, type Solutions } from "./data";
+import { button, element, panel } from "./dom";
 import { hertz } from "./format";
-import { MultiplierTable, type Multiplier } from "./multiplier_table";
+import type { Multiplier, MultiplierTable } from "./multiplier_table";
 import { Multipliers } from "./multipliers";
 import { numbersOf } from "./numbers";
 import { nearestOrbit, readOrbit, recordPlaces, type Orbit } from "./orbit";
@@ -20,19 +21,27 @@ export class SolutionView {
     private readonly plots: OrbitPlots;
     private readonly multipliers: Multipliers;
     private readonly orbitParts: HTMLElement[];
+    private readonly start = element("p", { class: "note start" });
     private text: string | null = null;
     private readonly places: Uint32Array;
     private table: MultiplierTable | null = null;
     /** The orbit that is shown. */
     orbit: Orbit | null = null;
 
-    constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly store: Store, theme: Theme) {
+    constructor(
+        private readonly meta: Meta,
+        private readonly solutions: Solutions,
+        private readonly store: Store,
+        theme: Theme,
+        private readonly numbersOfEvents: ReadonlyMap<number, number>,
+        private readonly copy: (text: string) => void,
+    ) {
         this.places = recordPlaces(meta.orbits.lengths);
         this.plots = new OrbitPlots(meta, solutions, theme);
         this.multipliers = new Multipliers(theme);
         this.animation = new Animation(meta.structure, theme, (instant) => this.plots.point(instant));
         this.orbitParts = [this.animation.root, this.plots.root];
-        const heading = panel("Selected solution", "selected", [this.numbers, this.which]);
+        const heading = panel("Selected solution", "selected", [this.numbers, this.start, this.which]);
         const top = element("div", { class: "top" }, [heading, this.animation.root, this.multipliers.root]);
         this.root.append(top, this.plots.root);
         store.listen((_, changed) => {
@@ -48,16 +57,21 @@ export class SolutionView {
         this.root.classList.toggle("none", selected < 0);
         if (selected < 0) {
             this.numbers.replaceChildren();
-            this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";
+            this.start.replaceChildren();
+            this.which.textContent =
+                this.solutions.count === 0
+                    ? "No periodic solution is stored."
+                    : "Click on a solution of the diagram, or press an arrow key.";
             [...this.orbitParts, this.multipliers.root].forEach((part) => (part.hidden = true));
             this.root.dataset["orbit"] = "";
             return;
         }
         const rows = numbersOf(this.meta, this.solutions, selected);
-        this.numbers.replaceChildren(...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]));
-        this.multipliers.root.hidden = false;
-        const whose = `of the selected solution, at ${hertz(this.solutions.frequency[selected] ?? NaN)}`;
-        this.multipliers.show(this.multipliersOf(selected), whose, this.meta.multipliers.most);
+        this.numbers.replaceChildren(
+            ...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]),
+        );
+        this.showStart(selected);
+        this.showMultipliers(selected);
         const place = nearestOrbit(this.meta, this.solutions, selected);
         this.orbitParts.forEach((part) => (part.hidden = place < 0));
         if (place < 0) {
@@ -74,10 +88,48 @@ export class SolutionView {
         this.root.dataset["orbit"] = String(orbit.solution);
     }
 
-    /** Multipliers of a solution, largest first. */
+    /** How a run starts at a special point. */
+    private showStart(selected: number): void {
+        const number = this.numbersOfEvents.get(selected);
+        if (number === undefined) {
+            this.start.replaceChildren();
+            return;
+        }
+        const command = `hammerbeam run STUDY.toml --from ${this.meta.folder || "RESULTS"}:${number} --out NEW`;
+        const copy = button(
+            "Copy command",
+            "Copy a command that starts branches of a study at this point",
+            () => this.copy(command),
+        );
+        this.start.replaceChildren(
+            `Special point ${number}. A study, also one with changed parameters, starts here by `,
+            element("code", {}, [command]),
+            " ",
+            copy,
+        );
+    }
+
+    private showMultipliers(selected: number): void {
+        this.multipliers.root.hidden = false;
+        const whose = `of the selected solution, at ${hertz(this.solutions.frequency[selected] ?? NaN)}`;
+        this.multipliers.show(
+            this.multipliersOf(selected),
+            whose,
+            this.table === null ? -1 : this.meta.multipliers.most,
+        );
+    }
+
+    /** Takes the multipliers of all solutions in, when they are decoded. */
+    take(table: MultiplierTable): void {
+        this.table = table;
+        if (this.store.state.selected >= 0) {
+            this.showMultipliers(this.store.state.selected);
+        }
+    }
+
+    /** Multipliers of a solution, largest first; none before they are decoded. */
     multipliersOf(solution: number): Multiplier[] {
-        this.table ??= new MultiplierTable(multiplierText(), this.meta.multipliers.solutions);
-        return this.table.of(solution);
+        return this.table?.of(solution) ?? [];
     }
 
     /** Radii of the unit circle along both axes (canvas pixels). */

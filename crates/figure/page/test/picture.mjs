@@ -13,6 +13,7 @@ if (picture === undefined) {
 const browser = await launch();
 const tab = await browser.tab(1400, 1560, [{ name: "prefers-color-scheme", value: "light" }, { name: "prefers-reduced-motion", value: "reduce" }]);
 await tab.open(pathToFileURL(page).href + state);
+await tab.until(`window.hammerbeam !== undefined`);
 await tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))`);
 writeFileSync(picture, await tab.picture());
 await browser.close();

@@ -61,4 +61,6 @@ test("ticks of a logarithmic axis stand at round numbers, wherever it begins", (
     const { splits, labels } = logAxis(0.037, 21.7, 6);
     assert.deepEqual(splits.slice(0, 7), [0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1]);
     assert.deepEqual(labels.filter((label) => label !== ""), ["0.1", "1", "10"]);
+    // Room for a label at every tick is no reason to have one there.
+    assert.deepEqual(logAxis(0.9, 21, 20).labels.filter((label) => label !== ""), ["1", "2", "5", "10", "20"]);
 });

@@ -19,8 +19,12 @@ pub struct Page {
     pub frequency_range_hz: (f64, f64),
     /// Notice at the top of the page, such as an unfinished run; may be empty.
     pub notice: String,
-    /// Branches, in their order.
+    /// Name of the results folder, for commands that the page proposes.
+    pub folder_name: String,
+    /// Branches, in their order: first those over the frequency.
     pub branches: Vec<PageBranch>,
+    /// The other parameters over which there are branches.
+    pub parameters: Vec<PageParameter>,
     /// Orbits of some of their solutions.
     pub orbits: OrbitRecords,
     /// Multipliers of all solutions, or of none.
@@ -39,6 +43,17 @@ pub struct Page {
     pub figures: PageFigures,
 }
 
+/// A parameter over which branches were followed at a fixed frequency.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageParameter {
+    /// What it is, without its unit.
+    pub title: String,
+    /// Its unit; may be empty.
+    pub unit: String,
+    /// The excitation frequency of its branches (Hz).
+    pub frequency_hz: f64,
+}
+
 /// A branch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PageBranch {
@@ -46,6 +61,9 @@ pub struct PageBranch {
     pub id: u32,
     /// Orbit period over excitation period, from 1.
     pub period_multiple: u32,
+    /// The parameter along which it was followed: 0 for the frequency, else its place among
+    /// [`Page::parameters`], from 1.
+    pub over: u32,
     /// Description of both ends, at the first and the last solution.
     pub ends: [String; 2],
     /// Its solutions in order.
@@ -58,6 +76,8 @@ pub struct PageBranch {
 pub struct PageSolution {
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
+    /// Value of the parameter of its branch, if that is not the frequency.
+    pub parameter: f64,
     /// Largest displacement of the response point (m).
     pub displacement_m: f64,
     /// Its largest acceleration (m/s²).
@@ -66,6 +86,8 @@ pub struct PageSolution {
     pub force_n: f64,
     /// Largest speed with which a contact is reached (m/s).
     pub impact_velocity_m_s: f64,
+    /// Mechanical energy of the structure at phase 0 of the excitation (J); NaN if it is unknown.
+    pub energy_j: f64,
     /// Contacts in an orbit period.
     pub contacts: u32,
     /// Multiplier of largest modulus.

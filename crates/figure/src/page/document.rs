@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{
     columns,
-    content::{Page, PageStop, PageStructure},
+    content::{Page, PageParameter, PageStop, PageStructure},
     measured, motions,
 };
 use crate::{base64, style};
@@ -18,7 +18,7 @@ pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let meta = in_script(&meta(page).to_string());
     let solutions = base64::encode(&columns::pack(&page.branches));
-    let multipliers = base64::encode(page.multipliers.bytes());
+    let multipliers = base64::encode(&page.multipliers.bytes());
     let orbits = base64::encode(&page.orbits.bytes());
     let figures = in_script(&page.figures.documents().to_string());
     [
@@ -57,6 +57,7 @@ fn meta(page: &Page) -> Value {
             "ends": branch.ends,
             "first": first - count,
             "count": count,
+            "over": branch.over,
         })
     });
     let branches: Vec<Value> = branches.collect();
@@ -66,6 +67,8 @@ fn meta(page: &Page) -> Value {
         "range": page.frequency_range_hz,
         "notice": page.notice,
         "branches": branches,
+        "parameters": page.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "folder": page.folder_name,
         "orbits": {
             "solutions": page.orbits.solutions(),
             "lengths": page.orbits.lengths(),
@@ -79,6 +82,10 @@ fn meta(page: &Page) -> Value {
         "figures": page.figures.list(),
         "look": { "light": style::page_colours(false), "dark": style::page_colours(true) },
     })
+}
+
+fn parameter(parameter: &PageParameter) -> Value {
+    json!({ "title": parameter.title, "unit": parameter.unit, "frequency": parameter.frequency_hz })
 }
 
 fn structure(structure: &PageStructure) -> Value {

@@ -15,7 +15,7 @@ pub use content::{PageImpulse, PageOrbit};
 use std::collections::BTreeMap;
 
 /// Length that is reserved for orbits in any case (bytes).
-pub(super) const LEAST_BYTES: usize = 2_000_000;
+pub(super) const LEAST_BYTES: usize = 1_000_000;
 
 /// An orbit, packed.
 #[derive(Debug, Clone, PartialEq)]

@@ -111,13 +111,13 @@ pub struct ResponsePoint {
 /// Quantity of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResponseQuantity {
-    /// Maximum displacement, in millimetres on the axis.
+    /// Maximum displacement.
     Displacement,
-    /// Maximum acceleration (m/s²).
+    /// Maximum acceleration.
     Acceleration,
-    /// Largest contact force (N).
+    /// Largest contact force.
     ContactForce,
-    /// Largest speed with which a contact is reached (m/s).
+    /// Largest speed with which a contact is reached.
     ImpactVelocity,
 }
 
@@ -132,6 +132,8 @@ pub struct ResponseSettings {
     pub acceleration_scale: ScaleChoice,
     /// Scale of the axes of contact forces and impact velocities.
     pub contact_scale: ScaleChoice,
+    /// Ends of a part of the frequency axis (Hz) that is drawn again below, larger; none by default.
+    pub detail_hz: Option<(f64, f64)>,
 }
 
 impl ResponseQuantity {
@@ -144,23 +146,9 @@ impl ResponseQuantity {
             Self::ImpactVelocity => "largest impact velocity",
         }
     }
+}
 
-    /// The value of a measured point in the unit of the axis; NaN if it was not measured.
-    pub(super) fn measured(self, mark: &MeasuredMark) -> f64 {
-        match self {
-            Self::Displacement => mark.displacement_m.map_or(f64::NAN, |value| 1e3 * value),
-            Self::Acceleration => mark.acceleration_m_s2.unwrap_or(f64::NAN),
-            Self::ContactForce | Self::ImpactVelocity => f64::NAN,
-        }
-    }
-
-    /// The value in the unit of the axis.
-    pub(super) fn value(self, point: &ResponsePoint) -> f64 {
-        match self {
-            Self::Displacement => 1e3 * point.displacement_m,
-            Self::Acceleration => point.acceleration_m_s2,
-            Self::ContactForce => point.contact_force_n,
-            Self::ImpactVelocity => point.impact_velocity_m_s,
-        }
-    }
+/// Solutions of a period multiple in words.
+pub(super) fn period_name(multiple: u32) -> String {
+    if multiple <= 1 { "harmonic".to_owned() } else { format!("1/{multiple} subharmonic") }
 }

@@ -1,22 +1,24 @@
 //! The layout of title, legend and panels.
 
 use super::{
-    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings},
+    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings, period_name},
     panel::ResponsePanel,
 };
 use crate::{
     axis::PlotAxis,
+    axis_unit::AxisUnit,
     error::FigureError,
     figure::Figure,
     font::CAPITAL_HEIGHT,
+    frequency_unit::FrequencyUnit,
     layer::Layer,
     legend::{Legend, LegendEntry, LegendSample},
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent},
     stretch::LineLook,
-    style::{INK, PeriodLook, SHADE, Style, period_look},
-    svg::{Anchor, PagePoint, SvgWriter, points},
+    style::{INK, PALE_INK, PeriodLook, SHADE, Style, period_look},
+    svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
     text::{Text, wrap},
 };
 
@@ -34,25 +36,32 @@ pub(super) fn draw(
     settings: &ResponseSettings,
 ) -> Result<Figure, FigureError> {
     let range_hz = frequency_range(diagram)?;
-    let panels = quantities
-        .iter()
-        .map(|&quantity| ResponsePanel::new(diagram, quantity, range_hz, settings))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut ranges = vec![range_hz];
+    ranges.extend(settings.detail_hz.map(in_order).transpose()?);
+    let of_range = |&range_hz: &(f64, f64)| {
+        quantities.iter().map(move |&quantity| ResponsePanel::new(diagram, quantity, range_hz, settings))
+    };
+    let panels = ranges.iter().flat_map(of_range).collect::<Result<Vec<_>, _>>()?;
     if panels.is_empty() {
         return Err(FigureError::NoQuantity);
     }
-    Ok(ResponseLayout::new(diagram, &panels, range_hz, &settings.style).draw())
+    Ok(ResponseLayout::new(diagram, &panels, settings).draw())
+}
+
+/// Ends of an axis that are in order.
+fn in_order((from_hz, to_hz): (f64, f64)) -> Result<(f64, f64), FigureError> {
+    let shown = [from_hz, to_hz].into_iter().all(|end| ScaleKind::Linear.shows(end));
+    if shown && from_hz < to_hz {
+        Ok((from_hz, to_hz))
+    } else {
+        Err(FigureError::FrequencyRange { from_hz, to_hz })
+    }
 }
 
 /// Ends of the frequency axis: the given ones, else the range of the finite frequencies with a small margin.
 fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError> {
-    if let Some((from_hz, to_hz)) = diagram.frequency_range_hz {
-        let shown = [from_hz, to_hz].into_iter().all(|end| ScaleKind::Linear.shows(end));
-        return if shown && from_hz < to_hz {
-            Ok((from_hz, to_hz))
-        } else {
-            Err(FigureError::FrequencyRange { from_hz, to_hz })
-        };
+    if let Some(range_hz) = diagram.frequency_range_hz {
+        return in_order(range_hz);
     }
     let frequencies = diagram.curves.iter().flat_map(|curve| &curve.points).map(|point| point.frequency_hz);
     let (least, greatest) =
@@ -65,6 +74,7 @@ fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError>
 struct ResponseLayout<'a> {
     diagram: &'a ResponseDiagram,
     style: &'a Style,
+    detail_hz: Option<(f64, f64)>,
     panels: &'a [ResponsePanel],
     title: Vec<Text>,
     legend: Legend,
@@ -77,9 +87,9 @@ impl<'a> ResponseLayout<'a> {
     fn new(
         diagram: &'a ResponseDiagram,
         panels: &'a [ResponsePanel],
-        range_hz: (f64, f64),
-        style: &'a Style,
+        settings: &'a ResponseSettings,
     ) -> Self {
+        let style = &settings.style;
         let panel_height = panel_share(panels.len()) * points(style.height_mm) - room_below(style);
         let axes: Vec<PlotAxis> = panels
             .iter()
@@ -87,29 +97,27 @@ impl<'a> ResponseLayout<'a> {
             .collect();
         let label_width = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, label_width);
-        let across = Scale::exact(ScaleKind::Linear, range_hz);
-        let (label, factor) = horizontal(diagram, style);
-        let right =
-            points(style.width_mm) - MARGIN - room_right(style, (&across, factor), left, TICK_SPACING.0);
+        let across = |panel: &ResponsePanel| Scale::exact(ScaleKind::Linear, panel.range_hz);
+        let (label, factor) = horizontal(diagram, panels, style);
+        let room = |panel| room_right(style, (&across(panel), factor), left, TICK_SPACING.0);
+        let right = points(style.width_mm) - MARGIN - panels.iter().map(room).fold(0.0, f64::max);
         let title = wrap(&diagram.title, style.label_size, right - left);
         let legend = Legend::new(entries(panels, diagram), style, right - left);
-        let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
-        let horizontal =
-            PlotAxis::in_unit((across, factor), Text::upright(label), right - left, TICK_SPACING.0);
-        let lowest = axes.len() - 1;
+        let mut top = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
         let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
-        let plot_height = labels.fold(panel_height - head, f64::max);
-        let plots: Vec<Plot> = axes
-            .into_iter()
-            .enumerate()
-            .map(|(i, y)| {
-                let top = head + i as f64 * (plot_height + 2.0 * GAP);
-                let area = Area { left, right, top, bottom: top + plot_height };
-                Plot { area, x: horizontal.clone(), y, labelled_below: i == lowest }
-            })
-            .collect();
-        let height = plots[lowest].area.bottom + room_below(style);
-        Self { diagram, style, panels, title, legend, plots, left, height }
+        let plot_height = labels.fold(panel_height - top, f64::max);
+        let mut plots = Vec::new();
+        for (i, (y, panel)) in axes.into_iter().zip(panels).enumerate() {
+            // Panels above each other with one range have their numbers once, below.
+            let labelled_below = panels.get(i + 1).is_none_or(|next| next.range_hz != panel.range_hz);
+            let area = Area { left, right, top, bottom: top + plot_height };
+            let label = Text::upright(label.clone());
+            let x = PlotAxis::in_unit((across(panel), factor), label, right - left, TICK_SPACING.0);
+            plots.push(Plot { area, x, y, labelled_below });
+            top = area.bottom + 2.0 * GAP + if labelled_below { room_below(style) } else { 0.0 };
+        }
+        let height = plots[plots.len() - 1].area.bottom + room_below(style);
+        Self { diagram, style, detail_hz: settings.detail_hz, panels, title, legend, plots, left, height }
     }
 
     fn draw(&self) -> Figure {
@@ -122,10 +130,25 @@ impl<'a> ResponseLayout<'a> {
             let ranges = self.diagram.chaotic_ranges_hz.clone();
             Layer::Shade { ranges }.draw(&mut svg, plot, style);
             plot.draw_grid(&mut svg, style);
+            self.frame_detail(&mut svg, panel, plot);
             plot.draw_axes(&mut svg, style);
             panel.draw(&mut svg, plot, style);
         }
         Figure::new(svg.finish(), description, style.width_mm, height_mm)
+    }
+
+    /// Lines at the ends of the part that is drawn again, larger, in the panels of the whole.
+    fn frame_detail(&self, svg: &mut SvgWriter, panel: &ResponsePanel, plot: &Plot) {
+        let Some((from, to)) = self.detail_hz.filter(|detail| *detail != panel.range_hz) else { return };
+        let stroke = Stroke { colour: PALE_INK, width: self.style.frame_width };
+        let dashes = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
+        let value = plot.y.scale.from;
+        let ends = [from, to].map(|end| {
+            let x = plot.place(end, value).x;
+            [PagePoint { x, y: plot.area.top }, PagePoint { x, y: plot.area.bottom }]
+        });
+        let within = |ends: &&[PagePoint; 2]| (plot.area.left..=plot.area.right).contains(&ends[0].x);
+        svg.polylines(ends.iter().filter(within).map(|ends| (ends.as_slice(), dashes)), stroke);
     }
 
     fn draw_head(&self, svg: &mut SvgWriter) {
@@ -188,12 +211,17 @@ impl<'a> ResponseLayout<'a> {
 }
 
 /// Label of the horizontal axis, and the factor of its numbers.
-fn horizontal(diagram: &ResponseDiagram, style: &Style) -> (String, f64) {
-    let unit = style.frequency_unit;
-    if diagram.parameter.is_empty() {
-        (unit.label("Excitation frequency"), unit.factor())
-    } else {
-        (diagram.parameter.clone(), 1.0)
+fn horizontal(diagram: &ResponseDiagram, panels: &[ResponsePanel], style: &Style) -> (String, f64) {
+    if !diagram.parameter.is_empty() {
+        return (diagram.parameter.clone(), 1.0);
+    }
+    match style.frequency_unit {
+        FrequencyUnit::Hertz => {
+            let highest_hz = panels.iter().map(|panel| panel.range_hz.1).fold(0.0, f64::max);
+            let unit = AxisUnit::of_frequencies(highest_hz);
+            (format!("Excitation frequency ({})", unit.symbol), unit.factor)
+        }
+        unit @ FrequencyUnit::RadPerSecond => (unit.label("Excitation frequency"), unit.factor()),
     }
 }
 
@@ -244,8 +272,4 @@ fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram) -> Vec<Vec<Legen
 fn mark_name(mark: Mark, panels: &[ResponsePanel]) -> String {
     let stands_for_both = mark == Mark::Flip && panels.iter().any(|panel| panel.branches_at_flips() > 0);
     if stands_for_both { "flip, branch point of twice the period".to_owned() } else { mark.name().to_owned() }
-}
-
-fn period_name(multiple: u32) -> String {
-    if multiple <= 1 { "harmonic".to_owned() } else { format!("1/{multiple} subharmonic") }
 }

@@ -7,8 +7,14 @@
 
 use crate::marks::Mark;
 
-/// A place by frequency and value.
-type PanelPlace = (f64, f64);
+/// Where an event is, by frequency and value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct EventPlace {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    /// Whether a solution beside it is stable.
+    pub(super) of_stable: bool,
+}
 
 /// Places count as one if they are no further apart than this, in lengths of the axes: the same event is
 /// located on both branches to far less, and others are that near by chance only.
@@ -19,7 +25,7 @@ const ONE_PLACE: f64 = 1e-5;
 pub(super) struct JoinedEvents {
     /// Places of each mark that has some, in the order of [`Mark::ALL`], and how many events of that kind
     /// there are, those with another mark included.
-    pub(super) events: Vec<(Mark, Vec<PanelPlace>, usize)>,
+    pub(super) events: Vec<(Mark, Vec<EventPlace>, usize)>,
     /// Branch points that have the mark of a flip.
     pub(super) branches_at_flips: usize,
 }
@@ -27,22 +33,22 @@ pub(super) struct JoinedEvents {
 /// Joins coinciding events.
 ///
 /// * `events`: of each kind, along the branches.
-/// * `shares`: position of a place, in lengths of the axes.
+/// * `shares`: position of an event, in lengths of the axes.
 pub(super) fn join(
-    events: &[(Mark, Vec<PanelPlace>)],
-    shares: impl Fn(PanelPlace) -> PanelPlace,
+    events: &[(Mark, Vec<EventPlace>)],
+    shares: impl Fn(EventPlace) -> (f64, f64),
 ) -> JoinedEvents {
     let of = |mark: Mark| {
         events.iter().filter(move |(kind, _)| *kind == mark).flat_map(|(_, places)| places.iter().copied())
     };
     let near = |marks: &[Mark]| {
-        let mut places: Vec<PanelPlace> = marks.iter().flat_map(|&mark| of(mark)).map(&shares).collect();
+        let mut places: Vec<(f64, f64)> = marks.iter().flat_map(|&mark| of(mark)).map(&shares).collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         places
     };
     let flips = near(&[Mark::Flip]);
     let (folds, grazings) = (near(&[Mark::Fold]), near(&[Mark::Grazing]));
-    let places = |mark: Mark| -> Vec<PanelPlace> {
+    let places = |mark: Mark| -> Vec<EventPlace> {
         match mark {
             Mark::BranchPoint => of(mark).filter(|&place| !is_near(&flips, shares(place))).collect(),
             Mark::Fold => of(mark).filter(|&place| !is_near(&grazings, shares(place))).collect(),
@@ -58,7 +64,7 @@ pub(super) fn join(
         let count = of(mark).count().max(places.len());
         (mark, places, count)
     });
-    let hidden = |(mark, places, count): &(Mark, Vec<PanelPlace>, usize)| match mark {
+    let hidden = |(mark, places, count): &(Mark, Vec<EventPlace>, usize)| match mark {
         Mark::BranchPoint => count - places.len(),
         _ => 0,
     };
@@ -68,7 +74,7 @@ pub(super) fn join(
 }
 
 /// Whether one of the places, in increasing order along the first axis, coincides with a place.
-fn is_near(places: &[PanelPlace], (x, y): PanelPlace) -> bool {
+fn is_near(places: &[(f64, f64)], (x, y): (f64, f64)) -> bool {
     let first = places.partition_point(|place| place.0 < x - ONE_PLACE);
     let mut beside = places[first..].iter().take_while(|place| place.0 <= x + ONE_PLACE);
     beside.any(|place| (place.1 - y).abs() <= ONE_PLACE)
@@ -80,16 +86,18 @@ mod tests {
 
     #[test]
     fn a_flip_stands_for_the_branch_point_on_it_and_a_corner_has_one_mark() {
+        let at = |(x, y): (f64, f64)| EventPlace { x, y, of_stable: true };
+        let places = |places: &[(f64, f64)]| places.iter().copied().map(at).collect::<Vec<_>>();
         let events = [
-            (Mark::Flip, vec![(0.2, 0.5), (0.9, 0.1)]),
-            (Mark::BranchPoint, vec![(0.6, 0.6), (0.2 + 1e-9, 0.5)]),
-            (Mark::Fold, vec![(0.4, 0.4), (0.2, 0.5)]),
-            (Mark::Grazing, vec![(0.4, 0.4), (0.4, 0.7)]),
+            (Mark::Flip, places(&[(0.2, 0.5), (0.9, 0.1)])),
+            (Mark::BranchPoint, places(&[(0.6, 0.6), (0.2 + 1e-9, 0.5)])),
+            (Mark::Fold, places(&[(0.4, 0.4), (0.2, 0.5)])),
+            (Mark::Grazing, places(&[(0.4, 0.4), (0.4, 0.7)])),
         ];
-        let joined = join(&events, |place| place);
+        let joined = join(&events, |place| (place.x, place.y));
         assert_eq!(joined.branches_at_flips, 1);
         let found = |mark: Mark| joined.events.iter().find(|(kind, ..)| *kind == mark).unwrap();
-        let of = |mark: Mark| found(mark).1.clone();
+        let of = |mark: Mark| found(mark).1.iter().map(|place| (place.x, place.y)).collect::<Vec<_>>();
         assert_eq!(of(Mark::Flip), [(0.2, 0.5), (0.9, 0.1)]);
         assert_eq!(of(Mark::BranchPoint), [(0.6, 0.6)]);
         // A fold on a flip is a finding of its own.

@@ -4,7 +4,10 @@ use super::{
     data::{
         MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings,
     },
-    joined::{JoinedEvents, join},
+    joined::{EventPlace, JoinedEvents, join},
+    labels::{LabelledLine, direct_labels, draw_label},
+    quantity::PanelQuantity,
+    spread::spread,
 };
 use crate::{
     decimate::decimate,
@@ -21,7 +24,8 @@ use crate::{
 
 /// The data of one quantity.
 pub(super) struct ResponsePanel {
-    pub(super) quantity: ResponseQuantity,
+    pub(super) quantity: PanelQuantity,
+    pub(super) range_hz: (f64, f64),
     pub(super) scale: Scale,
     lines: Vec<BranchLine>,
     events: JoinedEvents,
@@ -49,7 +53,10 @@ impl ResponsePanel {
         range_hz: (f64, f64),
         settings: &ResponseSettings,
     ) -> Result<Self, FigureError> {
-        let kind = scale_choice(quantity, settings).decide(visible_values(diagram, quantity, range_hz));
+        let choice = scale_choice(quantity, settings);
+        let named = PanelQuantity::of(diagram, quantity, range_hz);
+        let quantity = &named;
+        let kind = choice.decide(visible_values(diagram, quantity, range_hz));
         let lines: Vec<BranchLine> =
             diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
         let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
@@ -61,22 +68,13 @@ impl ResponsePanel {
         let ends = extent(values).ok_or_else(|| empty(diagram, quantity))?;
         let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
         let (scale, across) = (Scale::around(kind, ends), Scale::exact(ScaleKind::Linear, range_hz));
-        let events = join(&events, |(x, y)| (across.share(x), scale.share(y)));
-        Ok(Self { quantity, scale, lines, events, measured })
+        let events = join(&events, |place| (across.share(place.x), scale.share(place.y)));
+        Ok(Self { quantity: named, range_hz, scale, lines, events, measured })
     }
 
     /// What the vertical axis shows.
     pub(super) fn label(&self) -> Text {
-        match self.quantity {
-            ResponseQuantity::Displacement => {
-                Text::upright("Displacement max\u{2009}|").variable("y").and("| (mm)")
-            }
-            ResponseQuantity::Acceleration => {
-                Text::upright("Acceleration max\u{2009}|").variable("ÿ").and("| (m/s²)")
-            }
-            ResponseQuantity::ContactForce => Text::upright("Largest contact force (N)"),
-            ResponseQuantity::ImpactVelocity => Text::upright("Largest impact velocity (m/s)"),
-        }
+        self.quantity.label()
     }
 
     /// Whether a line of this look is drawn.
@@ -115,6 +113,28 @@ impl ResponsePanel {
             let places: Vec<PagePoint> = of.places.iter().map(|&(x, y)| plot.place(x, y)).collect();
             of.motion.dot(1.1 * style.mark_radius).draw(svg, &places);
         }
+        self.draw_labels(svg, plot, (&marks, style));
+    }
+
+    /// Names beside the lines of each kind of solutions, where there are several and one fits.
+    fn draw_labels(
+        &self,
+        svg: &mut SvgWriter,
+        plot: &Plot,
+        (marks, style): (&[(Mark, Vec<PagePoint>)], &Style),
+    ) {
+        let stretch = |stretch: &BranchStretch| (stretch.look, on_page(&stretch.vertices, plot, style));
+        let lines = self.lines.iter().map(|line| LabelledLine {
+            period_multiple: line.period_multiple,
+            stretches: line.stretches.iter().map(stretch).collect(),
+        });
+        let lines: Vec<LabelledLine> = lines.collect();
+        let measured = self.measured.iter().flat_map(|of| &of.places).map(|&(x, y)| plot.place(x, y));
+        let marks: Vec<PagePoint> =
+            marks.iter().flat_map(|(_, places)| places).copied().chain(measured).collect();
+        for label in direct_labels(&lines, &marks, plot.area, style) {
+            draw_label(svg, &label, style);
+        }
     }
 
     /// Measured points by kind.
@@ -134,11 +154,7 @@ impl ResponsePanel {
 
     /// The marks that are drawn, and where.
     pub(super) fn marks(&self, plot: &Plot, style: &Style) -> Vec<(Mark, Vec<PagePoint>)> {
-        let thinned = |mark: Mark, places: &[(f64, f64)]| {
-            let places: Vec<PagePoint> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
-            mark.thin_out(&places, style.mark_distance)
-        };
-        self.events.events.iter().map(|(mark, places, _)| (*mark, thinned(*mark, places))).collect()
+        spread(&self.events, plot, style)
     }
 
     /// Branch points that have the mark of a flip.
@@ -160,14 +176,14 @@ fn scale_choice(quantity: ResponseQuantity, settings: &ResponseSettings) -> Scal
     }
 }
 
-fn empty(diagram: &ResponseDiagram, quantity: ResponseQuantity) -> FigureError {
+fn empty(diagram: &ResponseDiagram, quantity: &PanelQuantity) -> FigureError {
     let points = diagram.curves.iter().map(|curve| curve.points.len()).sum();
     FigureError::Empty { quantity: quantity.name(), curves: diagram.curves.len(), points }
 }
 
 fn visible_values(
     diagram: &ResponseDiagram,
-    quantity: ResponseQuantity,
+    quantity: &PanelQuantity,
     (from, to): (f64, f64),
 ) -> impl Iterator<Item = f64> {
     let points = diagram.curves.iter().flat_map(|curve| &curve.points);
@@ -177,7 +193,7 @@ fn visible_values(
 
 fn line(
     curve: &ResponseCurve,
-    quantity: ResponseQuantity,
+    quantity: &PanelQuantity,
     kind: ScaleKind,
     range_hz: (f64, f64),
 ) -> BranchLine {
@@ -185,7 +201,7 @@ fn line(
     BranchLine { period_multiple: curve.period_multiple, stretches: stretches(&samples, range_hz) }
 }
 
-fn sample(point: &ResponsePoint, quantity: ResponseQuantity, kind: ScaleKind) -> BranchSample {
+fn sample(point: &ResponsePoint, quantity: &PanelQuantity, kind: ScaleKind) -> BranchSample {
     let value = quantity.value(point);
     BranchSample {
         x: point.frequency_hz,
@@ -195,30 +211,37 @@ fn sample(point: &ResponsePoint, quantity: ResponseQuantity, kind: ScaleKind) ->
     }
 }
 
-/// Frequencies and values of the events of a kind, in order along the branches.
+/// Places of the events of a kind, in order along the branches.
 fn events(
     diagram: &ResponseDiagram,
-    quantity: ResponseQuantity,
+    quantity: &PanelQuantity,
     kind: ScaleKind,
     (from, to): (f64, f64),
     mark: Mark,
-) -> Vec<(f64, f64)> {
-    let of_curve = |points: &[ResponsePoint]| -> Vec<(f64, f64)> {
+) -> Vec<EventPlace> {
+    let of_curve = |points: &[ResponsePoint]| -> Vec<EventPlace> {
         let here =
             |index: &usize| is(points, *index, mark) && (from..=to).contains(&points[*index].frequency_hz);
-        let places = (0..points.len()).filter(here);
-        places
-            .map(|index| (points[index].frequency_hz, quantity.value(&points[index])))
-            .filter(|&(_, value)| kind.shows(value))
-            .collect()
+        let place = |index: usize| EventPlace {
+            x: points[index].frequency_hz,
+            y: quantity.value(&points[index]),
+            of_stable: is_beside_stable(points, index),
+        };
+        (0..points.len()).filter(here).map(place).filter(|place| kind.shows(place.y)).collect()
     };
     diagram.curves.iter().flat_map(|curve| of_curve(&curve.points)).collect()
+}
+
+/// Whether a point or one beside it is stable.
+fn is_beside_stable(points: &[ResponsePoint], index: usize) -> bool {
+    let neighbours = [index.checked_sub(1), Some(index), index.checked_add(1)];
+    neighbours.into_iter().flatten().filter_map(|index| points.get(index)).any(|point| point.stable)
 }
 
 /// The measured points of a kind.
 fn measured(
     diagram: &ResponseDiagram,
-    quantity: ResponseQuantity,
+    quantity: &PanelQuantity,
     kind: ScaleKind,
     (from, to): (f64, f64),
     motion: MeasuredMotion,
@@ -234,10 +257,7 @@ fn measured(
 /// solutions have no observable effect: they have their own mark.
 fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
     let point = &points[index];
-    let beside_stable = || {
-        let neighbours = [index.checked_sub(1), Some(index), index.checked_add(1)];
-        neighbours.into_iter().flatten().filter_map(|index| points.get(index)).any(|point| point.stable)
-    };
+    let beside_stable = || is_beside_stable(points, index);
     match mark {
         Mark::Grazing => point.grazing,
         Mark::Fold => point.fold,

@@ -79,9 +79,10 @@ fn contact_forces_and_impact_velocities_have_their_diagrams() {
             .svg()
             .contains("Largest contact force (N)")
     );
-    assert!(
-        diagram(5.0).draw(ResponseQuantity::ImpactVelocity).unwrap().svg().contains("impact velocity (m/s)")
-    );
+    // 5 mm/s, and 5 m/s: units suit the values.
+    let velocity = |force| diagram(force).draw(ResponseQuantity::ImpactVelocity).unwrap();
+    assert!(velocity(5.0).svg().contains("impact velocity (mm/s)"));
+    assert!(velocity(5000.0).svg().contains("impact velocity (m/s)"));
     let settings =
         ResponseSettings { contact_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
     assert!(diagram(0.0).draw_with(&[ResponseQuantity::ContactForce], &settings).is_err());

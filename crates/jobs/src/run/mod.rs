@@ -54,7 +54,7 @@ pub use plan::Plan;
 pub use report::{BranchReport, RunReport, peak_stability};
 pub use runner::{RunError, RunOutcome, run};
 pub use solver::{Match, Origin, Solver, Surveyed, Walk};
-pub use whole::{RunRequest, WholeRun, run_study};
+pub use whole::{RunOrigin, RunRequest, WholeRun, run_study};
 
 #[cfg(test)]
 mod fake;

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_results::{Store, summary::summarise};
 
 use super::{Plan, RunOutcome, RunReport, run};
@@ -10,16 +11,26 @@ use crate::{
     JobError, MirrorImage, Observer, OrbitSolver, PreparedStudy, StoredBranches,
     run::report::BranchReport,
     settled::settled_states,
+    special_point::{NearPoint, near_point},
     varied::{self, VariedOutcome},
 };
+
+/// Stored motions at which branches of a run begin.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RunOrigin {
+    /// A results folder.
+    pub folder: PathBuf,
+    /// A special point of its branches, by its number; `None` for the motions of its sweeps and basins.
+    pub special_point: Option<u32>,
+}
 
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct RunRequest<'a> {
     /// The results folder, made if it is not there; a run that was stopped goes on from there.
     pub out: &'a Path,
-    /// Results folders with motions of sweeps and basins, at which branches begin as well.
-    pub from: &'a [PathBuf],
+    /// Stored motions at which branches begin as well.
+    pub from: &'a [RunOrigin],
     /// Number of threads; the results do not depend on it.
     pub threads: usize,
 }
@@ -46,13 +57,13 @@ pub fn run_study(
     file.forced()?;
     study.check_held(observer)?;
     study.check_range()?;
-    let mut settled = Vec::new();
-    for folder in request.from {
-        settled.extend(settled_states(&Store::open(folder)?)?);
+    let solver = OrbitSolver::new(model, &file.study);
+    let mut met = Vec::new();
+    for origin in request.from {
+        met.extend(met_at(origin, &solver, observer)?);
     }
     let mut store = Store::open_for_run(request.out, file)?;
-    let solver = OrbitSolver::new(model, &file.study);
-    let plan = Plan { met: solver.settled(&settled), ..Plan::of(&file.study) };
+    let plan = Plan { met, ..Plan::of(&file.study) };
     let outcome = run(&mut store, &solver, &plan, request.threads, observer);
     let varied = match outcome {
         Ok(RunOutcome::Done) => varied::run(&mut store, model, &file.study, request.threads, observer),
@@ -65,6 +76,31 @@ pub fn run_study(
     };
     let report = report(study, &store, outcome)?;
     Ok(WholeRun { store, report })
+}
+
+/// The periodic solutions of the study at stored motions.
+fn met_at(
+    origin: &RunOrigin,
+    solver: &OrbitSolver<'_>,
+    observer: &mut dyn Observer,
+) -> Result<Vec<PeriodicSolution>, JobError> {
+    let store = Store::open(&origin.folder)?;
+    let Some(number) = origin.special_point else { return Ok(solver.settled(&settled_states(&store)?)) };
+    let system = PreparedStudy::of_store(&store)?.model.system;
+    let states = match near_point(&store, &system, number)? {
+        NearPoint::States(states) => states,
+        NearPoint::Missing { count } => {
+            return Err(JobError::NoSpecialPoint { results: origin.folder.clone(), number, count });
+        }
+    };
+    let found = solver.near(&states);
+    if found.is_empty() {
+        let results = origin.folder.display();
+        observer.notice(&format!(
+            "no periodic solution of this study was found near special point {number} of {results}"
+        ));
+    }
+    Ok(found)
 }
 
 fn report(study: &PreparedStudy, store: &Store, outcome: RunOutcome) -> Result<RunReport, JobError> {

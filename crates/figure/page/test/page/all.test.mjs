@@ -5,3 +5,6 @@ import "./orbit.test.mjs";
 import "./keys.test.mjs";
 import "./overlay.test.mjs";
 import "./print.test.mjs";
+import "./diagram.test.mjs";
+import "./compare.test.mjs";
+import "./reading.test.mjs";

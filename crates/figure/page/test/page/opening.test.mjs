@@ -53,11 +53,12 @@ test("a narrow window needs no scrolling sideways", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`, { width: 400, height: 800 });
     await tab.until(orbitIsOpen);
     assert.equal(await tab.value(`document.documentElement.scrollWidth <= innerWidth`), true);
-    const full = await open(rich, "", { width: 400, height: 800 });
-    assert.equal(await full.value(`document.documentElement.scrollWidth <= innerWidth`), true);
+    // Before another tab is in front of it: a browser may draw nothing behind that.
     if (pictures !== "") {
         writeFileSync(join(pictures, "page-narrow.png"), await tab.picture());
     }
+    const full = await open(rich, "", { width: 400, height: 800 });
+    assert.equal(await full.value(`document.documentElement.scrollWidth <= innerWidth`), true);
 });
 
 test("nine periods are told apart without colours: by strokes across their lines", options, async () => {

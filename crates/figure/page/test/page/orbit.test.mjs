@@ -22,11 +22,14 @@ test("a click opens the orbit of the solution, and its peaks are those of the st
     const compared = await tab.value(`(() => {
         const orbit = hammerbeam.orbit();
         const most = (values) => Math.max(0, ...values.map(Math.abs));
-        const numbers = [...document.querySelectorAll(".numbers dd")].map((one) => parseFloat(one.textContent.replace("−", "-")));
+        // In SI: of "1.2 kN" 1200.
+        const sizes = { G: 1e9, M: 1e6, k: 1e3, m: 1e-3, µ: 1e-6, n: 1e-9 };
+        const inSi = (text) => parseFloat(text.replace("−", "-")) * (sizes[/ ([GMkmµn])(?=[mNJ])/.exec(text)?.[1]] ?? 1);
+        const numbers = [...document.querySelectorAll(".numbers dd")].map((one) => inSi(one.textContent));
         const names = [...document.querySelectorAll(".numbers dt")].map((one) => one.textContent);
         const of = (name) => numbers[names.indexOf(name)];
         return {
-            displacement: [1e3 * most([...orbit.displacement]), of("Max. displacement")],
+            displacement: [most([...orbit.displacement]), of("Max. displacement")],
             acceleration: [most([...orbit.acceleration]), of("Max. acceleration")],
             force: [Math.max(0, ...orbit.forces.map((force) => most([...force]))), of("Max. contact force")],
         };

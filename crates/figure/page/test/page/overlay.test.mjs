@@ -32,7 +32,7 @@ test("measured points are drawn by their kind, tell their numbers, and have swit
     const [open24, full26] = [await tab.value(marked(24, 4)), await tab.value(marked(26, 6))];
     assert.ok(open24 > 10 && full26 > 1.4 * open24, `an outline has ${open24} pixels of ink, a full square ${full26}`);
     const words = await hover(tab, 24, 4);
-    for (const part of ["Measured periodic, period 2 (1/2)", "As measured 3.0000 mm at 22.00000 Hz", "Shifted 4.0000 mm at 24.00000 Hz", "too far", "points.csv"]) {
+    for (const part of ["Measured periodic, 1/2 subharmonic", "As measured 3.0000 mm at 22.00000 Hz", "Shifted 4.0000 mm at 24.00000 Hz", "too far", "points.csv"]) {
         assert.ok(words.includes(part), `${part} in ${words}`);
     }
     assert.ok((await hover(tab, 26, 6)).includes("Measured aperiodic"));

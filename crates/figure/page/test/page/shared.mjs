@@ -34,10 +34,14 @@ after(() => browser?.close());
 /** The page with something of everything. */
 export const rich = pages.odd?.find(({ name }) => name === "everything at once");
 
+/** Whether the page is there, multipliers and all. */
+export const isReady = `window.hammerbeam !== undefined && (document.querySelector(".solution.none") !== null || document.querySelector("#multipliers .note").textContent !== "")`;
+
 /** Opens a page in a tab of its own. */
 export async function open(page, hash = "", { width = 1400, height = 1000, features = LIGHT } = {}) {
     const tab = await browser.tab(width, height, features);
     await tab.open(pathToFileURL(page.path).href + hash);
+    await tab.until(isReady);
     return tab;
 }
 
