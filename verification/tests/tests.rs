@@ -13,6 +13,7 @@ mod duffing;
 mod formulas;
 mod licences;
 mod linear;
+mod loads;
 mod many_attractors;
 mod marginal;
 mod measuring_filter;

@@ -3,7 +3,7 @@
 use hammerbeam_drawing::{DrawSettings, draw_into, draw_linear};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::matrix_document;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::Model;
 use serde_json::{Value, json};
 
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 const SHOWN: usize = 12;
 
 pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     let model = Model::build(&file)?;
     let mut document = document(&model);
     if let Some(folder) = &options.out {

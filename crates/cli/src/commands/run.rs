@@ -1,6 +1,11 @@
 //! `hammerbeam run`: everything a study asks for, into one results folder.
 
-use std::time::{Duration, Instant};
+mod family;
+
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use hammerbeam_drawing::{DrawSettings, FigureSelection, draw, draw_into};
 use hammerbeam_figure::FrequencyUnit;
@@ -13,7 +18,6 @@ use hammerbeam_results::{
     store::{JobRecord, PieceRecord, StoredReason},
     summary::{BranchSummary, Peak},
 };
-use hammerbeam_study::StudyFile;
 
 use crate::{
     args::RunOptions, commands::check::UNDAMPED_ADVICE, failure::Failure, interrupt::Interrupt,
@@ -21,26 +25,41 @@ use crate::{
 };
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    if !options.vary_set.is_empty() {
+        return family::run(options, output);
+    }
+    let file = options.study.read()?;
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let interrupt = Interrupt::listen(output)?;
+    let summary = run_into(&options.out, &study, options, (output, &interrupt))?;
+    output.give(&summary.report, || summary.text())
+}
+
+/// Runs a study into a folder, and draws what was found.
+fn run_into(
+    out: &Path,
+    study: &PreparedStudy,
+    options: &RunOptions,
+    (output, interrupt): (Output, &Interrupt),
+) -> Result<Summary, Failure> {
     let asked = &study.file.study;
     let mut terminal = Terminal::new(interrupt.clone(), asked.varies.len() + asked.curves.len());
     let begun = Instant::now();
     let threads = threads(options.jobs);
-    let request = RunRequest { out: &options.out, from: &options.from, threads };
-    let run = run_study(&study, request, &mut terminal);
+    let request = RunRequest { out, from: &options.from, threads };
+    let run = run_study(study, request, &mut terminal);
     terminal.clear();
     let WholeRun { store, report } = run?;
-    let mut summary = Summary { unit: output.frequency_unit, range_hz: asked.excitation.range_hz(), report };
+    let (unit, range_hz) = (output.frequency_unit, asked.excitation.range_hz());
+    let mut summary = Summary { unit, range_hz, report, elapsed: Duration::ZERO };
     let result = match summary.report.outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
             let settings =
                 DrawSettings { threads, frequency_unit: output.frequency_unit, ..DrawSettings::default() };
             let selection = FigureSelection::of_run(&study.file);
-            let drawn = draw_into(&options.out, settings, &mut Watch::new(interrupt), |drawn| {
+            let drawn = draw_into(out, settings, &mut Watch::new(interrupt.clone()), |drawn| {
                 draw(&store, (&study.file, &study.model), &selection, drawn)
             });
             match drawn.map_err(Failure::from) {
@@ -49,7 +68,8 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
                 Ok(_) if summary.report.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
                     summary.report.figures = figures.names;
-                    output.give(&summary.report, || summary.text(begun.elapsed()))
+                    summary.elapsed = begun.elapsed();
+                    Ok(summary)
                 }
             }
         }
@@ -63,6 +83,7 @@ struct Summary {
     unit: FrequencyUnit,
     range_hz: [f64; 2],
     report: RunReport,
+    elapsed: Duration,
 }
 
 impl Summary {
@@ -153,13 +174,13 @@ impl Summary {
             .join("\n")
     }
 
-    fn text(&self, elapsed: Duration) -> String {
+    fn text(&self) -> String {
         let mut lines = vec![format!(
             "{} solutions on {} branch(es) in {}, after {:.1} s",
             self.report.solutions(),
             self.report.branches.len(),
             self.folder(),
-            elapsed.as_secs_f64()
+            self.elapsed.as_secs_f64()
         )];
         lines.extend(self.report.branches.iter().map(|branch| self.branch_text(branch)));
         lines.extend(self.report.varied.iter().map(piece_text));

@@ -24,7 +24,7 @@ pub struct Measured {
 }
 
 /// Ends of keys and the units that they stand for, the longer of two that fit first.
-const SUFFIXES: [(&str, &str); 22] = [
+const SUFFIXES: [(&str, &str); 23] = [
     ("_pa", "Pa"),
     ("_n_m_s_rad", "N m s/rad"),
     ("_n_m_rad", "N m/rad"),
@@ -34,6 +34,7 @@ const SUFFIXES: [(&str, &str); 22] = [
     ("_n_m2", "N/m^2"),
     ("_kg_m3", "kg/m^3"),
     ("_kg_m2", "kg m^2"),
+    ("_kg_m", "kg/m"),
     ("_m_s2", "m/s^2"),
     ("_per_s", "1/s"),
     ("_n_m", "N/m"),

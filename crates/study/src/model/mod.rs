@@ -79,14 +79,15 @@ impl Model {
         let numbers = family::varied_numbers(study);
         let reference = (!numbers.is_empty()).then(|| Arc::new(Reference::new(study, &reduced)));
         load::check(file, &reduced.model)?;
-        let load = load::load(study, &reduced.model);
-        let elements = element::elements(file, &reduced.model, &load)?;
+        let drive = load::Drive::of(study, &reduced.model);
+        let elements = element::elements(file, &reduced.model, &drive.kept)?;
         let response = response_point(study, &reduced.model);
-        let driven = load::over_frequency(study, &reduced.model);
-        let system = System::new(reduced.model, &load, elements).and_then(|system| match driven {
-            Some((load, curve)) => system.with_amplitude_over_frequency(&load, curve),
-            None => Ok(system),
-        });
+        let system = drive
+            .driven
+            .into_iter()
+            .fold(System::new(reduced.model, &drive.kept, elements), |system, (load, factor)| {
+                system?.with_amplitude_over_frequency(&load, factor)
+            });
         let mut system = system.map_err(|error| system_fault(file, &error))?;
         let damping_keys = damping::varied_keys(study);
         for &key in &damping_keys {
