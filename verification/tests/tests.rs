@@ -20,6 +20,7 @@ mod measuring_filter;
 mod moving_supports;
 mod mutations;
 mod plain_motion;
+mod reductions;
 mod relations;
 mod shaw_holmes_1983;
 mod surveys;

@@ -8,6 +8,7 @@ mod damping;
 mod derivatives;
 mod invariants;
 mod matrices;
+mod reductions;
 mod refused_input;
 mod support_motion;
 mod supports_that_differ;

@@ -35,7 +35,10 @@ mod model;
 pub mod number;
 mod setting;
 
-pub use document::{Problem, Report, unit::hertz};
+pub use document::{
+    Problem, Report,
+    unit::{hertz, readable},
+};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
 pub use model::matrix_study;

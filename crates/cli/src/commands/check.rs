@@ -14,6 +14,7 @@ use hammerbeam_study::{
         ForcePlace, ForceSize, Load, Lumped, Matrices, ModalRatio, MovingSupport, Place, Reduction,
         ReductionMethod, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
     },
+    readable,
 };
 
 use crate::{
@@ -113,23 +114,23 @@ fn beam_text(beam: &Beam) -> String {
     let profile = |span: &BeamSpan| {
         let profile = span.profile;
         let shear = if profile.poisson_ratio.is_some() { ", with shear" } else { "" };
-        let (stiffness, mass) = (digits(profile.bending_stiffness()), digits(profile.mass_per_length()));
-        format!("EI {stiffness} N m^2, {mass} kg/m{shear}")
+        let stiffness = readable(profile.bending_stiffness(), "N m^2");
+        format!("EI {stiffness}, {}{shear}", readable(profile.mass_per_length(), "kg/m"))
     };
     let ends = format!("left end {}, right end {}", word(&beam.left), word(&beam.right));
-    let (length, elements) = (digits(beam.length_m), beam.elements);
+    let (length, elements) = (readable(beam.length_m, "m"), beam.elements);
     let mut text = match beam.spans.as_slice() {
-        [only] => format!("structure    beam of {length} m, {}, {elements} elements, {ends}", profile(only)),
-        _ => format!("structure    beam of {length} m, {elements} elements, {ends}"),
+        [only] => format!("structure    beam of {length}, {}, {elements} elements, {ends}", profile(only)),
+        _ => format!("structure    beam of {length}, {elements} elements, {ends}"),
     };
     let several = if beam.spans.len() > 1 { beam.spans.as_slice() } else { &[] };
     for (index, span) in several.iter().enumerate() {
-        let length = digits(span.length_m);
-        text.push_str(&format!("\nspan         {} of {length} m, {}", index + 1, profile(span)));
+        let length = readable(span.length_m, "m");
+        text.push_str(&format!("\nspan         {} of {length}, {}", index + 1, profile(span)));
     }
     for point in &beam.points {
-        let (at, mass) = (digits(point.at_m), digits(point.mass_kg));
-        text.push_str(&format!("\npoint        {} at {at} m, {mass} kg", point.name));
+        let (at, mass) = (readable(point.at_m, "m"), readable(point.mass_kg, "kg"));
+        text.push_str(&format!("\npoint        {} at {at}, {mass}", point.name));
         if point.support != End::Free {
             text.push_str(&format!(", {}", word(&point.support)));
         }
@@ -161,6 +162,7 @@ fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> Str
     let modes = counted(dof as u64, "mode");
     match reduction.method {
         ReductionMethod::None => format!("none, {modes}"),
+        ReductionMethod::Given => format!("as given, {modes}"),
         _ => {
             let cut_off = unit.words(reduction.cut_off_hz);
             format!("{}, cut-off {cut_off}, {modes} left", word(&reduction.method))
@@ -204,7 +206,7 @@ fn dampers(structure: &Structure) -> usize {
 
 fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
     match amplitude {
-        Amplitude::Constant(value) => format!("{} {unit}", digits(*value)),
+        Amplitude::Constant(value) => readable(*value, unit),
         Amplitude::OverFrequency(points) => {
             let values = || points.iter().map(|point| point[1]);
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
@@ -272,7 +274,7 @@ fn force_text(force: &ActingForce) -> String {
     let size = match &force.size {
         ForceSize::Amplitude(amplitude) => format!("amplitude {}", amplitude_text(amplitude, "N")),
         ForceSize::Unbalance { mass_kg, eccentricity_m } => {
-            format!("unbalance {} kg at {} m", digits(*mass_kg), digits(*eccentricity_m))
+            format!("unbalance {} at {}", readable(*mass_kg, "kg"), readable(*eccentricity_m, "m"))
         }
     };
     let phase = if force.phase_rad == 0.0 { "" } else { &format!(", phase {} rad", digits(force.phase_rad)) };

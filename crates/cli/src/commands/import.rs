@@ -19,7 +19,7 @@ use crate::{
     args::ImportOptions,
     failure::Failure,
     matrix_report,
-    output::{Output, six_decimals},
+    output::{Output, decimals},
 };
 
 /// Frequencies that are reported.
@@ -115,7 +115,7 @@ fn text(survey: &MatrixSurvey, written: &[String]) -> String {
     let rank = survey.mass_rank.map_or("not found".to_owned(), |rank| rank.to_string());
     let entries = survey.mass.stored();
     lines.push(format!("mass matrix  symmetric, positive semi-definite, rank {rank}, {entries} entries"));
-    let frequencies: Vec<String> = survey.frequencies_hz.iter().map(|f| six_decimals(*f)).collect();
+    let frequencies: Vec<String> = survey.frequencies_hz.iter().map(|f| decimals(*f, 6)).collect();
     lines.push(format!("frequencies  {} Hz", frequencies.join(", ")));
     lines.push(format!("written      {}", written.join(", ")));
     lines.join("\n")

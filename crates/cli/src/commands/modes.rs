@@ -10,7 +10,7 @@ use crate::{
     args::ModesOptions,
     failure::Failure,
     matrix_report,
-    output::{Output, six_decimals},
+    output::{Output, decimals, six_decimals},
     watch::Notices,
 };
 
@@ -92,7 +92,7 @@ fn text(model: &Model, unit: FrequencyUnit) -> String {
     let shown = if model.matrices.is_some() { known } else { SHOWN };
     let rows = tables.reduced_hz.len().max(interface.1.len()).max(shown).min(known);
     let cell = |values: &[f64], row: usize| {
-        values.get(row).map_or(String::new(), |value| six_decimals(unit.factor() * value))
+        values.get(row).map_or(String::new(), |value| decimals(unit.factor() * value, 6))
     };
     for row in 0..rows {
         let error =

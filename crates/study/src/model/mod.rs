@@ -30,6 +30,7 @@ use family::{Reference, StudyFamily};
 use structure::ReduceError;
 
 use crate::{
+    document::unit::readable,
     file::{DampingKey, ParameterKind, Place, Study, StudyError, StudyFile, VariedParameter},
     number::number_named,
 };
@@ -232,6 +233,7 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
         StructureError::LumpedIsNotReduced
         | StructureError::NotHeld { .. }
+        | StructureError::NoInterface
         | StructureError::TooManyCoordinates { .. } => "reduction.method",
         StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
         StructureError::RowCount { what: "mass", .. } => "structure.mass",
@@ -243,7 +245,8 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
     };
     let help = match error {
         StructureError::CutOffBelowFirstMode { first_hz, .. } => {
-            vec![format!("allowed: more than {first_hz:.6} Hz, so that one elastic mode is kept at least")]
+            let first = readable(*first_hz, "Hz");
+            vec![format!("allowed: more than {first}, so that one elastic mode is kept at least")]
         }
         StructureError::DampingRatioCount { modes, .. } => {
             vec![format!("allowed: one ratio for all modes, or a list of {modes}")]

@@ -6,7 +6,7 @@ use hammerbeam_jobs::PreparedStudy;
 use hammerbeam_study::{Setting, StudyFile};
 use serde_json::{Map, Value, json};
 
-use super::{Summary, run_into};
+use super::one::{Summary, run_into};
 use crate::{
     args::RunOptions,
     failure::Failure,

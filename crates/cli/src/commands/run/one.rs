@@ -1,6 +1,4 @@
-//! `hammerbeam run`: everything a study asks for, into one results folder.
-
-mod family;
+//! A run of one study into a results folder, and what came of it in words.
 
 use std::{
     path::Path,
@@ -20,24 +18,17 @@ use hammerbeam_results::{
 };
 
 use crate::{
-    args::RunOptions, commands::check::UNDAMPED_ADVICE, failure::Failure, interrupt::Interrupt,
-    output::Output, progress::Terminal, watch::Watch,
+    args::RunOptions,
+    commands::check::UNDAMPED_ADVICE,
+    failure::Failure,
+    interrupt::Interrupt,
+    output::{Output, decimals},
+    progress::Terminal,
+    watch::Watch,
 };
 
-pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
-    if !options.vary_set.is_empty() {
-        return family::run(options, output);
-    }
-    let file = options.study.read()?;
-    file.forced()?;
-    let study = PreparedStudy::new(file)?;
-    let interrupt = Interrupt::listen(output)?;
-    let summary = run_into(&options.out, &study, options, (output, &interrupt))?;
-    output.give(&summary.report, || summary.text())
-}
-
 /// Runs a study into a folder, and draws what was found.
-fn run_into(
+pub(super) fn run_into(
     out: &Path,
     study: &PreparedStudy,
     options: &RunOptions,
@@ -79,10 +70,10 @@ fn run_into(
 }
 
 /// What came of a run, in words.
-struct Summary {
+pub(super) struct Summary {
     unit: FrequencyUnit,
     range_hz: [f64; 2],
-    report: RunReport,
+    pub report: RunReport,
     elapsed: Duration,
 }
 
@@ -174,7 +165,7 @@ impl Summary {
             .join("\n")
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut lines = vec![format!(
             "{} solutions on {} branch(es) in {}, after {:.1} s",
             self.report.solutions(),
@@ -210,10 +201,12 @@ fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
     let [low, high] = branch.range_hz.map(|end| unit.factor() * end);
     let mut lines = vec![
         format!(
-            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} {}, {} of them stable{}",
+            "\nbranch {} (period {}): {} solutions, {} to {} {}, {} of them stable{}",
             branch.record.id,
             branch.record.period_multiple,
             branch.solutions,
+            decimals(low, 6),
+            decimals(high, 6),
             unit.symbol(),
             branch.stable,
             marginal_words(branch.marginal)
@@ -268,12 +261,12 @@ fn peak_place(peak: &Peak, unit: FrequencyUnit) -> String {
     }
     let [low, high] = peak.equal_hz;
     let (low, high) = (unit.factor() * low, shown(unit, high, 4));
-    format!("{low:.4} to {high} ({} solutions of equal height)", peak.equal)
+    format!("{} to {high} ({} solutions of equal height)", decimals(low, 4), peak.equal)
 }
 
 /// A frequency with so many decimals.
-fn shown(unit: FrequencyUnit, frequency_hz: f64, decimals: usize) -> String {
-    format!("{:.decimals$} {}", unit.factor() * frequency_hz, unit.symbol())
+fn shown(unit: FrequencyUnit, frequency_hz: f64, count: usize) -> String {
+    format!("{} {}", decimals(unit.factor() * frequency_hz, count), unit.symbol())
 }
 
 /// How many solutions are marginal, behind the number of those that are stable; nothing if none is.
