@@ -97,7 +97,8 @@ impl Structure {
         };
         let mass = mass.clone().unwrap_or_else(own);
         let strains = self.assembly.stiffness.columns(&free) * relative;
-        let modes = Modes::of(strains.as_ref(), mass.as_ref())?;
+        let highest = full.frequencies.last().copied().unwrap_or(0.0);
+        let modes = Modes::of(strains.as_ref(), mass.as_ref())?.rigid_beside(highest);
         Ok((modes.frequencies, relative * modes.shapes))
     }
 
