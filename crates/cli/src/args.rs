@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
-use hammerbeam_study::file::DrawnOrbit;
+use hammerbeam_study::{Setting, StudyError, StudyFile, file::DrawnOrbit};
 
 use crate::{
     compare_args::{CompareOptions, RigOptions},
@@ -85,6 +85,26 @@ pub enum Command {
     Man(ManOptions),
 }
 
+/// A study file, and keys of it that get other values.
+#[derive(Debug, Args)]
+pub struct StudyInput {
+    /// Study file
+    #[arg(value_name = "STUDY")]
+    pub path: PathBuf,
+
+    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm"; elements of
+    /// lists go by name, or by number from 1. May be given several times; results keep the study as it was run
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<Setting>,
+}
+
+impl StudyInput {
+    /// Reads the study.
+    pub fn read(&self) -> Result<StudyFile, StudyError> {
+        StudyFile::read_with(&self.path, &self.set)
+    }
+}
+
 #[derive(Debug, Args)]
 pub struct NewOptions {
     /// Folder, made if it is not there; study.toml is written into it
@@ -93,14 +113,14 @@ pub struct NewOptions {
 
 #[derive(Debug, Args)]
 pub struct StudyOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 }
 
 #[derive(Debug, Args)]
 pub struct ModesOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Folder, made if it is not there, into which the structure, its modes, the error of the reduction and
     /// the excitation are drawn
@@ -113,6 +133,10 @@ pub struct ImportOptions {
     /// Files of the program (stiffness, mass, damping, labels of rows, nodes), known by their names and
     /// content; or a study, whose structure is exported
     pub files: Vec<PathBuf>,
+
+    /// Give a key of the study another value, see `hammerbeam check --help`
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<Setting>,
 
     /// Folder, made if it is not there, for K.mtx, M.mtx, C.mtx, dofs.csv, nodes.csv and lines.csv
     #[arg(long, value_name = "DIR")]
@@ -173,12 +197,17 @@ pub struct ImportOptions {
 
 #[derive(Debug, Args)]
 pub struct RunOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Results folder, made if it is not there; one that holds part of the same study is continued
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+
+    /// Run a family of studies, one for each of these values of a key, each into a folder of its own in the
+    /// results folder; of several keys all combinations
+    #[arg(long, value_name = "KEY=VALUE,VALUE,...")]
+    pub vary_set: Vec<Setting>,
 
     /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
     /// folder and that no branch holds; or at a special point of its branches, by the number that page.html
@@ -193,8 +222,8 @@ pub struct RunOptions {
 
 #[derive(Debug, Args)]
 pub struct OrbitOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Excitation frequency
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
@@ -216,8 +245,8 @@ pub struct OrbitOptions {
 
 #[derive(Debug, Args)]
 pub struct UpdateOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Data file: the parameters to fit, and what was measured; docs/how-to/fit-to-measurements.md has its
     /// keys

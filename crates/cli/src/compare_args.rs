@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::{
-    args::positive,
+    args::{StudyInput, positive},
     numbers::{above_one, number, positive_number},
 };
 
@@ -69,8 +69,8 @@ pub struct CompareOptions {
 
 #[derive(Debug, Args)]
 pub struct RigOptions {
-    /// Study file with a table [rig]
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Results folder, made if it is not there; branches of the same study that it holds are taken as they
     /// are

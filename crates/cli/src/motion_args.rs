@@ -5,7 +5,7 @@ use std::{ops::RangeInclusive, path::PathBuf};
 use clap::Args;
 use hammerbeam_attractor::{Effort, Patience};
 
-use crate::args::excitation_frequency;
+use crate::args::{StudyInput, excitation_frequency};
 
 /// Largest entry of a state that is given: its square and the energy of the motion are numbers.
 pub const MOST_OF_A_STATE: f64 = 1e100;
@@ -14,8 +14,8 @@ const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without co
 
 #[derive(Debug, Args)]
 pub struct SimulateOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Excitation frequency; needed unless the study has no [excitation]
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
@@ -62,8 +62,8 @@ pub struct SimulateOptions {
 
 #[derive(Debug, Args)]
 pub struct LyapunovOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Excitation frequency, or the first of a series
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
@@ -148,8 +148,8 @@ impl EffortOptions {
 
 #[derive(Debug, Args)]
 pub struct SweepOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// First frequency [default: the low end of the study's range]
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
@@ -198,8 +198,8 @@ pub struct SweepOptions {
 
 #[derive(Debug, Args)]
 pub struct BasinsOptions {
-    /// Study file
-    pub study: PathBuf,
+    #[command(flatten)]
+    pub study: StudyInput,
 
     /// Excitation frequency
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]

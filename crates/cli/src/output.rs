@@ -30,6 +30,16 @@ pub fn six_decimals(value: f64) -> String {
     }
 }
 
+/// A number with so many decimals; what they would round to next to nothing has as many digits instead.
+pub fn decimals(value: f64, decimals: usize) -> String {
+    let least = 10_f64.powi(3 - decimals as i32);
+    if value == 0.0 || value.abs() >= least.min(1e-2) {
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.decimals$e}")
+    }
+}
+
 impl Output {
     /// Gives a result: the document, or the text.
     ///
@@ -125,6 +135,13 @@ mod tests {
     fn what_is_rounded_to_nothing_has_no_sign() {
         let shown = [-0.0, -4.9e-7, -5.1e-7, 1.5].map(six_decimals);
         assert_eq!(shown, ["0.000000", "0.000000", "-0.000001", "1.500000"]);
+    }
+
+    #[test]
+    fn small_numbers_keep_their_digits() {
+        let shown = [0.0, 36.2, 0.0123, 7.33e-8].map(|value| decimals(value, 6));
+        assert_eq!(shown, ["0.000000", "36.200000", "0.012300", "7.330000e-8"]);
+        assert_eq!(decimals(0.05, 4), "0.0500");
     }
 
     #[test]

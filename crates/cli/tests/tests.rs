@@ -32,6 +32,7 @@ mod resting;
 mod rig;
 mod run;
 mod same_bytes;
+mod settings;
 mod signal;
 mod special_points;
 mod structures;

@@ -9,7 +9,7 @@ use hammerbeam_figure::{
 use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{
     Model, Study,
-    file::{End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure},
+    file::{ActingForce, End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure},
 };
 
 /// Rows of the amplitude over the frequency range.
@@ -124,6 +124,18 @@ pub fn excitation(
         ExcitationKind::SupportMotion { amplitude_m, .. } => {
             vec![frequencies.iter().map(|f| amplitude_m.at(*f) * rate(*f)).collect()]
         }
+        ExcitationKind::SupportAcceleration { amplitude_m_s2, .. } => {
+            vec![frequencies.iter().map(|f| amplitude_m_s2.at(*f)).collect()]
+        }
+        ExcitationKind::Forces { forces } => {
+            if forces.len() > 1 {
+                names.extend(forces.iter().map(|force| force.place.points().join("–")));
+            }
+            let of = |force: &ActingForce| {
+                frequencies.iter().map(|f| force.size.at(excitation.order, *f)).collect()
+            };
+            forces.iter().map(of).collect()
+        }
         ExcitationKind::SupportMotions { supports } => {
             names.extend(supports.iter().map(|support| support.at.join(", ")));
             let of = |amplitude: f64| frequencies.iter().map(|f| amplitude * rate(*f)).collect();
@@ -134,7 +146,10 @@ pub fn excitation(
         }
     };
     let quantity = match excitation.kind {
-        ExcitationKind::SupportMotion { .. } => "Acceleration of the support (m/s²)",
+        ExcitationKind::SupportMotion { .. } | ExcitationKind::SupportAcceleration { .. } => {
+            "Acceleration of the support (m/s²)"
+        }
+        ExcitationKind::Forces { .. } => "Amplitudes of the forces (N)",
         ExcitationKind::SupportMotions { .. } => "Acceleration of the supports (m/s²)",
         ExcitationKind::Force { .. } => "Amplitude of the force (N)",
     };

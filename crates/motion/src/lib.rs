@@ -101,6 +101,7 @@
 mod amplitude;
 pub mod exact;
 mod family;
+mod frequency_factor;
 pub mod general;
 mod in_front;
 mod instant;
@@ -113,6 +114,7 @@ mod system;
 
 pub use amplitude::{AmplitudeCurve, AmplitudeError};
 pub use family::{Family, Member};
+pub use frequency_factor::FrequencyFactor;
 pub use law::{Contact, Force, Law, LawConstant, LawError};
 pub use load::{Harmonic, HarmonicForce, Load, SupportHarmonic};
 pub use parameter::{DampingPart, Parameter, ParameterError};

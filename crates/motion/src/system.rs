@@ -5,15 +5,16 @@
 //! supports. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u_s` and `b_m`, besides the
 //! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
 
+mod driven;
 mod symmetry;
 mod varied;
-
-use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
-use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, SupportHarmonic, parameter::Kin};
+use driven::{DrivenLoad, DrivenLoads};
+
+use crate::{DampingPart, FrequencyFactor, Harmonic, Law, Load, SupportHarmonic, parameter::Kin};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -65,7 +66,7 @@ pub struct System {
     /// The load as given: supports and forces at the scale one.
     unscaled: (Vec<Vec<c64>>, Vec<Vec<c64>>),
     /// Harmonics whose amplitude depends on the frequency.
-    driven: Option<Driven>,
+    driven: DrivenLoads,
     excitation_scale: f64,
     /// Parts that can be added to the damping, and how much of each is.
     damping_parts: Vec<DampingPart>,
@@ -76,15 +77,6 @@ pub struct System {
     given_laws: Vec<Law>,
     /// Families of systems that it belongs to.
     families: Vec<Kin>,
-}
-
-/// Harmonics that a curve of the frequency is a factor of: support motions and forces, by the orders of the
-/// system.
-#[derive(Debug, Clone)]
-struct Driven {
-    supports: Vec<Vec<c64>>,
-    forces: Vec<Vec<c64>>,
-    curve: AmplitudeCurve,
 }
 
 /// Modal load of one order and its derivative by the circular frequency.
@@ -129,7 +121,7 @@ impl System {
             supports,
             forces,
             unscaled,
-            driven: None,
+            driven: DrivenLoads::default(),
             excitation_scale: 1.0,
             damping_parts,
             added_damping: vec![0.0],
@@ -137,18 +129,17 @@ impl System {
         })
     }
 
-    /// Adds a load of which a curve of the frequency is a factor: the amplitude of a shaker that does not
-    /// keep it.
+    /// Adds a load of which a factor depends on the frequency: a shaker that does not keep its amplitude, an
+    /// unbalance, a prescribed acceleration.
     ///
-    /// * `load`: its amplitudes, which the curve multiplies; no constant part. A load that was added before
-    ///   is replaced.
+    /// * `load`: its amplitudes, which the factor multiplies; no constant part.
     ///
     /// # Errors
     /// See [`SystemError`].
     pub fn with_amplitude_over_frequency(
         mut self,
         load: &Load,
-        curve: AmplitudeCurve,
+        factor: impl Into<FrequencyFactor>,
     ) -> Result<Self, SystemError> {
         check(&self.model, load, &[])?;
         if load.harmonics().any(|harmonic| harmonic.order == 0) {
@@ -158,17 +149,19 @@ impl System {
         orders.extend(load.harmonics().map(|harmonic| harmonic.order));
         orders.sort_unstable();
         orders.dedup();
-        let zero = c64::new(0.0, 0.0);
         let before = |order: &u32| self.orders.iter().position(|other| other == order);
-        let again = |given: &[Vec<c64>], length: usize| -> Vec<Vec<c64>> {
-            let of_order = |order| before(order).map_or_else(|| vec![zero; length], |i| given[i].clone());
-            orders.iter().map(of_order).collect()
-        };
         let (moving, n) = (self.model.supports.len(), self.dof());
+        let again = |given: &[Vec<c64>], length: usize| -> Vec<Vec<c64>> {
+            let none = || vec![c64::new(0.0, 0.0); length];
+            orders.iter().map(|order| before(order).map_or_else(none, |i| given[i].clone())).collect()
+        };
         let (supports, forces) = (again(&self.supports, moving), again(&self.forces, n));
         let unscaled = (again(&self.unscaled.0, moving), again(&self.unscaled.1, n));
-        let driven = by_orders(&orders, load, &self.model);
-        self.driven = Some(Driven { supports: driven.0, forces: driven.1, curve });
+        let mut driven = self.driven.clone();
+        driven.rearrange(|given| again(given, given.first().map_or(0, Vec::len)));
+        let (own_supports, own_forces) = by_orders(&orders, load, &self.model);
+        driven.push(DrivenLoad { supports: own_supports, forces: own_forces, factor: factor.into() });
+        self.driven = driven;
         (self.orders, self.supports, self.forces, self.unscaled) = (orders, supports, forces, unscaled);
         Ok(self)
     }
@@ -214,22 +207,16 @@ impl System {
     /// [`System::orders`] at the circular frequency `W` [rad/s], and its derivative by `W`.
     #[must_use]
     pub fn support_amplitudes(&self, order_index: usize, circular_frequency: f64) -> Vec<(c64, c64)> {
-        let given = &self.supports[order_index];
-        match self.driven_at(circular_frequency) {
-            None => given.iter().map(|given| (*given, c64::new(0.0, 0.0))).collect(),
-            Some((driven, factor, slope)) => {
-                let amplitude = |(given, driven): (&c64, &c64)| (given + driven * factor, driven * slope);
-                given.iter().zip(&driven.supports[order_index]).map(amplitude).collect()
+        let zero = c64::new(0.0, 0.0);
+        let mut moved: Vec<(c64, c64)> =
+            self.supports[order_index].iter().map(|given| (*given, zero)).collect();
+        for driven in self.driven.at(circular_frequency, self.excitation_scale) {
+            for (moved, own) in moved.iter_mut().zip(&driven.load.supports[order_index]) {
+                moved.0 += own * driven.factor;
+                moved.1 += own * driven.slope;
             }
         }
-    }
-
-    /// What the frequency drives, its factor with the scale of the excitation, and the derivative of that by
-    /// the circular frequency.
-    fn driven_at(&self, circular_frequency: f64) -> Option<(&Driven, f64, f64)> {
-        let driven = self.driven.as_ref()?;
-        let (factor, slope) = driven.curve.at(circular_frequency / TAU);
-        Some((driven, self.excitation_scale * factor, self.excitation_scale * slope / TAU))
+        moved
     }
 
     /// Modal load of the order with that index in [`System::orders`], at the circular frequency `W` [rad/s].
@@ -239,10 +226,10 @@ impl System {
     pub fn modal_load(&self, order_index: usize, circular_frequency: f64) -> ModalLoad {
         let mut amplitude = self.forces[order_index].clone();
         let mut by_frequency = vec![c64::new(0.0, 0.0); self.dof()];
-        if let Some((driven, factor, slope)) = self.driven_at(circular_frequency) {
-            for (mode, force) in driven.forces[order_index].iter().enumerate() {
-                amplitude[mode] += force * factor;
-                by_frequency[mode] += force * slope;
+        for driven in self.driven.at(circular_frequency, self.excitation_scale) {
+            for (mode, force) in driven.load.forces[order_index].iter().enumerate() {
+                amplitude[mode] += force * driven.factor;
+                by_frequency[mode] += force * driven.slope;
             }
         }
         let moved = self.support_amplitudes(order_index, circular_frequency);

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 
 use crate::common::{diagonal, element, hertz, model};
 use hammerbeam_motion::{
-    AmplitudeCurve, Flow, Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System, SystemError,
+    AmplitudeCurve, Flow, FrequencyFactor, Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System,
+    SystemError,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{HertzStop, HuntCrossleyStop, LinearStop, RigidStop},
@@ -175,6 +176,79 @@ fn support_motion_changes_with_the_frequency_as_differences_say() {
                 "{k}: {} {difference}",
                 found[k]
             );
+        }
+    }
+}
+
+/// Three loads that depend on the frequency, each in its own way, and one that does not: a table, an unbalance,
+/// and an acceleration with a table.
+fn several(law: Law, support_ratio: f64) -> System {
+    let force = |order, amplitude, shape: [f64; 3]| Load {
+        support: Vec::new(),
+        forces: vec![HarmonicForce {
+            shape: shape.to_vec(),
+            harmonic: Harmonic { order, amplitude, phase: 0.7 },
+        }],
+    };
+    let accelerated =
+        Load { support: vec![Harmonic { order: 2, amplitude: -0.3, phase: 0.2 }.into()], forces: Vec::new() };
+    driven(law, support_ratio)
+        .with_amplitude_over_frequency(&force(1, 4e-4, [0.5, 0.2, -0.1]), FrequencyFactor::SQUARE)
+        .and_then(|system| {
+            let factor = FrequencyFactor::INVERSE_SQUARE.with_curve(curve());
+            system.with_amplitude_over_frequency(&accelerated, factor)
+        })
+        .unwrap()
+}
+
+/// The same with the amplitudes that they have at a frequency.
+fn several_frozen(law: Law, support_ratio: f64, frequency_hz: f64) -> System {
+    let square = (TAU * frequency_hz).powi(2);
+    let mut load = constant();
+    let own = excitation(curve().at(frequency_hz).0);
+    load.support.extend(own.support);
+    load.forces.extend(own.forces);
+    load.forces.push(HarmonicForce {
+        shape: vec![0.5, 0.2, -0.1],
+        harmonic: Harmonic { order: 1, amplitude: 4e-4 * square, phase: 0.7 },
+    });
+    let amplitude = -0.3 * curve().at(frequency_hz).0 / square;
+    load.support.push(Harmonic { order: 2, amplitude, phase: 0.2 }.into());
+    System::new(three_modes(), &load, vec![element(&SHAPE, support_ratio, law)]).unwrap()
+}
+
+#[test]
+fn several_loads_keep_their_own_factors() {
+    for law in laws() {
+        for frequency_hz in [4.4, 6.0, 9.5] {
+            let found = flow(&several(law.clone(), 0.7), frequency_hz, 1e-12).state;
+            let expected = flow(&several_frozen(law.clone(), 0.7, frequency_hz), frequency_hz, 1e-12).state;
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a - b).abs() < 1e-11, "{law:?} at {frequency_hz} Hz: {a} {b}");
+            }
+        }
+    }
+}
+
+/// By differences of fourth order, and by the general integrator.
+#[test]
+fn frequency_column_holds_the_slopes_of_all_factors() {
+    for law in laws() {
+        let system = several(law.clone(), 0.7);
+        let column = flow(&system, 6.0, 1e-12).by_frequency;
+        let step = 3e-7;
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| flow(&system, 6.0 + k * step, 1e-13).state);
+        let general = advance(&system, &STRETCH, &STATE, &GeneralSettings::with_tolerance(1e-12)).unwrap();
+        for part in [0..3, 3..6] {
+            let difference = |i: usize| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * step);
+            let largest = part.clone().map(|i| difference(i).abs()).fold(0.0, f64::max);
+            for i in part {
+                // As in the test of one load: rounding of states over the step.
+                let error = (column[i] - difference(i)).abs() / largest;
+                assert!(error < 3e-5, "{law:?}, entry {i}: {} {}", column[i], difference(i));
+                let other = general.flow.by_frequency[i];
+                assert!((column[i] - other).abs() < 1e-6, "{law:?}, entry {i}: {} {other}", column[i]);
+            }
         }
     }
 }

@@ -56,7 +56,7 @@ pub enum StructureError {
     #[error("a lumped structure is not reduced, choose the reduction \"none\"")]
     LumpedIsNotReduced,
     /// The reduction would keep no elastic mode.
-    #[error("the cut-off frequency is {cut_off_hz} Hz, below the first elastic mode at {first_hz:.6} Hz")]
+    #[error("the cut-off frequency is {cut_off_hz} Hz, below the first elastic mode at {} Hz", six(*first_hz))]
     CutOffBelowFirstMode { cut_off_hz: f64, first_hz: f64 },
     /// A damping ratio is missing or too much.
     #[error("{found} modal damping ratios are given, the structure has {modes} modes")]
@@ -126,6 +126,9 @@ pub enum StructureError {
     /// Two interface points move alike, whatever happens.
     #[error("points of the interface depend on one another, or do not move")]
     DependentInterface,
+    /// Static condensation keeps what moves at the interface alone.
+    #[error("Guyan's reduction needs a point with a stop or a force that can move, there is none")]
+    NoInterface,
     /// Constraint modes need a structure that is held.
     #[error(
         "fixed-interface reduction needs a structure without rigid-body modes, this one has {rigid_modes}"
@@ -134,6 +137,11 @@ pub enum StructureError {
     /// The singular value iteration did not end.
     #[error("the eigenmodes of {size} coordinates did not converge")]
     ModesNotConverged { size: usize },
+}
+
+/// Six decimals, or as many digits of what would be rounded to next to nothing.
+fn six(value: f64) -> String {
+    if value.abs() < 1e-3 { format!("{value:.6e}") } else { format!("{value:.6}") }
 }
 
 fn counted(rows: &[usize]) -> String {

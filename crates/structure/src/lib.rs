@@ -77,7 +77,7 @@ mod strain;
 mod structure;
 mod tables;
 
-pub use beam::{Beam, BeamChange, BeamPoint, Boundary, End, PointChange};
+pub use beam::{Beam, BeamChange, BeamPoint, BeamSpan, Boundary, End, PointChange, Shear, SteppedBeam};
 pub use damping::{Damping, ModalRatios};
 pub use error::StructureError;
 pub use export::ExportedMatrices;

@@ -87,14 +87,18 @@ impl Structure {
         full: &Modes,
         basis: Option<&Basis>,
     ) -> Result<(Vec<f64>, Mat<f64>), StructureError> {
-        let Some(Basis { relative, .. }) = basis else {
+        let Some(Basis { relative, mass, .. }) = basis else {
             return Ok((full.frequencies.clone(), full.shapes.clone()));
         };
         let free = self.free_coordinates();
-        let mass = Mat::from_fn(free.len(), free.len(), |i, j| self.assembly.mass[(free[i], free[j])]);
-        let mass = relative.transpose() * mass * relative;
+        let own = || {
+            let mass = Mat::from_fn(free.len(), free.len(), |i, j| self.assembly.mass[(free[i], free[j])]);
+            relative.transpose() * mass * relative
+        };
+        let mass = mass.clone().unwrap_or_else(own);
         let strains = self.assembly.stiffness.columns(&free) * relative;
-        let modes = Modes::of(strains.as_ref(), mass.as_ref())?;
+        let highest = full.frequencies.last().copied().unwrap_or(0.0);
+        let modes = Modes::of(strains.as_ref(), mass.as_ref())?.rigid_beside(highest);
         Ok((modes.frequencies, relative * modes.shapes))
     }
 
@@ -155,8 +159,10 @@ impl Structure {
         let kept_hz = basis.map(|basis| basis.kept_hz).unwrap_or_default();
         let (free_interface_hz, fixed_interface_hz) = match reduction {
             Reduction::FixedInterface { .. } => (Vec::new(), kept_hz),
-            Reduction::Truncation { .. } => (Vec::new(), Vec::new()),
-            Reduction::FreeInterface { .. } | Reduction::None => (kept_hz, Vec::new()),
+            Reduction::Truncation { .. } | Reduction::Guyan { .. } => (Vec::new(), Vec::new()),
+            Reduction::FreeInterface { .. } | Reduction::MacNeal { .. } | Reduction::None => {
+                (kept_hz, Vec::new())
+            }
         };
         ModeTables {
             clamped_hz,

@@ -292,6 +292,21 @@ fn fixed_interface_modes_are_those_of_the_beam() {
     assert_alike(&found.model, &expected.model, 1e-9);
 }
 
+/// The other reductions of matrices against those of the beam: the same bases. What answers statically alone
+/// stands at a hundred times the highest frequency.
+#[test]
+fn other_reductions_are_those_of_the_beam() {
+    let structure = paper_beam();
+    for reduction in [Reduction::MacNeal { cut_off_hz: 1000.0 }, Reduction::Guyan { cut_off_hz: 1000.0 }] {
+        let damping = Damping::modal(0.015);
+        let expected = structure.clone().with_support_motion(&["left"]).unwrap();
+        let expected = expected.reduce(&reduction, &damping, &["contact"]).unwrap();
+        let (found, _) =
+            exported(&structure, "left").reduce(&[&["left"]], &reduction, &damping, &["contact"]).unwrap();
+        assert_alike(&found.model, &expected.model, 1e-8);
+    }
+}
+
 /// Nine chains that nothing joins: every mode nine times, more often than a block of the search holds.
 #[test]
 fn modes_of_a_higher_multiplicity_than_the_blocks_are_all_found() {

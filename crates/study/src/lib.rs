@@ -6,6 +6,7 @@
 //! | [`file`] | one file per table of the study file: its keys and their meaning |
 //! | `model` | from what the file says to the equations of motion |
 //! | [`number`] | numbers in the text of a study by their key paths, and the text with others |
+//! | `setting` | keys with other values, written into the text of a study |
 //! | [`identity`] | what makes a study the same study, so that a results folder is continued or refused |
 //!
 //! Nothing is solved or stored here: `hammerbeam-results` keeps what `hammerbeam-jobs` computes.
@@ -32,8 +33,12 @@ pub mod file;
 pub mod identity;
 mod model;
 pub mod number;
+mod setting;
 
-pub use document::{Problem, Report, unit::hertz};
+pub use document::{
+    Problem, Report,
+    unit::{hertz, readable},
+};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
 pub use model::matrix_study;
@@ -41,3 +46,4 @@ pub use model::{
     Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
     UndampedMode,
 };
+pub use setting::{Setting, SettingError};

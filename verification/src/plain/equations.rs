@@ -12,12 +12,34 @@ use super::{
 };
 use crate::results::Failure;
 
-/// A force `amplitude cos(order w t + phase)` on each mass [N].
+/// A force `amplitude cos(order w t + phase)` on each mass [N], times what the frequency makes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Harmonic {
     pub row: Vec<f64>,
     pub order: f64,
     pub phase: f64,
+    pub size: Size,
+}
+
+/// How an amplitude depends on the frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Size {
+    /// Not at all.
+    Kept,
+    /// That of an unbalance, `(order w)^2`.
+    Unbalance,
+    /// A straight line through two points `[frequency, amplitude]`.
+    Line([[f64; 2]; 2]),
+}
+
+impl Size {
+    pub(super) fn at(self, order: f64, frequency_hz: f64) -> f64 {
+        match self {
+            Self::Kept => 1.0,
+            Self::Unbalance => (TAU * order * frequency_hz).powi(2),
+            Self::Line([[f, a], [g, b]]) => a + (b - a) * (frequency_hz - f) / (g - f),
+        }
+    }
 }
 
 /// A structure with its stops.
@@ -38,6 +60,8 @@ pub struct Equations {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ground {
     pub amplitude: f64,
+    /// Whether the amplitude is that of the acceleration [m/s^2].
+    pub is_acceleration: bool,
     pub order: f64,
     pub phase: f64,
     pub springs: Vec<f64>,
@@ -49,7 +73,8 @@ impl Ground {
     pub(super) fn motion(&self, frequency_hz: f64, time: f64) -> [f64; 3] {
         let w = TAU * self.order * frequency_hz;
         let (sine, cosine) = (w * time + self.phase).sin_cos();
-        [self.amplitude * cosine, -w * self.amplitude * sine, -w * w * self.amplitude * cosine]
+        let a = if self.is_acceleration { -self.amplitude / (w * w) } else { self.amplitude };
+        [a * cosine, -w * a * sine, -w * w * a * cosine]
     }
 }
 
@@ -59,7 +84,7 @@ impl Equations {
     /// * `model`: what the library made of it, for the modes of a beam.
     ///
     /// # Errors
-    /// A shaken beam, a lumped structure with modal damping, a table of amplitudes, or a law that is not
+    /// A shaken beam, a lumped structure with modal damping, a longer table of amplitudes, or a law that is not
     /// known here.
     pub fn read(study: &Table, model: &Model) -> Result<Self, Failure> {
         let (mut this, springs, dampers) = if text(table(study, "structure")?, "kind")? == "beam" {
@@ -138,13 +163,22 @@ impl Equations {
         let excitation = table(study, "excitation")?;
         let (order, phase) = (number(excitation, "order", 1.0)?, number(excitation, "phase_rad", 0.0)?);
         match text(excitation, "kind")? {
+            "force" if excitation.contains_key("force") => {
+                for force in list(excitation, "force") {
+                    let (row, size) = self.force(force)?;
+                    let phase = number(force, "phase_rad", 0.0)?;
+                    self.forces.push(Harmonic { row, order, phase, size });
+                }
+            }
             "force" => {
-                let row = self.row(text(excitation, "at")?, needed(excitation, "amplitude_n")?)?;
-                self.forces.push(Harmonic { row, order, phase });
+                let (row, size) = self.force(excitation)?;
+                self.forces.push(Harmonic { row, order, phase, size });
             }
             _ if excitation.get("at").and_then(Value::as_str) == Some("ground") => {
-                let amplitude = needed(excitation, "amplitude_m")?;
-                self.ground = Some(Ground { amplitude, order, phase, springs, dampers });
+                let is_acceleration = excitation.contains_key("amplitude_m_s2");
+                let key = if is_acceleration { "amplitude_m_s2" } else { "amplitude_m" };
+                let amplitude = needed(excitation, key)?;
+                self.ground = Some(Ground { amplitude, is_acceleration, order, phase, springs, dampers });
             }
             _ => return Err("only the ground of masses may be moved".into()),
         }
@@ -159,17 +193,34 @@ impl Equations {
             "gravity" => {
                 let acceleration = needed(load, "acceleration_m_s2")?;
                 let row = self.mass.iter().map(|mass| mass * acceleration).collect();
-                Harmonic { row, order: 0.0, phase: 0.0 }
+                Harmonic { row, order: 0.0, phase: 0.0, size: Size::Kept }
             }
-            "force" => Harmonic {
-                row: self.row(text(load, "at")?, needed(load, "amplitude_n")?)?,
-                order: needed(load, "order")?,
-                phase: number(load, "phase_rad", 0.0)?,
-            },
+            "force" => {
+                let (row, size) = self.force(load)?;
+                Harmonic { row, order: needed(load, "order")?, phase: number(load, "phase_rad", 0.0)?, size }
+            }
             other => return Err(format!("no load of kind {other} here").into()),
         };
         self.forces.push(harmonic);
         Ok(())
+    }
+
+    /// A force at a point or against another, and how it depends on the frequency.
+    fn force(&self, force: &Table) -> Result<(Vec<f64>, Size), Failure> {
+        let (value, size) = match force.get("amplitude_n").and_then(Value::as_array) {
+            Some(points) => (1.0, Size::Line(two_points(points)?)),
+            None if force.contains_key("unbalance_mass_kg") => {
+                let moment = needed(force, "unbalance_mass_kg")? * needed(force, "eccentricity_m")?;
+                (moment, Size::Unbalance)
+            }
+            None => (needed(force, "amplitude_n")?, Size::Kept),
+        };
+        let Some(pair) = force.get("between").and_then(Value::as_array) else {
+            return Ok((self.row(text(force, "at")?, value)?, size));
+        };
+        let name = |place: usize| pair.get(place).and_then(Value::as_str).ok_or("no two names");
+        let (one, other) = (self.row(name(0)?, value)?, self.row(name(1)?, value)?);
+        Ok((one.iter().zip(other).map(|(one, other)| one - other).collect(), size))
     }
 
     pub(super) fn row(&self, name: &str, value: f64) -> Result<Vec<f64>, Failure> {
@@ -204,6 +255,18 @@ impl Equations {
             bound = bound.max(damping);
         }
         bound
+    }
+}
+
+/// A table of amplitudes of two points, between which it is straight.
+fn two_points(points: &[Value]) -> Result<[[f64; 2]; 2], Failure> {
+    let pair = |point: &Value| -> Option<[f64; 2]> {
+        let entries = point.as_array()?;
+        Some([entries.first()?.as_float()?, entries.get(1)?.as_float()?])
+    };
+    match points {
+        [one, other] => Ok([pair(one).ok_or("no pair")?, pair(other).ok_or("no pair")?]),
+        _ => Err("only tables of two points here".into()),
     }
 }
 

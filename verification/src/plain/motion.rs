@@ -184,7 +184,8 @@ impl<'a> PlainMotion<'a> {
             (0..n).map(|i| -dot(&equations.stiffness[i], y) - dot(&equations.damping[i], v)).collect();
         for harmonic in &equations.forces {
             let angle = TAU * harmonic.order * self.frequency_hz * time + harmonic.phase;
-            force.iter_mut().zip(&harmonic.row).for_each(|(sum, part)| *sum += part * angle.cos());
+            let now = harmonic.size.at(harmonic.order, self.frequency_hz) * angle.cos();
+            force.iter_mut().zip(&harmonic.row).for_each(|(sum, part)| *sum += part * now);
         }
         let mut shaken = [0.0; 3];
         if let Some(ground) = &equations.ground {

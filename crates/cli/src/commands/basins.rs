@@ -6,7 +6,6 @@ use hammerbeam_jobs::{
     basins::{BasinAxis, BasinsReport, BasinsRequest, CoordinateError, GridAxis, basins},
     pool::threads,
 };
-use hammerbeam_study::StudyFile;
 
 use crate::{
     failure::Failure,
@@ -21,7 +20,7 @@ use crate::{
 const NOT_COMPUTED: &str = "they begin behind a rigid stop or within a contact that remembers its impact, or settle with such a contact closed for good, or their motion could not be computed";
 
 pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let axis = |option: &AxisOption| BasinAxis {

@@ -10,10 +10,11 @@ use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::{
     Study, UndampedInContact, UndampedMode,
     file::{
-        Amplitude, Approach, Beam, Damping, Excitation, ExcitationKind, FixedTo, Load, Lumped, Matrices,
-        ModalRatio, MovingSupport, Place, Reduction, ReductionMethod, Side, Stop, StopLaw, StopRest,
-        Structure,
+        ActingForce, Amplitude, Approach, Beam, BeamSpan, Damping, End, Excitation, ExcitationKind, FixedTo,
+        ForcePlace, ForceSize, Load, Lumped, Matrices, ModalRatio, MovingSupport, Place, Reduction,
+        ReductionMethod, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
     },
+    readable,
 };
 
 use crate::{
@@ -21,7 +22,7 @@ use crate::{
 };
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
-    let study = PreparedStudy::read(&options.study)?;
+    let study = PreparedStudy::new(options.study.read()?)?;
     let report = check(&study, &mut Notices)?;
     output.give(&report, || text(&report, output.frequency_unit))?;
     Ok(())
@@ -110,22 +111,29 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
 }
 
 fn beam_text(beam: &Beam) -> String {
-    let mut text = format!(
-        "structure    beam of {} m, EI {} N m^2, {} kg/m, {} elements, left end {}, right end {}",
-        digits(beam.length_m),
-        digits(beam.youngs_modulus_pa * beam.section.second_moment_m4),
-        digits(beam.density_kg_m3 * beam.section.area_m2),
-        beam.elements,
-        word(&beam.left),
-        word(&beam.right),
-    );
+    let profile = |span: &BeamSpan| {
+        let profile = span.profile;
+        let shear = if profile.poisson_ratio.is_some() { ", with shear" } else { "" };
+        let stiffness = readable(profile.bending_stiffness(), "N m^2");
+        format!("EI {stiffness}, {}{shear}", readable(profile.mass_per_length(), "kg/m"))
+    };
+    let ends = format!("left end {}, right end {}", word(&beam.left), word(&beam.right));
+    let (length, elements) = (readable(beam.length_m, "m"), beam.elements);
+    let mut text = match beam.spans.as_slice() {
+        [only] => format!("structure    beam of {length}, {}, {elements} elements, {ends}", profile(only)),
+        _ => format!("structure    beam of {length}, {elements} elements, {ends}"),
+    };
+    let several = if beam.spans.len() > 1 { beam.spans.as_slice() } else { &[] };
+    for (index, span) in several.iter().enumerate() {
+        let length = readable(span.length_m, "m");
+        text.push_str(&format!("\nspan         {} of {length}, {}", index + 1, profile(span)));
+    }
     for point in &beam.points {
-        text.push_str(&format!(
-            "\npoint        {} at {} m, {} kg",
-            point.name,
-            digits(point.at_m),
-            digits(point.mass_kg)
-        ));
+        let (at, mass) = (readable(point.at_m, "m"), readable(point.mass_kg, "kg"));
+        text.push_str(&format!("\npoint        {} at {at}, {mass}", point.name));
+        if point.support != End::Free {
+            text.push_str(&format!(", {}", word(&point.support)));
+        }
     }
     text
 }
@@ -154,6 +162,7 @@ fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> Str
     let modes = counted(dof as u64, "mode");
     match reduction.method {
         ReductionMethod::None => format!("none, {modes}"),
+        ReductionMethod::Given => format!("as given, {modes}"),
         _ => {
             let cut_off = unit.words(reduction.cut_off_hz);
             format!("{}, cut-off {cut_off}, {modes} left", word(&reduction.method))
@@ -197,7 +206,7 @@ fn dampers(structure: &Structure) -> usize {
 
 fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
     match amplitude {
-        Amplitude::Constant(value) => format!("{} {unit}", digits(*value)),
+        Amplitude::Constant(value) => readable(*value, unit),
         Amplitude::OverFrequency(points) => {
             let values = || points.iter().map(|point| point[1]);
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
@@ -214,6 +223,14 @@ fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
             format!("support motion at {}, amplitude {}", at.join(", "), amplitude_text(amplitude_m, "m"))
+        }
+        ExcitationKind::SupportAcceleration { at, amplitude_m_s2 } => {
+            let amplitude = amplitude_text(amplitude_m_s2, "m/s^2");
+            format!("support motion at {}, acceleration {amplitude}", at.join(", "))
+        }
+        ExcitationKind::Forces { forces } => {
+            let each: Vec<String> = forces.iter().map(force_text).collect();
+            each.join("; ")
         }
         ExcitationKind::SupportMotions { supports } => {
             let motion = |support: &MovingSupport| {
@@ -248,11 +265,39 @@ fn support_text(excitation: &Excitation, support: usize) -> String {
     }
 }
 
+/// A force with its place, size and phase.
+fn force_text(force: &ActingForce) -> String {
+    let place = match &force.place {
+        ForcePlace::At(point) => format!("force at {point}"),
+        ForcePlace::Between([first, second]) => format!("pair of forces at {first} and {second}"),
+    };
+    let size = match &force.size {
+        ForceSize::Amplitude(amplitude) => format!("amplitude {}", amplitude_text(amplitude, "N")),
+        ForceSize::Unbalance { mass_kg, eccentricity_m } => {
+            format!("unbalance {} at {}", readable(*mass_kg, "kg"), readable(*eccentricity_m, "m"))
+        }
+    };
+    let phase = if force.phase_rad == 0.0 { "" } else { &format!(", phase {} rad", digits(force.phase_rad)) };
+    format!("{place}, {size}{phase}")
+}
+
 fn load_text(load: &Load, excitation: &Excitation) -> String {
     match load {
         Load::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
         Load::Force { at, amplitude_n, order, phase_rad } => {
             format!("force at {at}, {amplitude_n} N, order {order}, phase {phase_rad} rad")
+        }
+        Load::ActingForce { force, order } => format!("{}, order {order}", force_text(force)),
+        Load::DrivenSupport { support, motion, order, phase_rad } => {
+            let of = match excitation.supports_differ() {
+                true => format!(" of {}", support_text(excitation, *support)),
+                false => String::new(),
+            };
+            let amplitude = match motion {
+                SupportDrive::Displacement(amplitude) => amplitude_text(amplitude, "m"),
+                SupportDrive::Acceleration(amplitude) => amplitude_text(amplitude, "m/s^2"),
+            };
+            format!("support motion{of}, {amplitude}, order {order}, phase {phase_rad} rad")
         }
         Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
             let of = match excitation.supports_differ() {

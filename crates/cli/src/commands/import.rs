@@ -12,14 +12,14 @@ use hammerbeam_matrices::{
 };
 use hammerbeam_results::whole_file::WholeFile;
 use hammerbeam_structure::{Matrices, MatrixSurvey, RowLabel, SymmetricMatrix};
-use hammerbeam_study::{StudyFile, matrix_study};
+use hammerbeam_study::{Setting, StudyFile, matrix_study};
 use serde_json::json;
 
 use crate::{
     args::ImportOptions,
     failure::Failure,
     matrix_report,
-    output::{Output, six_decimals},
+    output::{Output, decimals},
 };
 
 /// Frequencies that are reported.
@@ -38,14 +38,17 @@ struct Bundle<'a> {
 pub fn run(options: &ImportOptions, output: Output) -> Result<(), Failure> {
     let is_study = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
     match options.files.as_slice() {
-        [study] if is_study(study) => export_study(study, &options.out, output),
+        [study] if is_study(study) => export_study((study, &options.set), &options.out, output),
+        _ if !options.set.is_empty() => Err(Failure::BadInput(
+            "--set gives keys of a study other values, and no study is given".to_owned(),
+        )),
         _ => import_files(options, output),
     }
 }
 
 /// The structure of a study, with a study that reads it back.
-fn export_study(study: &Path, out: &Path, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(study)?;
+fn export_study((study, set): (&Path, &[Setting]), out: &Path, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read_with(study, set)?;
     let (exported, text) = matrix_study(&file)?;
     let bundle = Bundle {
         stiffness: &exported.stiffness,
@@ -112,7 +115,7 @@ fn text(survey: &MatrixSurvey, written: &[String]) -> String {
     let rank = survey.mass_rank.map_or("not found".to_owned(), |rank| rank.to_string());
     let entries = survey.mass.stored();
     lines.push(format!("mass matrix  symmetric, positive semi-definite, rank {rank}, {entries} entries"));
-    let frequencies: Vec<String> = survey.frequencies_hz.iter().map(|f| six_decimals(*f)).collect();
+    let frequencies: Vec<String> = survey.frequencies_hz.iter().map(|f| decimals(*f, 6)).collect();
     lines.push(format!("frequencies  {} Hz", frequencies.join(", ")));
     lines.push(format!("written      {}", written.join(", ")));
     lines.join("\n")

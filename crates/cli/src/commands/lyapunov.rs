@@ -5,7 +5,6 @@ use hammerbeam_jobs::{
     FrequencySeries, JobError, JobFolders, PreparedStudy,
     exponents::{ExponentsRequest, SpectrumReport, exponents},
 };
-use hammerbeam_study::StudyFile;
 
 use crate::{
     failure::Failure,
@@ -22,7 +21,7 @@ use crate::{
 const ROUNDING: f64 = 1e-12;
 
 pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let frequencies = FrequencySeries {

@@ -3,14 +3,14 @@
 use hammerbeam_drawing::{DrawSettings, draw_into, draw_linear};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::matrix_document;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::Model;
 use serde_json::{Value, json};
 
 use crate::{
     args::ModesOptions,
     failure::Failure,
     matrix_report,
-    output::{Output, six_decimals},
+    output::{Output, decimals, six_decimals},
     watch::Notices,
 };
 
@@ -18,7 +18,7 @@ use crate::{
 const SHOWN: usize = 12;
 
 pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     let model = Model::build(&file)?;
     let mut document = document(&model);
     if let Some(folder) = &options.out {
@@ -92,7 +92,7 @@ fn text(model: &Model, unit: FrequencyUnit) -> String {
     let shown = if model.matrices.is_some() { known } else { SHOWN };
     let rows = tables.reduced_hz.len().max(interface.1.len()).max(shown).min(known);
     let cell = |values: &[f64], row: usize| {
-        values.get(row).map_or(String::new(), |value| six_decimals(unit.factor() * value))
+        values.get(row).map_or(String::new(), |value| decimals(unit.factor() * value, 6))
     };
     for row in 0..rows {
         let error =

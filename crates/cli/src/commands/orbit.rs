@@ -4,7 +4,6 @@ use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{PreparedStudy, orbits::orbits};
 use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_study::StudyFile;
 
 use crate::{
     args::OrbitOptions,
@@ -15,7 +14,7 @@ use crate::{
 };
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);

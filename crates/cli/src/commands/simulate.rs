@@ -27,7 +27,7 @@ const USUAL_PERIODS: u64 = 10;
 const USUAL_SAMPLES: u32 = 100;
 
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
-    let study = PreparedStudy::read(&options.study)?;
+    let study = PreparedStudy::new(options.study.read()?)?;
     let time = match study.file.forced().is_ok() {
         true => forced(options)?,
         false => free(options, &study)?,

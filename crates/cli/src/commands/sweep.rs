@@ -7,7 +7,6 @@ use hammerbeam_jobs::{
     sweep::{SweepReport, SweepRequest, SweepStarts, sweep},
 };
 use hammerbeam_results::store::SettledMotion;
-use hammerbeam_study::StudyFile;
 
 use crate::{
     failure::Failure,
@@ -21,7 +20,7 @@ use crate::{
 };
 
 pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     let [low, high] = file.forced()?.frequency_hz;
     let study = PreparedStudy::new(file)?;
     let starts = match options.starts {

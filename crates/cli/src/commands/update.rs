@@ -5,7 +5,7 @@ use hammerbeam_jobs::update::{
     CandidateError, DataError, FittedDatum, FittedParameter, Update, UpdateData, UpdateError, UpdateReport,
     UpdateSettings, update, write_update,
 };
-use hammerbeam_study::{StudyError, StudyFile};
+use hammerbeam_study::StudyError;
 
 use crate::{
     args::UpdateOptions,
@@ -14,7 +14,7 @@ use crate::{
 };
 
 pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
-    let study = StudyFile::read(&options.study)?;
+    let study = options.study.read()?;
     let data = UpdateData::read(&options.data, &study).map_err(data_failure)?;
     if !data.orbits.is_empty() {
         study.forced()?;
@@ -31,7 +31,7 @@ pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
     }
     let mut report = UpdateReport { found, data, study: None };
     if let Some(folder) = &options.out {
-        let inputs = [options.study.as_path(), options.data.as_path()];
+        let inputs = [options.study.path.as_path(), options.data.as_path()];
         write_update(&mut report, folder, &inputs).map_err(failure)?;
     }
     for finding in &report.found.findings {

@@ -5,8 +5,9 @@ use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
     Study,
     file::{
-        Amplitude, Approach, Beam, BeamPoint, Excitation, ExcitationKind, FixedTo, GapMeasured, Load, Lumped,
-        Matrices, MatrixFiles, MovingSupport, Place, Side, Stop, StopLaw, StopRest, Structure,
+        ActingForce, Amplitude, Approach, Beam, BeamPoint, BeamSpan, End, Excitation, ExcitationKind,
+        FixedTo, ForcePlace, ForceSize, GapMeasured, Load, Lumped, Matrices, MatrixFiles, MovingSupport,
+        Place, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
     },
 };
 
@@ -37,10 +38,21 @@ fn matrix_words(matrices: &Matrices) -> Vec<String> {
 }
 
 fn beam_words(beam: &Beam) -> Vec<String> {
-    let stiffness = beam.youngs_modulus_pa * beam.section.second_moment_m4;
-    let mass = beam.density_kg_m3 * beam.section.area_m2;
-    let beam_line = format!("Beam: bending stiffness {} N m², {} kg/m.", number(stiffness), number(mass));
-    std::iter::once(beam_line).chain(beam.points.iter().map(point_words)).collect()
+    let profile = |span: &BeamSpan| {
+        let (stiffness, mass) = (span.profile.bending_stiffness(), span.profile.mass_per_length());
+        let shear = if span.profile.poisson_ratio.is_some() { ", with shear" } else { "" };
+        format!("bending stiffness {} N m², {} kg/m{shear}.", number(stiffness), number(mass))
+    };
+    let mut lines: Vec<String> = match beam.spans.as_slice() {
+        [only] => vec![format!("Beam: {}", profile(only))],
+        spans => {
+            let line = |span: &BeamSpan| format!("{} mm: {}", number(1e3 * span.length_m), profile(span));
+            let spans = spans.iter().take(LISTED).enumerate();
+            spans.map(|(index, span)| format!("Span {}, {}", index + 1, line(span))).collect()
+        }
+    };
+    lines.extend(beam.points.iter().map(point_words));
+    lines
 }
 
 fn point_words(point: &BeamPoint) -> String {
@@ -55,7 +67,13 @@ fn point_words(point: &BeamPoint) -> String {
     let carried = parts.iter().filter(|(value, _)| *value > 0.0);
     let carried: Vec<String> = carried.map(|(value, unit)| format!("{} {unit}", number(*value))).collect();
     let carried = if carried.is_empty() { String::new() } else { format!(", {}", carried.join(", ")) };
-    format!("{}: at {} mm{carried}.", point.name, number(1e3 * point.at_m))
+    let held = match point.support {
+        End::Free => "",
+        End::Pinned => ", pinned",
+        End::Clamped => ", clamped",
+        End::Sliding => ", held against turning",
+    };
+    format!("{}: at {} mm{held}{carried}.", point.name, number(1e3 * point.at_m))
 }
 
 fn lumped_words(lumped: &Lumped) -> Vec<String> {
@@ -156,6 +174,14 @@ fn excitation_words(study: &Study, unit: FrequencyUnit) -> String {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
             format!("motion u of the support ({}), {} mm", at.join(", "), amplitude_words(amplitude_m, 1e3))
         }
+        ExcitationKind::SupportAcceleration { at, amplitude_m_s2 } => {
+            let amplitude = amplitude_words(amplitude_m_s2, 1.0);
+            format!("acceleration of the support ({}), {amplitude} m/s²", at.join(", "))
+        }
+        ExcitationKind::Forces { forces } => {
+            let each: Vec<String> = forces.iter().map(acting_words).collect();
+            each.join("; ")
+        }
         ExcitationKind::SupportMotions { supports } => {
             let motion = |(index, support): (usize, &MovingSupport)| {
                 let (amplitude, phase) = (number(1e3 * support.amplitude_m), number(support.phase_rad));
@@ -185,6 +211,22 @@ fn amplitude_words(amplitude: &Amplitude, factor: f64) -> String {
     }
 }
 
+/// A force with its place, size and phase.
+fn acting_words(force: &ActingForce) -> String {
+    let place = match &force.place {
+        ForcePlace::At(point) => format!("force F at {point}"),
+        ForcePlace::Between([first, second]) => format!("pair of forces F at {first} and {second}"),
+    };
+    let size = match &force.size {
+        ForceSize::Amplitude(amplitude) => format!("{} N", amplitude_words(amplitude, 1.0)),
+        ForceSize::Unbalance { mass_kg, eccentricity_m } => {
+            format!("unbalance of {} kg at {} mm", number(*mass_kg), number(1e3 * eccentricity_m))
+        }
+    };
+    let phase = if force.phase_rad == 0.0 { "" } else { &format!(" at {} rad", number(force.phase_rad)) };
+    format!("{place}, {size}{phase}")
+}
+
 fn load_words(load: &Load, excitation: &Excitation) -> String {
     match load {
         Load::Gravity { acceleration_m_s2 } => format!("Gravity: {} m/s².", number(*acceleration_m_s2)),
@@ -193,6 +235,17 @@ fn load_words(load: &Load, excitation: &Excitation) -> String {
         }
         Load::Force { at, amplitude_n, order, .. } => {
             format!("Force F at {at}: {} N, order {order}.", number(*amplitude_n))
+        }
+        Load::ActingForce { force, order } => format!("Load: {}, order {order}.", acting_words(force)),
+        Load::DrivenSupport { support, motion, order, .. } => {
+            let which = if excitation.supports_differ() { format!("{}", support + 1) } else { String::new() };
+            let (what, amplitude) = match motion {
+                SupportDrive::Displacement(a) => ("motion u", format!("{} mm", amplitude_words(a, 1e3))),
+                SupportDrive::Acceleration(a) => {
+                    ("acceleration of u", format!("{} m/s²", amplitude_words(a, 1.0)))
+                }
+            };
+            format!("Further {what}{which}: {amplitude}, order {order}.")
         }
         Load::SupportMotion { support, amplitude_m, order, .. } => {
             let which = if excitation.supports_differ() { format!("{}", support + 1) } else { String::new() };

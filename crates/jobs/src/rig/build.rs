@@ -54,7 +54,10 @@ mod tests {
         let changed = with(rig).unwrap().study;
         let model = StudyFile::parse("study.toml", MODEL.to_owned()).unwrap().study;
         let hammerbeam_study::file::Structure::Beam(beam) = &changed.structure else { panic!("not a beam") };
-        assert_eq!((beam.youngs_modulus_pa, beam.density_kg_m3), (1.9e11, 7800.0));
+        assert_eq!(
+            (beam.spans[0].profile.youngs_modulus_pa, beam.spans[0].profile.density_kg_m3),
+            (1.9e11, 7800.0)
+        );
         assert_eq!(changed.stops.len(), 1);
         assert_ne!(changed.stops, model.stops);
         assert_eq!(changed.excitation, model.excitation);

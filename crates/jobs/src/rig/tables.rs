@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hammerbeam_results::export::{ExportError, Table, header, number};
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
-use hammerbeam_study::file::HarmonicExcitation;
+use hammerbeam_study::file::{ExcitationKind, HarmonicExcitation};
 
 use super::{FilteredBranch, RigReport, SignalPair};
 use crate::comparison::write_points;
@@ -200,7 +200,11 @@ impl RigReport {
     pub fn table_acceleration(&self, frequency_hz: f64) -> f64 {
         let of = |excitation: &HarmonicExcitation| {
             let rate = std::f64::consts::TAU * frequency_hz * f64::from(excitation.order);
-            excitation.amplitude().map_or(0.0, |amplitude| amplitude.at(frequency_hz)) * rate * rate
+            let per_amplitude = match excitation.kind {
+                ExcitationKind::SupportAcceleration { .. } => 1.0,
+                _ => rate * rate,
+            };
+            excitation.amplitude().map_or(0.0, |amplitude| amplitude.at(frequency_hz)) * per_amplitude
         };
         self.file.study.excitation.harmonic().map_or(0.0, of)
     }

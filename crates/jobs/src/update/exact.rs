@@ -29,8 +29,10 @@ pub(super) fn eigenfrequency_derivatives(
     };
     let Some(change) = change(beam, number, value) else { return Ok(None) };
     let moving = file.study.excitation.moving_places();
-    let derivatives =
-        beam.descriptor().and_then(|beam| beam.eigenfrequency_derivatives(&moving, boundary, &change));
+    let derivatives = beam.uniform_descriptor().and_then(|beam| match beam {
+        Some(beam) => beam.eigenfrequency_derivatives(&moving, boundary, &change),
+        None => Ok(None),
+    });
     derivatives.map_err(|error| file.fault("structure", error.to_string(), Vec::new()))
 }
 
@@ -40,14 +42,14 @@ fn change(beam: &Beam, number: &Number, value: f64) -> Option<BeamChange> {
     let key = number.keys.last()?;
     let Some(key) = key.strip_prefix("structure.") else { return Some(BeamChange::default()) };
     let none = BeamChange::default();
-    let bending = beam.youngs_modulus_pa * beam.section.second_moment_m4;
-    let per_length = beam.density_kg_m3 * beam.section.area_m2;
+    let profile = beam.uniform()?.profile;
+    let (bending, per_length) = (profile.bending_stiffness(), profile.mass_per_length());
     Some(match key {
         "length_m" => BeamChange { length: 1.0, ..none },
-        "youngs_modulus_pa" => BeamChange { bending_stiffness: beam.section.second_moment_m4, ..none },
-        "density_kg_m3" => BeamChange { mass_per_length: beam.section.area_m2, ..none },
-        "section.area_m2" => BeamChange { mass_per_length: beam.density_kg_m3, ..none },
-        "section.second_moment_m4" => BeamChange { bending_stiffness: beam.youngs_modulus_pa, ..none },
+        "youngs_modulus_pa" => BeamChange { bending_stiffness: profile.section.second_moment_m4, ..none },
+        "density_kg_m3" => BeamChange { mass_per_length: profile.section.area_m2, ..none },
+        "section.area_m2" => BeamChange { mass_per_length: profile.density_kg_m3, ..none },
+        "section.second_moment_m4" => BeamChange { bending_stiffness: profile.youngs_modulus_pa, ..none },
         "section.width_m" => {
             BeamChange { bending_stiffness: bending / value, mass_per_length: per_length / value, ..none }
         }

@@ -18,10 +18,8 @@ impl System {
 
     /// Whether a load of the order with that index is more than zero.
     fn acts(&self, index: usize) -> bool {
-        let driven =
-            self.driven.iter().flat_map(|driven| driven.forces[index].iter().chain(&driven.supports[index]));
         let given = self.forces[index].iter().chain(&self.supports[index]);
-        given.chain(driven).any(|value| *value != c64::new(0.0, 0.0))
+        given.chain(self.driven.amplitudes(index)).any(|value| *value != c64::new(0.0, 0.0))
     }
 
     fn has_image(&self, element: &LocalElement) -> bool {

@@ -76,7 +76,7 @@ impl Beam {
         change: &BeamChange,
     ) -> Result<Option<Vec<f64>>, StructureError> {
         let structure = self.structure()?.with_support_motion(moving)?;
-        let mesh = self.mesh()?;
+        let mesh = self.stepped().mesh()?;
         let Some(moved) = self.node_rates(&mesh.nodes, mesh.positions.len(), change) else { return Ok(None) };
         let coordinates = match boundary {
             Boundary::Supported => structure.free_coordinates(),

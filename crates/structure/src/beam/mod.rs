@@ -1,22 +1,21 @@
-//! Uniform Euler-Bernoulli beams with points.
+//! Beams with points: uniform ones, and those of several spans.
 
 mod change;
 mod element;
 mod mesh;
+mod stepped;
+mod timoshenko;
 
 pub use change::{BeamChange, Boundary, PointChange};
-use faer::Mat;
+pub use stepped::{BeamSpan, Shear, SteppedBeam};
 
 use crate::{
     Section, Structure, StructureError,
-    error::{finite, not_negative, positive},
-    names::check_names,
-    strain::Strains,
-    structure::{Assembly, Kind, NamedCoordinate, Place},
+    error::{finite, not_negative},
 };
 
-/// How an end of a beam is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How an end of a beam, or a point on it, is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum End {
     /// No displacement, no rotation.
     Clamped,
@@ -25,6 +24,7 @@ pub enum End {
     /// Free to move across, no rotation.
     Sliding,
     /// Not held.
+    #[default]
     Free,
 }
 
@@ -59,6 +59,8 @@ pub struct BeamPoint {
     pub rotational_spring: f64,
     /// Rotational damper to the ground [N m s/rad].
     pub rotational_damper: f64,
+    /// How the point is held: a support between the ends.
+    pub support: End,
 }
 
 /// A uniform Euler-Bernoulli beam.
@@ -93,20 +95,7 @@ impl Beam {
     /// # Errors
     /// Numbers out of their range, points off the beam, names used twice or reserved, too few elements.
     pub fn structure(&self) -> Result<Structure, StructureError> {
-        self.check_numbers()?;
-        let mesh = self.mesh()?;
-        let mut assembly = self.elements_between(&mesh.positions);
-        for (point, &node) in self.points.iter().zip(&mesh.nodes) {
-            attach(&mut assembly, point, 2 * node);
-        }
-        let points = self
-            .places()
-            .into_iter()
-            .zip(&mesh.nodes)
-            .map(|((name, _), &node)| NamedCoordinate { name: name.into(), coordinate: 2 * node });
-        let places = mesh.positions.iter().enumerate().map(|(node, &at)| Place { at, coordinate: 2 * node });
-        let held = self.held(mesh.positions.len());
-        Ok(Structure::new(Kind::Beam, assembly, held, points.collect(), places.collect()))
+        self.stepped().structure()
     }
 
     /// Whether [`Self::structure`] would take the beam; nothing is assembled.
@@ -114,57 +103,27 @@ impl Beam {
     /// # Errors
     /// As [`Self::structure`].
     pub fn check(&self) -> Result<(), StructureError> {
-        self.check_numbers()?;
-        self.mesh().map(drop)
+        self.stepped().check()
     }
 
-    /// Names and positions of the points, then of the left and the right end.
-    fn places(&self) -> Vec<(&str, f64)> {
-        let points = self.points.iter().map(|point| (point.name.as_str(), point.at));
-        points.chain([("left", 0.0), ("right", self.length)]).collect()
-    }
-
-    fn mesh(&self) -> Result<mesh::Mesh, StructureError> {
-        mesh::divide(self.length, self.elements, &self.places())
-    }
-
-    fn check_numbers(&self) -> Result<(), StructureError> {
-        positive("length of the beam", self.length)?;
-        positive("Young's modulus", self.youngs_modulus)?;
-        positive("density", self.density)?;
-        check_names("point", self.points.iter().map(|point| point.name.as_str()))?;
-        self.points.iter().try_for_each(|point| point.check(self.length))
-    }
-
-    /// Mass and bending strains of all elements; coordinates `(w, theta)` node after node.
-    fn elements_between(&self, positions: &[f64]) -> Assembly {
-        let size = 2 * positions.len();
-        let mut mass = Mat::zeros(size, size);
-        let mut stiffness = Strains::default();
-        for (element, ends) in positions.windows(2).enumerate() {
-            let (first, length) = (2 * element, ends[1] - ends[0]);
-            let own = element::consistent_mass(self.density * self.section.area(), length);
-            for i in 0..4 {
-                for j in 0..4 {
-                    mass[(first + i, first + j)] += own[(i, j)];
-                }
-            }
-            for row in element::bending_strains(self.youngs_modulus * self.section.second_moment(), length) {
-                stiffness.push((0..4).map(|i| (first + i, row[i])).collect::<Vec<_>>());
-            }
+    /// The beam as one of a single span.
+    #[must_use]
+    pub fn stepped(&self) -> SteppedBeam {
+        let span = BeamSpan {
+            length: self.length,
+            section: self.section,
+            youngs_modulus: self.youngs_modulus,
+            density: self.density,
+            added_mass: 0.0,
+            shear: None,
+        };
+        SteppedBeam {
+            elements: self.elements,
+            spans: vec![span],
+            left: self.left,
+            right: self.right,
+            points: self.points.clone(),
         }
-        let translation = (0..size).map(|index| if index % 2 == 0 { 1.0 } else { 0.0 }).collect();
-        Assembly { mass, stiffness, damping: Strains::default(), translation }
-    }
-
-    /// Which coordinates the ends hold.
-    fn held(&self, nodes: usize) -> Vec<bool> {
-        let mut held = vec![false; 2 * nodes];
-        for (end, first) in [(self.left, 0), (self.right, 2 * nodes - 2)] {
-            held[first] = end.holds_displacement();
-            held[first + 1] = end.holds_rotation();
-        }
-        held
     }
 }
 
@@ -184,15 +143,4 @@ impl BeamPoint {
             Err(StructureError::PointOffBeam { name: self.name.clone(), at: self.at, length })
         }
     }
-}
-
-/// Adds what a point carries to the node whose displacement is the coordinate `w`.
-fn attach(assembly: &mut Assembly, point: &BeamPoint, w: usize) {
-    let theta = w + 1;
-    assembly.mass[(w, w)] += point.mass;
-    assembly.mass[(theta, theta)] += point.rotary_inertia;
-    assembly.stiffness.connect(point.spring, w, None);
-    assembly.stiffness.connect(point.rotational_spring, theta, None);
-    assembly.damping.connect(point.damper, w, None);
-    assembly.damping.connect(point.rotational_damper, theta, None);
 }

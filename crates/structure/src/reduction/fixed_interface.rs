@@ -28,7 +28,11 @@ pub(super) fn basis(
     let boundary: Vec<usize> = interface.iter().copied().filter(|index| free.contains(index)).collect();
     let interior: Vec<usize> = free.iter().copied().filter(|index| !boundary.contains(index)).collect();
     if interior.is_empty() {
-        return Ok(Basis { relative: Mat::identity(free.len(), free.len()), kept_hz: Vec::new() });
+        return Ok(Basis {
+            relative: Mat::identity(free.len(), free.len()),
+            kept_hz: Vec::new(),
+            mass: None,
+        });
     }
     let modes = Modes::over(&structure.assembly, &interior)?;
     let kept = modes.kept(cut_off_hz)?;
@@ -42,5 +46,5 @@ pub(super) fn basis(
     for (column, place) in places(&free, &boundary).into_iter().enumerate() {
         relative[(place, kept + column)] = 1.0;
     }
-    Ok(Basis { relative, kept_hz: modes.frequencies_hz()[..kept].to_vec() })
+    Ok(Basis { relative, kept_hz: modes.frequencies_hz()[..kept].to_vec(), mass: None })
 }

@@ -5,6 +5,7 @@
 
 mod fixed_interface;
 mod free_interface;
+mod guyan;
 mod interface;
 
 use faer::Mat;
@@ -23,6 +24,17 @@ pub enum Reduction {
     /// Static flexibility at the interface is exact, and elastic modes below the cut-off nearly so.
     FreeInterface {
         /// Highest eigenfrequency kept [Hz].
+        cut_off_hz: f64,
+    },
+    /// The same without the inertia of the residual modes, after MacNeal: they answer statically, which puts
+    /// their frequencies far above the cut-off.
+    MacNeal {
+        /// Highest eigenfrequency kept [Hz].
+        cut_off_hz: f64,
+    },
+    /// A static constraint mode for each interface point and no other, after Guyan.
+    Guyan {
+        /// Highest eigenfrequency [Hz] that is compared with those of the reduced structure; none is kept.
         cut_off_hz: f64,
     },
     /// Fixed-interface modes up to a cut-off frequency, and a static constraint mode for each interface
@@ -45,7 +57,21 @@ pub(crate) struct Basis {
     pub relative: Mat<f64>,
     /// Frequencies [Hz] of the component's modes that are kept.
     pub kept_hz: Vec<f64>,
+    /// `B^T M B`, where it is not that of the structure.
+    pub mass: Option<Mat<f64>>,
 }
+
+/// What of the residual modes' inertia counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ResidualInertia {
+    /// All of it (Rubin).
+    Kept,
+    /// None (MacNeal).
+    Neglected,
+}
+
+/// Frequency of a residual mode without inertia, over the highest frequency that is kept.
+pub(crate) const FAR_ABOVE: f64 = 100.0;
 
 impl Reduction {
     /// Cut-off frequency [Hz], if modes are cut off.
@@ -54,6 +80,8 @@ impl Reduction {
         match *self {
             Self::None => None,
             Self::FreeInterface { cut_off_hz }
+            | Self::MacNeal { cut_off_hz }
+            | Self::Guyan { cut_off_hz }
             | Self::FixedInterface { cut_off_hz }
             | Self::Truncation { cut_off_hz } => Some(cut_off_hz),
         }
@@ -77,9 +105,16 @@ impl Reduction {
             Self::Truncation { .. } => full.kept(cut_off_hz).map(|kept| Basis {
                 relative: full.shapes.subcols(0, kept).to_owned(),
                 kept_hz: full.frequencies_hz()[..kept].to_vec(),
+                mass: None,
             }),
+            Self::Guyan { .. } => guyan::basis(structure, interface),
+            Self::MacNeal { .. } => {
+                free_interface::basis(structure, cut_off_hz, interface, ResidualInertia::Neglected)
+            }
             Self::FixedInterface { .. } => fixed_interface::basis(structure, cut_off_hz, interface),
-            _ => free_interface::basis(structure, cut_off_hz, interface),
+            Self::FreeInterface { .. } | Self::None => {
+                free_interface::basis(structure, cut_off_hz, interface, ResidualInertia::Kept)
+            }
         };
         basis.map(Some)
     }

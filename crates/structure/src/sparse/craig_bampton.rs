@@ -47,6 +47,26 @@ pub(super) struct FixedInterface<'a> {
     pub limit_bytes: u64,
 }
 
+/// Constraint modes, a row each, made orthonormal in `K`: `Psi L = X L^-T` with the flexibility `F = W^T X = L
+/// L^T` of the interface, since `Psi^T K Psi = F^-1`.
+///
+/// # Errors
+/// Points that depend on one another.
+pub(super) fn constraint_modes(
+    statics: &Statics<'_>,
+    loads: &[Vec<f64>],
+    size: usize,
+) -> Result<Mat<f64>, StructureError> {
+    let answers: Vec<Vec<f64>> = loads.iter().map(|load| statics.elastic(load)).collect();
+    let count = loads.len();
+    let flexibility = Mat::from_fn(count, count, |i, j| dot(&loads[i], &answers[j]));
+    let dependent = |_| StructureError::DependentInterface;
+    let factored = flexibility.llt(Side::Lower).map_err(dependent)?;
+    let mut constraint = Mat::from_fn(count, size, |i, row| answers[i][row]);
+    factored.L().solve_lower_triangular_in_place(constraint.as_mut());
+    Ok(constraint)
+}
+
 impl FixedInterface<'_> {
     /// The modes of the reduced structure.
     ///
@@ -56,14 +76,8 @@ impl FixedInterface<'_> {
     pub fn modes(&self) -> Result<FixedInterfaceModes, StructureError> {
         let size = self.pencil.size();
         let (held, map) = self.held_modes()?;
-        let answers: Vec<Vec<f64>> = self.loads.iter().map(|load| self.statics.elastic(load)).collect();
         let count = self.loads.len();
-        let flexibility = Mat::from_fn(count, count, |i, j| dot(&self.loads[i], &answers[j]));
-        let dependent = |_| StructureError::DependentInterface;
-        let factored = flexibility.llt(Side::Lower).map_err(dependent)?;
-        // `Psi L = X L^-T`, orthonormal in `K`: `F = L L^T`, and `Psi^T K Psi = F^-1`.
-        let mut constraint = Mat::from_fn(count, size, |i, row| answers[i][row]);
-        factored.L().solve_lower_triangular_in_place(constraint.as_mut());
+        let constraint = constraint_modes(self.statics, &self.loads, size)?;
         let kept = held.frequencies.len();
         let mapped = Mat::from_fn(size, kept, |row, mode| {
             map.row(row).map(|(column, weight)| weight * held.shapes[(column, mode)]).sum::<f64>()

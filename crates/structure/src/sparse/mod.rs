@@ -15,20 +15,24 @@
 //!   by a part `e` moves `w^2` by up to `e |phi|^T |K| |phi|`. What is smaller than that is a rigid-body
 //!   mode.
 //!
-//! Static answers beside the kept modes, which free interfaces need, are in [`statics`], the reduction in
-//! [`reduce`].
+//! Static answers beside the kept modes, which free interfaces need, are in [`statics`], the reductions in
+//! [`reduce`] and a file each: [`free_interface`], [`craig_bampton`], [`guyan`].
 
 mod assemble;
 mod constraints;
 mod craig_bampton;
 mod factor;
+mod free_interface;
+mod guyan;
 mod label;
 mod lanczos;
 mod map;
 mod matrix;
+mod modal_form;
 mod model;
 mod pencil_modes;
 mod points;
+mod prepared;
 mod random;
 mod reduce;
 mod report;

@@ -42,6 +42,11 @@ pub const MEMORY_GB: Quantity = Quantity::new("GB", Including(0.01), Including(1
 pub const MASS: Quantity = Quantity::new("kg", Excluding(0.0), Including(1e12));
 /// A mass added to a beam.
 pub const ADDED_MASS: Quantity = Quantity::new("kg", Including(0.0), Including(1e9));
+/// Mass per length added to a beam.
+pub const ADDED_MASS_PER_LENGTH: Quantity = Quantity::new("kg/m", Including(0.0), Including(1e9));
+/// Shear coefficient of a section.
+pub const SHEAR_COEFFICIENT: Quantity = Quantity::new("", Including(0.01), Including(1.0))
+    .hints("", "the part of the section that bears shear: 0.85 of a rectangle");
 /// Rotary inertia added to a beam.
 pub const ROTARY_INERTIA: Quantity = Quantity::new("kg m^2", Including(0.0), Including(1e9));
 /// Stiffness of an added spring that may be absent.
@@ -60,6 +65,12 @@ pub const RAYLEIGH_STIFFNESS: Quantity = Quantity::new("s", Including(0.0), Incl
 /// Amplitude of a prescribed displacement.
 pub const AMPLITUDE: Quantity = Quantity::new("m", Excluding(0.0), Including(1e6))
     .hints("a motion turned round is one with `phase_rad = 3.141592653589793`", "");
+/// Amplitude of a prescribed acceleration.
+pub const ACCELERATION: Quantity = Quantity::new("m/s^2", Excluding(0.0), Including(1e9))
+    .hints("a motion turned round is one with `phase_rad = 3.141592653589793`", "");
+/// Distance of an unbalance from its axis.
+pub const ECCENTRICITY: Quantity = Quantity::new("m", Excluding(0.0), Including(100.0))
+    .hints("", "is the unit m? it looks like millimetres");
 /// Amplitude of a force.
 pub const FORCE: Quantity = Quantity::new("N", Excluding(0.0), Including(1e15))
     .hints("a force turned round is one with `phase_rad = 3.141592653589793`", "");

@@ -24,7 +24,7 @@ pub struct Measured {
 }
 
 /// Ends of keys and the units that they stand for, the longer of two that fit first.
-const SUFFIXES: [(&str, &str); 22] = [
+const SUFFIXES: [(&str, &str); 23] = [
     ("_pa", "Pa"),
     ("_n_m_s_rad", "N m s/rad"),
     ("_n_m_rad", "N m/rad"),
@@ -34,6 +34,7 @@ const SUFFIXES: [(&str, &str); 22] = [
     ("_n_m2", "N/m^2"),
     ("_kg_m3", "kg/m^3"),
     ("_kg_m2", "kg m^2"),
+    ("_kg_m", "kg/m"),
     ("_m_s2", "m/s^2"),
     ("_per_s", "1/s"),
     ("_n_m", "N/m"),
@@ -115,6 +116,32 @@ pub fn hertz(text: &str) -> Option<f64> {
     measured(text)
         .filter(|measured| measured.dimension == Dimension(FREQUENCY))
         .map(|measured| measured.value)
+}
+
+/// A number with its unit to nine digits at most, in a unit in which it is neither tiny nor huge: `25.8 um` for
+/// 2.58e-5 m, `8.1e-9 N m^2` where no prefix fits.
+///
+/// * `unit`: in SI.
+#[must_use]
+pub fn readable(value: f64, unit: &str) -> String {
+    let digits = |value: f64| format!("{value:.8e}").parse::<f64>().unwrap_or(value);
+    let rounded = digits(value);
+    if rounded == 0.0 {
+        // Without a sign.
+        return format!("0 {unit}");
+    }
+    if (1e-4..1e6).contains(&rounded.abs()) {
+        return format!("{rounded} {unit}");
+    }
+    // Masses have their prefixes before grams.
+    let (base, own) = if unit == "kg" { ("g", 3) } else { (unit, 0) };
+    let takes_prefixes = UNITS.iter().any(|known| known.0 == base && known.4);
+    let fits = |exponent: i32| (1.0..1000.0).contains(&digits(value * 10_f64.powi(own - exponent)).abs());
+    let prefix = PREFIXES.iter().find(|(name, exponent)| *name != "c" && fits(*exponent));
+    match prefix.filter(|_| takes_prefixes) {
+        Some((name, exponent)) => format!("{} {name}{base}", digits(value * 10_f64.powi(own - exponent))),
+        None => format!("{rounded:e} {unit}"),
+    }
 }
 
 /// A decimal number times a power of ten, rounded once: `258 mm` is the same number as `0.258 m`.
@@ -228,6 +255,35 @@ mod tests {
         assert_eq!(hertz("5 kHz"), Some(5000.0));
         assert_eq!(hertz("3 1/s"), None, "no cycles");
         assert!((hertz("31.4159265358979 rad/s").unwrap() - 5.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn numbers_are_shown_in_a_unit_that_fits() {
+        let shown = [
+            (7.33e-8, "m", "73.3 nm"),
+            (2.1e11, "Pa", "210 GPa"),
+            (0.2579822, "m", "0.2579822 m"),
+            (64_600.0, "Hz", "64600 Hz"),
+            (6.46e6, "Hz", "6.46 MHz"),
+            (-2.5e-5, "N", "-25 uN"),
+            (3.756e-5, "kg", "37.56 mg"),
+            (8.1e-9, "N m^2", "8.1e-9 N m^2"),
+            (4.5e9, "N/m^1.5", "4.5e9 N/m^1.5"),
+            (1e-15, "m", "1e-15 m"),
+            (-0.0, "m", "0 m"),
+        ];
+        for (value, unit, text) in shown {
+            assert_eq!(readable(value, unit), text);
+        }
+    }
+
+    /// What is shown is read again.
+    #[test]
+    fn readable_numbers_are_quantities() {
+        for value in [7.33e-8, 2.1e11, 0.258, -3.2e-5] {
+            let again = measured(&readable(value, "m")).unwrap().value;
+            assert!((again / value - 1.0).abs() < 1e-12, "{again} {value}");
+        }
     }
 
     #[test]

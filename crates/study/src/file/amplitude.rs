@@ -3,7 +3,7 @@
 use hammerbeam_motion::AmplitudeCurve;
 use serde::Serialize;
 
-use crate::document::{Quantity, Value, quantity};
+use crate::document::{Quantity, Table, Value, quantity};
 
 /// Amplitude of the excitation, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -59,6 +59,23 @@ impl Amplitude {
             Self::Constant(_) => None,
             Self::OverFrequency(points) => Some([points.first()?[0], points.last()?[0]]),
         }
+    }
+}
+
+/// Refuses a table that does not cover the range of the frequency [Hz]: what a shaker does beyond it is not
+/// known.
+pub(super) fn check_range(
+    table: &Table<'_>,
+    key: &'static str,
+    amplitude: &Amplitude,
+    [low, high]: [f64; 2],
+) {
+    if let Some([first, last]) = amplitude.ends()
+        && (first > low || last < high)
+    {
+        let message =
+            format!("`{key}` is told from {first} to {last} Hz, the excitation runs from {low} to {high} Hz");
+        table.problem(key, message, vec!["allowed: a table that covers `frequency_hz`".to_owned()]);
     }
 }
 

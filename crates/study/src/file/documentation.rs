@@ -40,6 +40,10 @@ fn every_key_is_documented() {
     for added in ["gravity", "force", "support-motion"].map(load) {
         keys.extend(known_keys(&format!("{BEAM}\n{added}")));
     }
+    let force = "kind = \"force\"\nforce = [{ at = \"tip\", amplitude_n = 1.0, wrong_key = 1 }]\n";
+    let shaken = "kind = \"support-motion\"\nat = \"left\"\namplitude_m = 0.2e-3\n";
+    assert!(BEAM.contains(shaken));
+    keys.extend(known_keys(&BEAM.replace(shaken, force)));
     for table in ["continuation", "search", "figures"] {
         keys.extend(known_keys(&format!("{BEAM}\n[{table}]\nwrong_key = 1\n")));
     }
@@ -48,6 +52,11 @@ fn every_key_is_documented() {
     }
     keys.extend(known_keys(&format!("{BEAM}\n[[figures.orbit]]\nwrong_key = 1\n")));
     keys.extend(known_keys(&BEAM.replace("height_m = 0.003 }", "height_m = 0.003, wrong_key = 1 }")));
+    let span = "[[structure.span]]\nlength_m = 0.5\nwrong_key = 1\n\n[[structure.point]]";
+    let spans =
+        BEAM.replace("length_m = 0.5\n", "theory = \"timoshenko\"\n").replace("[[structure.point]]", span);
+    let tube = "{ outer_diameter_m = 0.02, wrong_key = 1 }";
+    keys.extend(known_keys(&spans.replace("{ width_m = 0.02, height_m = 0.003 }", tube)));
     assert!(keys.len() > 80, "{}", keys.len());
     for key in keys {
         assert!(

@@ -4,7 +4,10 @@ use serde::Serialize;
 
 use crate::document::{Table, Value, quantity};
 
-use super::{Amplitude, MovingSupport, Structure, amplitude, names::Names, support_motion};
+use super::{
+    ActingForce, Amplitude, ForcePlace, ForceSize, MovingSupport, Structure, amplitude, force, names::Names,
+    support_motion,
+};
 
 /// What shakes the structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,6 +43,13 @@ pub enum ExcitationKind {
         /// Amplitude [m].
         amplitude_m: Amplitude,
     },
+    /// An acceleration common to the named supports is prescribed.
+    SupportAcceleration {
+        /// Supports that move together.
+        at: Vec<String>,
+        /// Amplitude [m/s^2].
+        amplitude_m_s2: Amplitude,
+    },
     /// Displacements of several supports are prescribed, each in its own way.
     SupportMotions {
         /// The supports.
@@ -51,6 +61,11 @@ pub enum ExcitationKind {
         at: String,
         /// Amplitude [N].
         amplitude_n: Amplitude,
+    },
+    /// Several forces act, or one that is a pair or of an unbalance.
+    Forces {
+        /// The forces.
+        forces: Vec<ActingForce>,
     },
 }
 
@@ -66,11 +81,15 @@ impl Excitation {
     #[must_use]
     pub fn supports(&self) -> Vec<&[String]> {
         match self.harmonic().map(|harmonic| &harmonic.kind) {
-            Some(ExcitationKind::SupportMotion { at, .. }) => vec![at],
+            Some(
+                ExcitationKind::SupportMotion { at, .. } | ExcitationKind::SupportAcceleration { at, .. },
+            ) => {
+                vec![at]
+            }
             Some(ExcitationKind::SupportMotions { supports }) => {
                 supports.iter().map(|support| support.at.as_slice()).collect()
             }
-            Some(ExcitationKind::Force { .. }) | None => Vec::new(),
+            Some(ExcitationKind::Force { .. } | ExcitationKind::Forces { .. }) | None => Vec::new(),
         }
     }
 
@@ -92,12 +111,15 @@ impl Excitation {
         self.supports().len() > 1
     }
 
-    /// The point at which a force acts; none for support motion.
+    /// The points at which forces act; none for support motion.
     #[must_use]
-    pub fn force_point(&self) -> Option<&str> {
+    pub fn force_points(&self) -> Vec<&str> {
         match self.harmonic().map(|harmonic| &harmonic.kind) {
-            Some(ExcitationKind::Force { at, .. }) => Some(at),
-            Some(ExcitationKind::SupportMotion { .. } | ExcitationKind::SupportMotions { .. }) | None => None,
+            Some(ExcitationKind::Force { at, .. }) => vec![at],
+            Some(ExcitationKind::Forces { forces }) => {
+                forces.iter().flat_map(|force| force.place.points()).map(String::as_str).collect()
+            }
+            _ => Vec::new(),
         }
     }
 
@@ -109,12 +131,13 @@ impl Excitation {
 }
 
 impl HarmonicExcitation {
-    /// Amplitude [m or N]; supports that move each in its own way have several.
+    /// Amplitude [m, m/s^2 or N]; supports that move each in its own way have several, and so have forces.
     #[must_use]
     pub fn amplitude(&self) -> Option<&Amplitude> {
         match &self.kind {
             ExcitationKind::SupportMotion { amplitude_m, .. } => Some(amplitude_m),
-            ExcitationKind::SupportMotions { .. } => None,
+            ExcitationKind::SupportAcceleration { amplitude_m_s2, .. } => Some(amplitude_m_s2),
+            ExcitationKind::SupportMotions { .. } | ExcitationKind::Forces { .. } => None,
             ExcitationKind::Force { amplitude_n, .. } => Some(amplitude_n),
         }
     }
@@ -132,15 +155,16 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
     let kind = table.required("kind").and_then(|value| value.choice(&kinds));
     let known = kind.is_some();
+    let range = table.required("frequency_hz").and_then(|value| read_range(&value));
     let kind = kind.and_then(|kind| match kind {
         Kind::SupportMotion => support_motion::read(&table, names),
+        Kind::Force if table.has("force") => read_forces(&table, names, range),
         Kind::Force => read_force(&table, names),
     });
     let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
     let order = table.optional("order").map_or(Some(1), |value| value.whole(1, 1000));
-    let range = table.required("frequency_hz").and_then(|value| read_range(&value));
-    if let (Some(kind), Some([low, high])) = (&kind, range) {
-        check_table(&table, kind, [low, high]);
+    if let (Some(kind), Some(range)) = (&kind, range) {
+        check_table(&table, kind, range);
     }
     if let (Some(kind), Some(structure)) = (&kind, structure) {
         check_magnitude(&table, kind, structure);
@@ -152,26 +176,49 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     Some(Excitation::Harmonic(HarmonicExcitation { kind, phase_rad, order, frequency_hz }))
 }
 
+/// One force, on a point with an amplitude or otherwise.
 fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
-    let at = table.required("at").and_then(|value| names.point(&value));
-    let amplitude = table.required("amplitude_n").and_then(|value| amplitude::read(&value, &quantity::FORCE));
-    Some(ExcitationKind::Force { at: at?, amplitude_n: amplitude? })
+    let (place, size) = force::read(table, names, &quantity::FORCE)?;
+    Some(match (place, size) {
+        (ForcePlace::At(at), ForceSize::Amplitude(amplitude_n)) => ExcitationKind::Force { at, amplitude_n },
+        (place, size) => ExcitationKind::Forces { forces: vec![ActingForce { place, size, phase_rad: 0.0 }] },
+    })
 }
 
-/// A table has to cover the range of the frequency: what a shaker does beyond is not known.
-fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) {
+/// The entries of `[[excitation.force]]`.
+fn read_forces(table: &Table<'_>, names: &Names, range: Option<[f64; 2]>) -> Option<ExcitationKind> {
+    for key in ["at", "between", "amplitude_n", "unbalance_mass_kg", "eccentricity_m", "phase_rad"] {
+        if let Some(value) = table.optional(key) {
+            let help = vec!["allowed: in each entry of `force`, which says it for its own".to_owned()];
+            value.problem(format!("`{key}` is given besides `force`"), help);
+        }
+    }
+    if table.optional("force").is_some_and(|value| value.is_empty_list()) {
+        let help = vec!["allowed: one [[excitation.force]] or more".to_owned()];
+        table.problem("force", "`force` is an empty list".to_owned(), help);
+        return None;
+    }
+    let entries = table.tables("force").into_iter();
+    let forces: Vec<Option<ActingForce>> =
+        entries.map(|entry| force::read_entry(entry, names, range)).collect();
+    if forces.is_empty() {
+        return None;
+    }
+    forces.into_iter().collect::<Option<Vec<_>>>().map(|forces| ExcitationKind::Forces { forces })
+}
+
+/// A table has to cover the range of the frequency.
+fn check_table(table: &Table<'_>, kind: &ExcitationKind, range: [f64; 2]) {
     let (key, amplitude) = match kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m),
-        ExcitationKind::SupportMotions { .. } => return,
+        ExcitationKind::SupportAcceleration { amplitude_m_s2, .. } => ("amplitude_m_s2", amplitude_m_s2),
         ExcitationKind::Force { amplitude_n, .. } => ("amplitude_n", amplitude_n),
+        ExcitationKind::Forces { forces } if !table.has("force") => {
+            return forces.iter().for_each(|force| force::check_size(table, &force.size, range));
+        }
+        ExcitationKind::SupportMotions { .. } | ExcitationKind::Forces { .. } => return,
     };
-    if let Some([first, last]) = amplitude.ends()
-        && (first > low || last < high)
-    {
-        let message =
-            format!("`{key}` is told from {first} to {last} Hz, the excitation runs from {low} to {high} Hz");
-        table.problem(key, message, vec!["allowed: a table that covers `frequency_hz`".to_owned()]);
-    }
+    amplitude::check_range(table, key, amplitude, range);
 }
 
 /// A support that moves further than the beam is long is in the wrong unit.
@@ -182,7 +229,9 @@ fn check_magnitude(table: &Table<'_>, kind: &ExcitationKind, structure: &Structu
         ExcitationKind::SupportMotions { supports } => {
             ("support", supports.iter().map(|support| support.amplitude_m).fold(0.0, f64::max))
         }
-        ExcitationKind::Force { .. } => return,
+        ExcitationKind::SupportAcceleration { .. }
+        | ExcitationKind::Force { .. }
+        | ExcitationKind::Forces { .. } => return,
     };
     let length = beam.length_m;
     if amplitude > length {

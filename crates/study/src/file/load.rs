@@ -4,7 +4,10 @@ use serde::Serialize;
 
 use crate::document::{Reading, Table, Value, quantity};
 
-use super::{Excitation, names::Names};
+use super::{
+    ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude, force, names::Names,
+    support_motion,
+};
 
 /// A load besides the excitation; of order 0 it is constant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,6 +29,26 @@ pub enum Load {
         /// Phase [rad].
         phase_rad: f64,
     },
+    /// A force that is a pair, of an unbalance, or over the frequency.
+    ActingForce {
+        /// The force.
+        #[serde(flatten)]
+        force: ActingForce,
+        /// Multiple of the excitation frequency; 0 for a constant.
+        order: u32,
+    },
+    /// A further harmonic of a support's acceleration, or of its motion over the frequency.
+    DrivenSupport {
+        /// Number of the support among those that move, from 0.
+        #[serde(skip_serializing_if = "is_first")]
+        support: usize,
+        /// What is prescribed.
+        motion: SupportDrive,
+        /// Multiple of the excitation frequency.
+        order: u32,
+        /// Phase [rad].
+        phase_rad: f64,
+    },
     /// A further harmonic of the motion of a support.
     SupportMotion {
         /// Number of the support among those that move, from 0.
@@ -38,6 +61,30 @@ pub enum Load {
         /// Phase [rad].
         phase_rad: f64,
     },
+}
+
+impl Load {
+    /// Multiple of the excitation frequency; 0 of a constant.
+    #[must_use]
+    pub fn order(&self) -> u32 {
+        match self {
+            Self::Gravity { .. } => 0,
+            Self::Force { order, .. }
+            | Self::ActingForce { order, .. }
+            | Self::DrivenSupport { order, .. }
+            | Self::SupportMotion { order, .. } => *order,
+        }
+    }
+
+    /// Points at which a force acts.
+    #[must_use]
+    pub fn force_points(&self) -> &[String] {
+        match self {
+            Self::Force { at, .. } => std::slice::from_ref(at),
+            Self::ActingForce { force, .. } => force.place.points(),
+            Self::Gravity { .. } | Self::DrivenSupport { .. } | Self::SupportMotion { .. } => &[],
+        }
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
@@ -84,14 +131,29 @@ fn read_gravity(table: &Table<'_>) -> Option<Load> {
 }
 
 fn read_force(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Load> {
-    let at = table.required("at").and_then(|value| names.point(&value));
-    let amplitude = table.required("amplitude_n").and_then(|value| value.number(&quantity::LOAD_FORCE));
+    let force = force::read(table, names, &quantity::LOAD_FORCE);
     let (order, phase) = read_harmonic(table, 0);
     if excitation == Some(&Excitation::None) && order.is_some_and(|order| order > 0) {
         let message = "`order` is a multiple of the excitation frequency, and there is no [excitation]";
         table.problem("order", message.into(), vec!["allowed: 0, a constant force".into()]);
     }
-    Some(Load::Force { at: at?, amplitude_n: amplitude?, order: order?, phase_rad: phase? })
+    let ((place, size), order, phase_rad) = (force?, order?, phase?);
+    check_over_frequency(table, size.constant().is_some(), order);
+    if let Some(excitation) = excitation {
+        force::check_size(table, &size, excitation.range_hz());
+    }
+    Some(match (place, size.constant()) {
+        (ForcePlace::At(at), Some(amplitude_n)) => Load::Force { at, amplitude_n, order, phase_rad },
+        (place, _) => Load::ActingForce { force: ActingForce { place, size, phase_rad }, order },
+    })
+}
+
+/// Refuses a constant of which the frequency is to change the amplitude.
+fn check_over_frequency(table: &Table<'_>, keeps: bool, order: u32) {
+    if !keeps && order == 0 {
+        let help = vec!["allowed: only with `order` >= 1".to_owned()];
+        table.problem("order", "the amplitude of a constant depends on the frequency".to_owned(), help);
+    }
 }
 
 fn read_support_motion(table: &Table<'_>, excitation: Option<&Excitation>) -> Option<Load> {
@@ -105,10 +167,22 @@ fn read_support_motion(table: &Table<'_>, excitation: Option<&Excitation>) -> Op
         }
         _ => Some(0),
     };
-    let amplitude =
-        table.required("amplitude_m").and_then(|value| value.number(&quantity::LOAD_DISPLACEMENT));
+    let motion = support_motion::read_motion(table, &quantity::LOAD_DISPLACEMENT, &quantity::GRAVITY);
     let (order, phase) = read_harmonic(table, 1);
-    Some(Load::SupportMotion { support: support?, amplitude_m: amplitude?, order: order?, phase_rad: phase? })
+    let (support, motion, order, phase_rad) = (support?, motion?, order?, phase?);
+    if let Some(excitation) = excitation {
+        let (key, amplitude) = match &motion {
+            SupportDrive::Displacement(amplitude) => ("amplitude_m", amplitude),
+            SupportDrive::Acceleration(amplitude) => ("amplitude_m_s2", amplitude),
+        };
+        amplitude::check_range(table, key, amplitude, excitation.range_hz());
+    }
+    Some(match motion {
+        SupportDrive::Displacement(Amplitude::Constant(amplitude_m)) => {
+            Load::SupportMotion { support, amplitude_m, order, phase_rad }
+        }
+        motion => Load::DrivenSupport { support, motion, order, phase_rad },
+    })
 }
 
 /// Number of the support that has a place with that name.

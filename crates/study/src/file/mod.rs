@@ -7,6 +7,9 @@
 
 mod amplitude;
 mod beam;
+mod beam_point;
+mod beam_section;
+mod beam_span;
 #[cfg(test)]
 mod book;
 mod continuation;
@@ -14,6 +17,7 @@ mod damping;
 mod excitation;
 mod figures;
 mod file_checksum;
+mod force;
 mod load;
 mod lumped;
 mod matrices;
@@ -33,11 +37,15 @@ mod support_motion;
 mod vary;
 
 pub use amplitude::Amplitude;
-pub use beam::{Beam, BeamPoint, End, Section};
+pub use beam::Beam;
+pub use beam_point::{BeamPoint, End};
+pub use beam_section::Section;
+pub use beam_span::{BeamProfile, BeamSpan};
 pub use continuation::{Continuation, Segments};
 pub use damping::{Damping, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};
 pub use figures::{DrawnOrbit, Figures};
+pub use force::{ActingForce, ForcePlace, ForceSize};
 pub use load::Load;
 
 pub use lumped::{Damper, Lumped, Mass, Spring};
@@ -55,7 +63,7 @@ pub use stop::{FixedTo, Place, Stop, StopEntry};
 pub use stop_law::{Approach, GapMeasured, Side, StopLaw, StopRest};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
-pub use support_motion::MovingSupport;
+pub use support_motion::{MovingSupport, SupportDrive};
 pub use vary::{Curve, CurveOf, Vary};
 
 #[cfg(test)]

@@ -120,8 +120,11 @@ impl Variable<'_> {
         let harmonic = self.excitation.and_then(Excitation::harmonic);
         let amplitude = harmonic.and_then(|harmonic| match harmonic.kind {
             ExcitationKind::SupportMotion { .. } => Some(("excitation.amplitude_m", quantity::AMPLITUDE)),
+            ExcitationKind::SupportAcceleration { .. } => {
+                Some(("excitation.amplitude_m_s2", quantity::ACCELERATION))
+            }
             // Each has a number of its own, as any other of the model.
-            ExcitationKind::SupportMotions { .. } => None,
+            ExcitationKind::SupportMotions { .. } | ExcitationKind::Forces { .. } => None,
             ExcitationKind::Force { .. } => Some(("excitation.amplitude_n", quantity::FORCE)),
         });
         let of_amplitude =
@@ -142,10 +145,7 @@ impl Variable<'_> {
     }
 
     fn has_further_harmonics(self) -> bool {
-        self.loads.unwrap_or_default().iter().any(|load| match load {
-            Load::Gravity { .. } => false,
-            Load::Force { order, .. } | Load::SupportMotion { order, .. } => *order > 0,
-        })
+        self.loads.unwrap_or_default().iter().any(|load| load.order() > 0)
     }
 
     /// Whether the table that a name begins with was read, so that all its names are known.

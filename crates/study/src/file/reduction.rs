@@ -11,7 +11,8 @@ use super::Structure;
 pub struct Reduction {
     /// The basis.
     pub method: ReductionMethod,
-    /// Highest eigenfrequency kept [Hz]; not used by [`ReductionMethod::None`].
+    /// Highest eigenfrequency kept [Hz]; not used by [`ReductionMethod::None`] and
+    /// [`ReductionMethod::Given`].
     pub cut_off_hz: f64,
 }
 
@@ -21,17 +22,38 @@ pub struct Reduction {
 pub enum ReductionMethod {
     /// Free-interface modes with residual flexibility.
     FreeInterface,
+    /// The same without the inertia of the residual modes.
+    #[serde(rename = "macneal")]
+    MacNeal,
     /// Fixed-interface modes with constraint modes.
     FixedInterface,
+    /// Constraint modes alone.
+    Guyan,
     /// The eigenmodes of the supported structure up to the cut-off.
     Truncation,
     /// The eigenmodes of the supported structure themselves.
     None,
+    /// The same of matrices that are reduced already.
+    Given,
 }
 
-const METHODS: [(&str, ReductionMethod); 4] = [
+impl ReductionMethod {
+    /// Whether modes are cut off at a frequency.
+    #[must_use]
+    pub fn cuts_off(self) -> bool {
+        !matches!(self, Self::None | Self::Given)
+    }
+}
+
+/// The methods; those of Rubin and of Craig and Bampton have two names.
+const METHODS: [(&str, ReductionMethod); 9] = [
     ("free-interface", ReductionMethod::FreeInterface),
+    ("rubin", ReductionMethod::FreeInterface),
+    ("macneal", ReductionMethod::MacNeal),
     ("fixed-interface", ReductionMethod::FixedInterface),
+    ("craig-bampton", ReductionMethod::FixedInterface),
+    ("guyan", ReductionMethod::Guyan),
+    ("given", ReductionMethod::Given),
     ("truncation", ReductionMethod::Truncation),
     ("none", ReductionMethod::None),
 ];
@@ -46,9 +68,14 @@ pub(super) fn read(root: &Table<'_>, structure: Option<&Structure>) -> Option<Re
     let table = root.required("reduction").and_then(|value| value.table())?;
     let method = table.required("method").and_then(|value| value.choice(&METHODS));
     let cut_off_hz = match method {
-        Some(ReductionMethod::None) => Some(0.0),
+        Some(method) if !method.cuts_off() => Some(0.0),
         _ => table.required("cut_off_hz").and_then(|value| value.number(&quantity::FREQUENCY)),
     };
+    let is_matrices = matches!(structure, Some(Structure::Matrices(_)) | None);
+    if method == Some(ReductionMethod::Given) && !is_matrices {
+        let help = vec!["allowed: \"given\" for matrices that are reduced already, or \"none\"".to_owned()];
+        table.problem("method", "`method` is \"given\", but the structure is not".to_owned(), help);
+    }
     table.finish();
     Some(Reduction { method: method?, cut_off_hz: cut_off_hz? })
 }

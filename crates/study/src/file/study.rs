@@ -11,7 +11,10 @@ use hammerbeam_signal::limits::{self, LARGEST_TEXT};
 use serde::Serialize;
 use toml::de::DeTable;
 
-use crate::document::{Problem, Reading, Report, Table, place};
+use crate::{
+    document::{Problem, Reading, Report, Table, place},
+    setting::{Setting, SettingError},
+};
 
 use super::{
     Continuation, Curve, Damping, Excitation, Figures, HarmonicExcitation, Load, Reduction, Response, Rig,
@@ -68,10 +71,8 @@ impl Study {
 
     /// Points at which forces of the excitation and of the loads act.
     pub fn force_points(&self) -> impl Iterator<Item = &str> {
-        self.excitation.force_point().into_iter().chain(self.loads.iter().filter_map(|load| match load {
-            Load::Force { at, .. } => Some(at.as_str()),
-            _ => None,
-        }))
+        let of_loads = self.loads.iter().flat_map(Load::force_points).map(String::as_str);
+        self.excitation.force_points().into_iter().chain(of_loads)
     }
 }
 
@@ -98,6 +99,9 @@ pub enum StudyError {
     /// The file says something that is not allowed.
     #[error("{0}")]
     Invalid(Report),
+    /// A key cannot be given another value.
+    #[error("{0}")]
+    Setting(SettingError),
     /// Nothing shakes the structure, so that there is no frequency and no period.
     #[error(
         "{name} has no [excitation]: without a frequency there are no periodic responses to look for; \
@@ -113,9 +117,23 @@ impl StudyFile {
     /// # Errors
     /// [`StudyError`]: the file cannot be read, or something in it is not allowed.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
+        Self::read_with(path, &[])
+    }
+
+    /// Reads a study file in which keys have other values; its text then says so.
+    ///
+    /// # Errors
+    /// [`StudyError`]; faults stand where the text with these values has them.
+    pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Self, StudyError> {
+        let name = path.display().to_string();
         let text = limits::read_text(path, LARGEST_TEXT)
             .map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
-        Self::parse(&path.display().to_string(), text)
+        match Setting::written_into(settings, &text) {
+            // What is not TOML is reported as that.
+            Err(SettingError::NotToml { .. }) => Self::parse(&name, text),
+            Err(source) => Err(StudyError::Setting(source)),
+            Ok(text) => Self::parse(&name, text),
+        }
     }
 
     /// Reads a study from its text.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Quantity, Table, Value, quantity};
 
-use super::{ExcitationKind, amplitude, names::Names};
+use super::{Amplitude, ExcitationKind, amplitude, names::Names};
 
 /// A support that moves in a way of its own, as `amplitude cos(2 pi order f t + phase)`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -17,19 +17,57 @@ pub struct MovingSupport {
     pub phase_rad: f64,
 }
 
-/// Reads `at` and `amplitude_m`, or a `support` for each motion.
+/// What of a support is prescribed, as `amplitude cos(2 pi order f t + phase)`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub enum SupportDrive {
+    /// Its displacement [m].
+    #[serde(rename = "amplitude_m")]
+    Displacement(Amplitude),
+    /// Its acceleration [m/s^2].
+    #[serde(rename = "amplitude_m_s2")]
+    Acceleration(Amplitude),
+}
+
+/// Reads `at` with `amplitude_m` or `amplitude_m_s2`, or a `support` for each motion.
 pub(super) fn read(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
     if table.has("support") {
         return read_each(table, names);
     }
     let at = table.required("at").and_then(|value| read_places(&value, names));
-    let amplitude =
-        table.required("amplitude_m").and_then(|value| amplitude::read(&value, &quantity::AMPLITUDE));
-    Some(ExcitationKind::SupportMotion { at: at?, amplitude_m: amplitude? })
+    let motion = read_motion(table, &quantity::AMPLITUDE, &quantity::ACCELERATION);
+    Some(match (at?, motion?) {
+        (at, SupportDrive::Displacement(amplitude_m)) => ExcitationKind::SupportMotion { at, amplitude_m },
+        (at, SupportDrive::Acceleration(amplitude_m_s2)) => {
+            ExcitationKind::SupportAcceleration { at, amplitude_m_s2 }
+        }
+    })
+}
+
+/// Reads `amplitude_m`, or `amplitude_m_s2` in its place.
+///
+/// * `displacement`, `acceleration`: what they may be as numbers; tables hold what is more than 0.
+pub(super) fn read_motion(
+    table: &Table<'_>,
+    displacement: &Quantity,
+    acceleration: &Quantity,
+) -> Option<SupportDrive> {
+    let read = |value: Value<'_>, allowed: &Quantity, of_table: &Quantity| {
+        amplitude::read(&value, if value.is_list() { of_table } else { allowed })
+    };
+    let Some(value) = table.optional("amplitude_m_s2") else {
+        let value = table.required("amplitude_m")?;
+        return read(value, displacement, &quantity::AMPLITUDE).map(SupportDrive::Displacement);
+    };
+    if table.optional("amplitude_m").is_some() {
+        let help = vec!["allowed: one of `amplitude_m` and `amplitude_m_s2`".to_owned()];
+        value.problem("`amplitude_m_s2` is given, and `amplitude_m`, too".to_owned(), help);
+        return None;
+    }
+    read(value, acceleration, &quantity::ACCELERATION).map(SupportDrive::Acceleration)
 }
 
 fn read_each(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
-    for key in ["at", "amplitude_m", "phase_rad"] {
+    for key in ["at", "amplitude_m", "amplitude_m_s2", "phase_rad"] {
         if let Some(value) = table.optional(key) {
             let help = vec!["allowed: in each entry of `support`, which says it for its own".to_owned()];
             value.problem(format!("`{key}` is given besides `support`"), help);

@@ -1,4 +1,6 @@
+mod beams;
 mod laws;
+mod loads;
 
 use super::*;
 
@@ -53,7 +55,7 @@ fn the_paper_is_read_as_it_is_written() {
         (beam.length_m, beam.elements, beam.left, beam.right),
         (0.2579822, 44, End::Clamped, End::Free)
     );
-    assert_eq!(beam.section.area_m2, 0.0298 * 0.0020);
+    assert_eq!(beam.spans[0].profile.section.area_m2, 0.0298 * 0.0020);
     assert_eq!((beam.points[0].at_m, beam.points[0].mass_kg), (0.2432157, 0.03756));
     assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.015)));
     assert_eq!(study.excitation.range_hz(), [19.0, 110.0]);

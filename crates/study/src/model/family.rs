@@ -34,11 +34,11 @@ impl Reference {
     }
 }
 
-/// Numbers of nodes before the points of a beam: where they change, the mesh does, and the modes jump.
+/// Numbers of nodes before the points of a beam and the borders of its spans: where they change, the mesh does, and the modes jump.
 pub(super) fn nodes_before_points(study: &Study, outline: &[OutlinePoint]) -> Vec<usize> {
     let Structure::Beam(beam) = &study.structure else { return Vec::new() };
     let before = |at: f64| outline.iter().filter(|node| node.at < at - SAME_PLACE * beam.length_m).count();
-    beam.points.iter().map(|point| before(point.at_m)).collect()
+    beam.points.iter().map(|point| point.at_m).chain(beam.borders_m()).map(before).collect()
 }
 
 /// The studies that differ in one number.

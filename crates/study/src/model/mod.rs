@@ -30,6 +30,7 @@ use family::{Reference, StudyFamily};
 use structure::ReduceError;
 
 use crate::{
+    document::unit::readable,
     file::{DampingKey, ParameterKind, Place, Study, StudyError, StudyFile, VariedParameter},
     number::number_named,
 };
@@ -79,14 +80,15 @@ impl Model {
         let numbers = family::varied_numbers(study);
         let reference = (!numbers.is_empty()).then(|| Arc::new(Reference::new(study, &reduced)));
         load::check(file, &reduced.model)?;
-        let load = load::load(study, &reduced.model);
-        let elements = element::elements(file, &reduced.model, &load)?;
+        let drive = load::Drive::of(study, &reduced.model);
+        let elements = element::elements(file, &reduced.model, &drive.kept)?;
         let response = response_point(study, &reduced.model);
-        let driven = load::over_frequency(study, &reduced.model);
-        let system = System::new(reduced.model, &load, elements).and_then(|system| match driven {
-            Some((load, curve)) => system.with_amplitude_over_frequency(&load, curve),
-            None => Ok(system),
-        });
+        let system = drive
+            .driven
+            .into_iter()
+            .fold(System::new(reduced.model, &drive.kept, elements), |system, (load, factor)| {
+                system?.with_amplitude_over_frequency(&load, factor)
+            });
         let mut system = system.map_err(|error| system_fault(file, &error))?;
         let damping_keys = damping::varied_keys(study);
         for &key in &damping_keys {
@@ -231,6 +233,7 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
         StructureError::LumpedIsNotReduced
         | StructureError::NotHeld { .. }
+        | StructureError::NoInterface
         | StructureError::TooManyCoordinates { .. } => "reduction.method",
         StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
         StructureError::RowCount { what: "mass", .. } => "structure.mass",
@@ -242,7 +245,8 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
     };
     let help = match error {
         StructureError::CutOffBelowFirstMode { first_hz, .. } => {
-            vec![format!("allowed: more than {first_hz:.6} Hz, so that one elastic mode is kept at least")]
+            let first = readable(*first_hz, "Hz");
+            vec![format!("allowed: more than {first}, so that one elastic mode is kept at least")]
         }
         StructureError::DampingRatioCount { modes, .. } => {
             vec![format!("allowed: one ratio for all modes, or a list of {modes}")]

@@ -93,7 +93,9 @@ fn reduction(study: &Study) -> linear::Reduction {
         ReductionMethod::FreeInterface => linear::Reduction::FreeInterface { cut_off_hz },
         ReductionMethod::Truncation => linear::Reduction::Truncation { cut_off_hz },
         ReductionMethod::FixedInterface => linear::Reduction::FixedInterface { cut_off_hz },
-        ReductionMethod::None => linear::Reduction::None,
+        ReductionMethod::MacNeal => linear::Reduction::MacNeal { cut_off_hz },
+        ReductionMethod::Guyan => linear::Reduction::Guyan { cut_off_hz },
+        ReductionMethod::None | ReductionMethod::Given => linear::Reduction::None,
     }
 }
 

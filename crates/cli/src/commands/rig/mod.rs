@@ -10,7 +10,6 @@ use hammerbeam_jobs::{
     pool::threads,
     rig::{measure_rig, write_rig_tables},
 };
-use hammerbeam_study::StudyFile;
 use serde_json::json;
 
 use crate::{
@@ -19,7 +18,7 @@ use crate::{
 };
 
 pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
+    let file = options.study.read()?;
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let interrupt = Interrupt::listen(output)?;

@@ -1,6 +1,9 @@
-//! `hammerbeam run`: everything a study asks for, into one results folder.
+//! A run of one study into a results folder, and what came of it in words.
 
-use std::time::{Duration, Instant};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use hammerbeam_drawing::{DrawSettings, FigureSelection, draw, draw_into};
 use hammerbeam_figure::FrequencyUnit;
@@ -13,34 +16,41 @@ use hammerbeam_results::{
     store::{JobRecord, PieceRecord, StoredReason},
     summary::{BranchSummary, Peak},
 };
-use hammerbeam_study::StudyFile;
 
 use crate::{
-    args::RunOptions, commands::check::UNDAMPED_ADVICE, failure::Failure, interrupt::Interrupt,
-    output::Output, progress::Terminal, watch::Watch,
+    args::RunOptions,
+    commands::check::UNDAMPED_ADVICE,
+    failure::Failure,
+    interrupt::Interrupt,
+    output::{Output, decimals},
+    progress::Terminal,
+    watch::Watch,
 };
 
-pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
-    let file = StudyFile::read(&options.study)?;
-    file.forced()?;
-    let study = PreparedStudy::new(file)?;
-    let interrupt = Interrupt::listen(output)?;
+/// Runs a study into a folder, and draws what was found.
+pub(super) fn run_into(
+    out: &Path,
+    study: &PreparedStudy,
+    options: &RunOptions,
+    (output, interrupt): (Output, &Interrupt),
+) -> Result<Summary, Failure> {
     let asked = &study.file.study;
     let mut terminal = Terminal::new(interrupt.clone(), asked.varies.len() + asked.curves.len());
     let begun = Instant::now();
     let threads = threads(options.jobs);
-    let request = RunRequest { out: &options.out, from: &options.from, threads };
-    let run = run_study(&study, request, &mut terminal);
+    let request = RunRequest { out, from: &options.from, threads };
+    let run = run_study(study, request, &mut terminal);
     terminal.clear();
     let WholeRun { store, report } = run?;
-    let mut summary = Summary { unit: output.frequency_unit, range_hz: asked.excitation.range_hz(), report };
+    let (unit, range_hz) = (output.frequency_unit, asked.excitation.range_hz());
+    let mut summary = Summary { unit, range_hz, report, elapsed: Duration::ZERO };
     let result = match summary.report.outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
             let settings =
                 DrawSettings { threads, frequency_unit: output.frequency_unit, ..DrawSettings::default() };
             let selection = FigureSelection::of_run(&study.file);
-            let drawn = draw_into(&options.out, settings, &mut Watch::new(interrupt), |drawn| {
+            let drawn = draw_into(out, settings, &mut Watch::new(interrupt.clone()), |drawn| {
                 draw(&store, (&study.file, &study.model), &selection, drawn)
             });
             match drawn.map_err(Failure::from) {
@@ -49,7 +59,8 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
                 Ok(_) if summary.report.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
                     summary.report.figures = figures.names;
-                    output.give(&summary.report, || summary.text(begun.elapsed()))
+                    summary.elapsed = begun.elapsed();
+                    Ok(summary)
                 }
             }
         }
@@ -59,10 +70,11 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// What came of a run, in words.
-struct Summary {
+pub(super) struct Summary {
     unit: FrequencyUnit,
     range_hz: [f64; 2],
-    report: RunReport,
+    pub report: RunReport,
+    elapsed: Duration,
 }
 
 impl Summary {
@@ -153,13 +165,13 @@ impl Summary {
             .join("\n")
     }
 
-    fn text(&self, elapsed: Duration) -> String {
+    pub fn text(&self) -> String {
         let mut lines = vec![format!(
             "{} solutions on {} branch(es) in {}, after {:.1} s",
             self.report.solutions(),
             self.report.branches.len(),
             self.folder(),
-            elapsed.as_secs_f64()
+            self.elapsed.as_secs_f64()
         )];
         lines.extend(self.report.branches.iter().map(|branch| self.branch_text(branch)));
         lines.extend(self.report.varied.iter().map(piece_text));
@@ -189,10 +201,12 @@ fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
     let [low, high] = branch.range_hz.map(|end| unit.factor() * end);
     let mut lines = vec![
         format!(
-            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} {}, {} of them stable{}",
+            "\nbranch {} (period {}): {} solutions, {} to {} {}, {} of them stable{}",
             branch.record.id,
             branch.record.period_multiple,
             branch.solutions,
+            decimals(low, 6),
+            decimals(high, 6),
             unit.symbol(),
             branch.stable,
             marginal_words(branch.marginal)
@@ -247,12 +261,12 @@ fn peak_place(peak: &Peak, unit: FrequencyUnit) -> String {
     }
     let [low, high] = peak.equal_hz;
     let (low, high) = (unit.factor() * low, shown(unit, high, 4));
-    format!("{low:.4} to {high} ({} solutions of equal height)", peak.equal)
+    format!("{} to {high} ({} solutions of equal height)", decimals(low, 4), peak.equal)
 }
 
 /// A frequency with so many decimals.
-fn shown(unit: FrequencyUnit, frequency_hz: f64, decimals: usize) -> String {
-    format!("{:.decimals$} {}", unit.factor() * frequency_hz, unit.symbol())
+fn shown(unit: FrequencyUnit, frequency_hz: f64, count: usize) -> String {
+    format!("{} {}", decimals(unit.factor() * frequency_hz, count), unit.symbol())
 }
 
 /// How many solutions are marginal, behind the number of those that are stable; nothing if none is.

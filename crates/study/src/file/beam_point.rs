@@ -1,0 +1,139 @@
+//! `[[structure.point]]` of a beam: what is attached to it and how it is held; ends, which are held alike.
+
+use hammerbeam_structure as linear;
+use serde::Serialize;
+
+use crate::document::{Reading, Table, Value, quantity};
+
+use super::names::{Names, read_name};
+
+/// Support of an end of a beam, or of a point on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// Neither displacement nor rotation.
+    Clamped,
+    /// No displacement.
+    Pinned,
+    /// No rotation.
+    Sliding,
+    /// No support.
+    Free,
+}
+
+impl End {
+    /// Whether the support holds the displacement, so that its motion can be prescribed.
+    #[must_use]
+    pub fn holds_displacement(self) -> bool {
+        matches!(self, Self::Clamped | Self::Pinned)
+    }
+
+    pub(super) fn descriptor(self) -> linear::End {
+        match self {
+            Self::Clamped => linear::End::Clamped,
+            Self::Pinned => linear::End::Pinned,
+            Self::Sliding => linear::End::Sliding,
+            Self::Free => linear::End::Free,
+        }
+    }
+}
+
+/// The words for them.
+pub(super) const END_KINDS: [(&str, End); 4] =
+    [("clamped", End::Clamped), ("pinned", End::Pinned), ("sliding", End::Sliding), ("free", End::Free)];
+
+/// A named point of a beam and what is attached to it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BeamPoint {
+    /// Name.
+    pub name: String,
+    /// Distance from the left end [m].
+    pub at_m: f64,
+    /// Attached mass [kg].
+    pub mass_kg: f64,
+    /// Its rotary inertia [kg m^2].
+    pub rotary_inertia_kg_m2: f64,
+    /// Spring to the ground [N/m].
+    pub spring_n_m: f64,
+    /// Damper to the ground [N s/m].
+    pub damper_n_s_m: f64,
+    /// Rotational spring to the ground [N m/rad].
+    pub rotational_spring_n_m_rad: f64,
+    /// Rotational damper to the ground [N m s/rad].
+    pub rotational_damper_n_m_s_rad: f64,
+    /// How the point is held.
+    #[serde(skip_serializing_if = "is_free")]
+    pub support: End,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
+fn is_free(support: &End) -> bool {
+    *support == End::Free
+}
+
+impl BeamPoint {
+    /// The point in the terms of the structure crate.
+    pub(super) fn descriptor(&self) -> linear::BeamPoint {
+        linear::BeamPoint {
+            name: self.name.clone(),
+            at: self.at_m,
+            mass: self.mass_kg,
+            rotary_inertia: self.rotary_inertia_kg_m2,
+            spring: self.spring_n_m,
+            damper: self.damper_n_s_m,
+            rotational_spring: self.rotational_spring_n_m_rad,
+            rotational_damper: self.rotational_damper_n_m_s_rad,
+            support: self.support.descriptor(),
+        }
+    }
+}
+
+pub(super) fn read(
+    table: &Table<'_>,
+    reading: &Reading,
+    length_m: Option<f64>,
+    names: &mut Names,
+) -> Option<Vec<BeamPoint>> {
+    let before = reading.count();
+    let points = table.tables("point");
+    let read: Vec<BeamPoint> =
+        points.into_iter().filter_map(|point| read_point(point, length_m, names)).collect();
+    (reading.count() == before).then_some(read)
+}
+
+fn read_point(table: Table<'_>, length_m: Option<f64>, names: &mut Names) -> Option<BeamPoint> {
+    let name = read_name(&table, names);
+    let at = table.required("at_m").and_then(|value| read_position(&value, length_m));
+    let added = |key, quantity| table.optional(key).map_or(Some(0.0), |value| value.number(quantity));
+    let mass = added("mass_kg", &quantity::ADDED_MASS);
+    let inertia = added("rotary_inertia_kg_m2", &quantity::ROTARY_INERTIA);
+    let spring = added("spring_n_m", &quantity::ADDED_STIFFNESS);
+    let damper = added("damper_n_s_m", &quantity::DAMPER);
+    let rotational_spring = added("rotational_spring_n_m_rad", &quantity::ROTATIONAL_STIFFNESS);
+    let rotational_damper = added("rotational_damper_n_m_s_rad", &quantity::ROTATIONAL_DAMPER);
+    let support = table.optional("support").map_or(Some(End::Free), |value| value.choice(&END_KINDS));
+    table.finish();
+    Some(BeamPoint {
+        name: name?,
+        at_m: at?,
+        mass_kg: mass?,
+        rotary_inertia_kg_m2: inertia?,
+        spring_n_m: spring?,
+        damper_n_s_m: damper?,
+        rotational_spring_n_m_rad: rotational_spring?,
+        rotational_damper_n_m_s_rad: rotational_damper?,
+        support: support?,
+    })
+}
+
+fn read_position(value: &Value<'_>, length_m: Option<f64>) -> Option<f64> {
+    let at = value.number(&quantity::POSITION)?;
+    match length_m {
+        Some(length) if at > length => {
+            let help = format!("allowed: 0 to {length} m, the length of the beam");
+            value.problem(format!("`at_m` is {at} m, which is off the beam"), vec![help]);
+            None
+        }
+        _ => Some(at),
+    }
+}

@@ -1,0 +1,154 @@
+//! `section` of a beam: a rectangle, a rod, a tube, or any form by its constants.
+
+use hammerbeam_structure::Section as LinearSection;
+use serde::Serialize;
+
+use crate::document::{Table, Value, quantity};
+
+/// Cross-section of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Section {
+    /// Area [m^2].
+    pub area_m2: f64,
+    /// Second moment of area about the axis of bending [m^4].
+    pub second_moment_m4: f64,
+    /// Shear coefficient, of a beam with shear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_coefficient: Option<f64>,
+}
+
+/// A section as it is given: its form, and its shear coefficient where it has one of its own.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GivenSection {
+    form: LinearSection,
+    shear_coefficient: Option<f64>,
+}
+
+impl GivenSection {
+    /// The section in a material of that Poisson ratio, if it has shear.
+    pub(super) fn with_poisson_ratio(self, poisson_ratio: Option<f64>) -> Section {
+        let of_form = |ratio| self.shear_coefficient.or_else(|| self.form.shear_coefficient(ratio));
+        Section {
+            area_m2: self.form.area(),
+            second_moment_m4: self.form.second_moment(),
+            shear_coefficient: poisson_ratio.and_then(of_form),
+        }
+    }
+}
+
+/// The forms of a section, each with its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Rectangle,
+    Round,
+    General,
+}
+
+const FORMS: [(Form, [&str; 2]); 3] = [
+    (Form::Rectangle, ["width_m", "height_m"]),
+    (Form::Round, ["outer_diameter_m", "wall_m"]),
+    (Form::General, ["area_m2", "second_moment_m4"]),
+];
+
+/// The accepted forms, in words.
+pub(super) fn forms() -> Vec<String> {
+    vec![
+        "allowed: { width_m, height_m } of a rectangle, { outer_diameter_m } of a rod, { outer_diameter_m, \
+         wall_m } of a tube, or { area_m2, second_moment_m4 }"
+            .to_owned(),
+        "with units: { width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", second_moment = \
+         \"20 mm^4\" }"
+            .to_owned(),
+    ]
+}
+
+/// Reads a section.
+///
+/// * `length_m`: of the beam, which has to be slender.
+/// * `has_shear`: whether the beam needs the shear coefficient.
+pub(super) fn read(value: &Value<'_>, length_m: Option<f64>, has_shear: bool) -> Option<GivenSection> {
+    let table = value.table_with_help(forms())?;
+    let is_given = |(_, keys): &&(Form, [&'static str; 2])| keys.iter().any(|key| table.has(key));
+    let given: Vec<Form> = FORMS.iter().filter(is_given).map(|(form, _)| *form).collect();
+    let form = match given[..] {
+        [Form::Rectangle] => read_rectangle(&table, length_m),
+        [Form::Round] => read_round(&table, length_m),
+        [Form::General] => read_general(&table),
+        _ => {
+            for key in FORMS.into_iter().flat_map(|(_, keys)| keys) {
+                table.optional(key);
+            }
+            let found = if given.is_empty() { "has none" } else { "is a mix" };
+            value.problem(format!("`section` {found} of the accepted forms"), forms());
+            None
+        }
+    };
+    let coefficient = read_coefficient(&table, has_shear, given[..] == [Form::General]);
+    table.finish();
+    Some(GivenSection { form: form?, shear_coefficient: coefficient? })
+}
+
+/// The shear coefficient: asked for where the form does not have one.
+fn read_coefficient(table: &Table<'_>, has_shear: bool, is_needed: bool) -> Option<Option<f64>> {
+    const KEY: &str = "shear_coefficient";
+    if !has_shear {
+        return without_shear(table, KEY).then_some(None);
+    }
+    let value = if is_needed { Some(table.required(KEY)?) } else { table.optional(KEY) };
+    value.map_or(Some(None), |value| value.number(&quantity::SHEAR_COEFFICIENT).map(Some))
+}
+
+/// Refuses a key of beams with shear; whether it is not there.
+pub(super) fn without_shear(table: &Table<'_>, key: &'static str) -> bool {
+    if !table.has(key) {
+        return true;
+    }
+    table.optional(key);
+    let help = vec!["allowed: only with `theory = \"timoshenko\"` in [structure]".to_owned()];
+    table.problem(key, format!("`{key}` is given for a beam without shear"), help);
+    false
+}
+
+fn read_general(table: &Table<'_>) -> Option<LinearSection> {
+    let area = table.required_with_help("area_m2", forms()).and_then(|value| value.number(&quantity::AREA));
+    let moment = table
+        .required_with_help("second_moment_m4", forms())
+        .and_then(|value| value.number(&quantity::SECOND_MOMENT));
+    LinearSection::general(area?, moment?).ok()
+}
+
+fn read_rectangle(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSection> {
+    let width = table.required_with_help("width_m", forms()).and_then(|value| value.number(&quantity::WIDTH));
+    let height =
+        table.required_with_help("height_m", forms()).and_then(|value| value.number(&quantity::HEIGHT));
+    let (width, height) = (width?, height?);
+    is_slender(table, "height_m", height, length_m?).then_some(())?;
+    LinearSection::rectangle(width, height).ok()
+}
+
+fn read_round(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSection> {
+    let outer = table
+        .required_with_help("outer_diameter_m", forms())
+        .and_then(|value| value.number(&quantity::WIDTH));
+    let wall = table.optional("wall_m").map_or(Some(None), |value| value.number(&quantity::WIDTH).map(Some));
+    let (outer, wall) = (outer?, wall?);
+    is_slender(table, "outer_diameter_m", outer, length_m?).then_some(())?;
+    let Some(wall) = wall else { return LinearSection::round(outer).ok() };
+    if 2.0 * wall >= outer {
+        let half = outer / 2.0;
+        let help = format!("allowed: less than {half} m, half of the diameter; without `wall_m` it is a rod");
+        table.problem("wall_m", format!("`wall_m` is {wall} m"), vec![help]);
+        return None;
+    }
+    LinearSection::tube(outer, wall).ok()
+}
+
+/// Whether a beam is at least twice as long as high; noted where it is not.
+fn is_slender(table: &Table<'_>, key: &'static str, height: f64, length: f64) -> bool {
+    let is_slender = 2.0 * height <= length;
+    if !is_slender {
+        let help = format!("allowed: at most half of the length, {length} m; beam theory needs slenderness");
+        table.problem(key, format!("`{key}` is {height} m"), vec![help]);
+    }
+    is_slender
+}

@@ -1,0 +1,134 @@
+//! Matrices of a study in the terms of the structure crate.
+
+use std::path::Path;
+
+use hammerbeam_matrices::{ComponentFiles, MatrixFile, MatrixFormat, Nodes, read_component, read_nodes};
+use hammerbeam_structure::{
+    self as linear, Along, Direction, MatrixComponent, MatrixPoint, MatrixSupport, PointPlace, RowSet,
+    SupportRows,
+};
+
+use super::entries::{
+    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    PointPlaceEntry, RowSetEntry,
+};
+
+/// Why the files of a study make no structure: the key to blame, and what is wrong.
+#[derive(Debug)]
+pub(crate) struct MatrixProblem {
+    /// Key path below `structure`.
+    pub key: &'static str,
+    /// What is wrong, with file and place.
+    pub message: String,
+}
+
+impl Matrices {
+    /// All files, each as often as it is named.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &InputFile> {
+        let entries = self.components.iter().flat_map(|files| {
+            [Some(&files.stiffness), Some(&files.mass), files.damping.as_ref()]
+                .into_iter()
+                .flatten()
+                .map(|entry| &entry.file)
+                .chain(&files.dofs)
+        });
+        entries.chain(&self.nodes)
+    }
+
+    /// The matrices in the terms of the structure crate.
+    ///
+    /// # Errors
+    /// What a file has wrong, with its place.
+    pub(crate) fn descriptor(&self) -> Result<linear::Matrices, MatrixProblem> {
+        let components: Result<Vec<MatrixComponent>, MatrixProblem> =
+            self.components.iter().map(MatrixFiles::read).collect();
+        let nodes = match &self.nodes {
+            None => Nodes::new(),
+            Some(file) => {
+                let nodes = read_nodes(&file.path);
+                nodes.map_err(|error| MatrixProblem { key: "nodes", message: error.to_string() })?
+            }
+        };
+        let factor = self.length_factor;
+        Ok(linear::Matrices {
+            components: components?,
+            nodes: nodes.into_iter().map(|(node, place)| (node, place.map(|part| factor * part))).collect(),
+            points: self.points.iter().map(MatrixPointEntry::descriptor).collect(),
+            supports: self.supports.iter().map(MatrixSupportEntry::descriptor).collect(),
+            fixed: self.fixed.iter().map(RowSetEntry::descriptor).collect(),
+            acceleration: self.acceleration_direction,
+            memory_limit_bytes: (1e9 * self.memory_gb) as u64,
+        })
+    }
+}
+
+impl MatrixFiles {
+    fn read(&self) -> Result<MatrixComponent, MatrixProblem> {
+        let file = |entry: &MatrixEntry| MatrixFile {
+            path: entry.file.path.clone(),
+            matrix: entry.matrix.clone(),
+            factor: entry.factor,
+        };
+        let files = ComponentFiles {
+            name: self.name.clone(),
+            format: self.format.as_deref().and_then(MatrixFormat::named),
+            stiffness: file(&self.stiffness),
+            mass: file(&self.mass),
+            damping: self.damping.as_ref().map(file),
+            labels: self.dofs.as_ref().map(|dofs| dofs.path.clone()),
+        };
+        read_component(&files).map_err(|error| {
+            let is = |path: &Path| error.path == path;
+            let key = if is(&self.stiffness.file.path) {
+                "stiffness"
+            } else if is(&self.mass.file.path) {
+                "mass"
+            } else if self.dofs.as_ref().is_some_and(|dofs| is(&dofs.path)) {
+                "dofs"
+            } else {
+                "damping"
+            };
+            MatrixProblem { key, message: error.to_string() }
+        })
+    }
+}
+
+impl MatrixPointEntry {
+    fn descriptor(&self) -> MatrixPoint {
+        let place = match &self.place {
+            PointPlaceEntry::Label(name) => PointPlace::Name(name.clone()),
+            PointPlaceEntry::Row { component, row } => {
+                PointPlace::Row { component: *component, row: *row as usize - 1 }
+            }
+            PointPlaceEntry::Node { node, direction } => PointPlace::Node {
+                node: i64::from(*node),
+                along: match direction {
+                    DirectionEntry::Vector(vector) => Along::Vector(*vector),
+                    DirectionEntry::Named(name) => Along::Row(direction_of(name)),
+                },
+            },
+        };
+        MatrixPoint { name: self.name.clone(), place }
+    }
+}
+
+impl RowSetEntry {
+    fn descriptor(&self) -> RowSet {
+        RowSet {
+            rows: self.rows.iter().map(|&row| row as usize - 1).collect(),
+            nodes: self.nodes.iter().flat_map(|&[first, last]| i64::from(first)..=i64::from(last)).collect(),
+            directions: self.directions.iter().map(|name| direction_of(name)).collect(),
+        }
+    }
+}
+
+impl MatrixSupportEntry {
+    fn descriptor(&self) -> MatrixSupport {
+        let rows = self.rows.as_ref().map_or(SupportRows::Base, |rows| SupportRows::Of(rows.descriptor()));
+        MatrixSupport { name: self.name.clone(), rows, along: self.direction }
+    }
+}
+
+fn direction_of(name: &str) -> Direction {
+    Direction::named(name).expect("directions are checked on reading")
+}

@@ -1,0 +1,73 @@
+//! `[structure]` of kind "matrices": stiffness and mass of a finite element program, from files.
+
+mod descriptor;
+mod direction;
+mod entries;
+mod files;
+mod points;
+
+use crate::document::{Reading, Table, quantity};
+
+use super::names::Names;
+
+pub(crate) use descriptor::MatrixProblem;
+pub use entries::{
+    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    PointPlaceEntry, RowSetEntry,
+};
+
+use direction::read_vector;
+use files::{optional_file, read_components, read_factor};
+use points::{read_point, read_rows, read_support};
+
+/// Memory [GB] that the factors of the matrices may take, unless the study says so.
+const MEMORY_GB: f64 = 4.0;
+
+pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Matrices> {
+    let before = reading.count();
+    names.add_supports();
+    let components = read_components(table, reading);
+    let known: Vec<String> = components.iter().flatten().map(|component| component.name.clone()).collect();
+    let nodes = optional_file(table, "nodes", reading);
+    let length_factor = read_factor(table, "length_factor");
+    let points: Vec<Option<MatrixPointEntry>> =
+        table.tables("point").into_iter().map(|point| read_point(point, &known, names)).collect();
+    let supports: Vec<Option<MatrixSupportEntry>> =
+        table.tables("support").into_iter().map(|support| read_support(support, names)).collect();
+    let fixed: Vec<Option<RowSetEntry>> = table
+        .tables("fixed")
+        .into_iter()
+        .map(|fixed| {
+            let set = read_rows(&fixed, true);
+            fixed.finish();
+            set
+        })
+        .collect();
+    let acceleration = table.optional("acceleration_direction").map(|value| read_vector(&value));
+    let memory_gb =
+        table.optional("memory_gb").map_or(Some(MEMORY_GB), |value| value.number(&quantity::MEMORY_GB));
+    let points: Option<Vec<MatrixPointEntry>> = points.into_iter().collect();
+    let mut points = points?;
+    if points.is_empty() && reading.count() == before {
+        // Something has to be observed: the first row, unless the study names points.
+        names.add_point("row 1");
+        points.push(MatrixPointEntry {
+            name: "row 1".into(),
+            place: PointPlaceEntry::Row { component: 0, row: 1 },
+        });
+    }
+    let matrices = Matrices {
+        components: components?,
+        nodes: nodes?,
+        length_factor: length_factor?,
+        points,
+        supports: supports.into_iter().collect::<Option<_>>()?,
+        fixed: fixed.into_iter().collect::<Option<_>>()?,
+        acceleration_direction: match acceleration {
+            None => None,
+            Some(given) => Some(given?),
+        },
+        memory_gb: memory_gb?,
+    };
+    (reading.count() == before).then_some(matrices)
+}
