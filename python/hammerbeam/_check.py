@@ -50,9 +50,13 @@ def phase(name: str, value: Any) -> float:
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
     """A whole number in a range."""
+    must = f"must be a whole number from {low} to {high}"
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, SupportsIndex):
-        raise BadInput(f"{name}: found {value!r}, must be a whole number from {low} to {high}")
-    found = value.__index__()
+        raise BadInput(f"{name}: found {value!r}, {must}")
+    try:
+        found = value.__index__()
+    except TypeError:
+        raise BadInput(f"{name}: found {value!r}, {must}") from None
     if not low <= found <= high:
         raise BadInput(f"{name}: {found} is not in {low}..={high}")
     return found
@@ -82,12 +86,21 @@ def optional_folder(name: str, value: Any) -> Path | None:
     return None if value is None else folder(name, value)
 
 
+def word(name: str, value: str) -> str:
+    """A text that is Unicode."""
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise BadInput(f"{name}: found {value!r}, must be Unicode") from None
+    return value
+
+
 def words(name: str, value: Any) -> list[str]:
     """A word or several."""
     if isinstance(value, str):
-        return [value]
-    if isinstance(value, Sequence) and all(isinstance(word, str) for word in value):
-        return [str(word) for word in value]
+        return [word(name, value)]
+    if isinstance(value, Sequence) and all(isinstance(one, str) for one in value):
+        return [word(name, one) for one in value]
     raise BadInput(f"{name}: found {value!r}, must be a word or a list of words")
 
 
@@ -105,9 +118,9 @@ def numbers(name: str, value: Any) -> list[float]:
 def initial(value: Any) -> str:
     """A state, in the words of `--initial`."""
     if isinstance(value, str):
-        return value
+        return word("initial", value)
     if isinstance(value, Mapping):
-        return ",".join(f"{key}={number('initial', entry)!r}" for key, entry in value.items())
+        return word("initial", ",".join(f"{key}={number('initial', entry)!r}" for key, entry in value.items()))
     array = vector("initial", value)
     return ",".join(repr(float(entry)) for entry in array)
 

@@ -13,11 +13,11 @@ NATIVE = ("csv", "json", "npz")
 
 
 def checked(format: Any) -> str:
-    """A format that is written by Hammerbeam itself."""
-    if format not in NATIVE:
-        allowed = ", ".join((*NATIVE, *WRITERS))
-        raise BadInput(f"there is no format {format!r}; allowed: {allowed}")
-    return str(format)
+    """A format that can be written."""
+    known = (*NATIVE, *WRITERS)
+    if not isinstance(format, str) or format not in known:
+        raise BadInput(f"there is no format {format!r}; allowed: {', '.join(known)}")
+    return format
 
 
 def write(tables: Mapping[str, Array], format: str, folder: Path, name: str) -> list[Path]:
@@ -41,7 +41,9 @@ def _columns(rows: Array) -> dict[str, Any]:
         word = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in name)
         return word if word[:1].isalpha() else f"x{word}"
 
-    words = lambda values: values.astype(object) if values.dtype.kind == "U" else values
+    def words(values: Array) -> Array:
+        return values.astype(object) if values.dtype.kind == "U" else values
+
     return {plain(name): words(rows[name]) for name in rows.dtype.names or ()}
 
 

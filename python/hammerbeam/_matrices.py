@@ -79,5 +79,9 @@ def _entries(name: str, matrix: Any) -> Entries:
         raise BadInput(f"{name}: found an array of shape {tuple(shape)}, must be a square matrix")
     if np.asarray(values).dtype.kind not in "iuf":
         raise BadInput(f"{name}: found an array of {np.asarray(values).dtype}, must be real numbers")
-    little = lambda array, kind: np.ascontiguousarray(array, dtype=kind)
-    return int(shape[0]), little(rows, "<i8"), little(columns, "<i8"), little(values, "<f8")
+    return (
+        int(shape[0]),
+        np.ascontiguousarray(rows, dtype="<i8"),
+        np.ascontiguousarray(columns, dtype="<i8"),
+        np.ascontiguousarray(values, dtype="<f8"),
+    )

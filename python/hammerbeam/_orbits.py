@@ -83,8 +83,9 @@ class Orbit:
     @property
     def multipliers(self) -> np.ndarray[Any, np.dtype[np.complex128]]:
         """All Floquet multipliers, the largest first."""
-        values = np.array(self._row["multipliers"])
-        return values[~np.isnan(values)]
+        values: np.ndarray[Any, np.dtype[np.complex128]] = np.array(self._row["multipliers"])
+        known: np.ndarray[Any, np.dtype[np.complex128]] = values[~np.isnan(values)]
+        return known
 
     @cached_property
     def nodes(self) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -103,8 +104,8 @@ class Orbit:
         return array(self._orbits.waveform(self._index, count))
 
     def plot(self, ax: Any = None, point: str | None = None) -> Any:
-        """Draws the displacement of a point over the period, with matplotlib."""
-        return _plot.orbit(self.waveform(), self, point, ax)
+        """Draws the displacement of a point, the response point by default, over the period, with matplotlib."""
+        return _plot.orbit(self.waveform(), self, self._orbits.response_point if point is None else point, ax)
 
     def __repr__(self) -> str:
         size = f"{self.max_abs_displacement_m:.6e} m"

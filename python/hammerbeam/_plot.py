@@ -74,10 +74,9 @@ def _with_next(stable: Array, wanted: bool) -> Array:
     return found
 
 
-def orbit(waveform: Array, solution: Any, point: str | None, ax: Any) -> Any:
+def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
     """Displacement over a period."""
     names = [name.removesuffix("_displacement_m") for name in waveform.dtype.names or () if name.endswith("_displacement_m")]
-    point = names[-1] if point is None else point
     if point not in names:
         raise BadInput(f"there is no point {point!r}; allowed: {', '.join(names)}")
     ax = _framed(_axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")

@@ -149,11 +149,11 @@ class Results:
         * `states`: also states and multipliers of every solution.
         """
         folder = self.folder / "export" if out is None else _check.folder("out", out)
-        if format in _export.WRITERS:
+        if _export.checked(format) in _export.WRITERS:
             names = ["branches", "events", "ends", *(["states"] if states else []), "varied", "motions"]
             tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
             return _export.write(tables, format, folder, "results")
-        return [Path(path) for path in self._native.export(_export.checked(format), folder, bool(states))]
+        return [Path(path) for path in self._native.export(format, folder, bool(states))]
 
     def export_orbits(
         self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
@@ -161,11 +161,11 @@ class Results:
         """Writes orbits with their motion at all points, states and multipliers, in the formats of `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
-        if format in _export.WRITERS:
+        if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
             return _export.write(tables, format, folder, "orbits")
         native = orbits._native
-        return [Path(path) for path in NativeResults.export_orbits(native, _export.checked(format), folder, count)]
+        return [Path(path) for path in NativeResults.export_orbits(native, format, folder, count)]
 
     def close(self) -> None:
         """Lets the folder go; asked for anything afterwards it raises `ClosedResults`."""

@@ -417,4 +417,4 @@ def _axis(name: str, axis: Any) -> tuple[str, float, float]:
         raise BadInput(f"{name}: must be numbers from -1e100 to 1e100")
     if high <= low:
         raise BadInput(f"{name}: the range {low}..{high} is empty; LOW must be below HIGH")
-    return coordinate, low, high
+    return _check.word(name, coordinate), low, high

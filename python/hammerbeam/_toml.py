@@ -14,7 +14,7 @@ def study_text(tables: Mapping[str, Any]) -> str:
     """TOML of nested dictionaries; tables within tables stand in one line."""
     if not isinstance(tables, Mapping):
         raise BadInput(f"found {tables!r}, must be a dictionary with the tables of a study")
-    plain, below = [], []
+    plain, below = list[str](), list[str]()
     for key, value in tables.items():
         if value is None:
             continue
@@ -29,7 +29,7 @@ def study_text(tables: Mapping[str, Any]) -> str:
 
 def _table(head: str, table: Mapping[str, Any], name: str) -> str:
     """A table with its lists of tables below it."""
-    lines, below = [head + "\n"], []
+    lines, below = [head + "\n"], list[str]()
     for key, value in table.items():
         path = f"{name}.{key}"
         if value is None:

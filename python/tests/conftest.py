@@ -26,7 +26,7 @@ def duffing() -> hammerbeam.Study:
 def folder(duffing: hammerbeam.Study, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The results of the Duffing oscillator."""
     out = tmp_path_factory.mktemp("results") / "duffing"
-    duffing.run(out, progress=False).close()
+    duffing.run(out, progress=False, figures=False).close()
     return out
 
 

@@ -48,36 +48,37 @@ def test_faults_of_a_study_are_those_of_the_command(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "call"),
+    ("arguments", "call", "words"),
     [
-        (["orbit", "S", "--frequency", "0.25", "--period-multiple", "65"], lambda s: s.orbits(0.25, 65)),
-        (["lyapunov", "S", "--frequency", "0.25", "--to", "0.2"], lambda s: s.lyapunov(0.25, 0.2)),
-        (["lyapunov", "S", "--frequency", "0.25", "--periods", "3"], lambda s: s.lyapunov(0.25, periods=3)),
-        (["simulate", "S", "--frequency", "0.25", "--initial", "1,2,3"], lambda s: s.simulate(0.25, initial=[1, 2, 3])),
-        (["simulate", "S", "--frequency", "0.25", "--initial", "what"], lambda s: s.simulate(0.25, initial="what")),
-        (["basins", "S", "--frequency", "0.25", "--x", "q1=-1..1", "--y", "q7=-1..1"],
-         lambda s: s.basins(0.25, ("q1", -1, 1), ("q7", -1, 1))),
-    ],
+        ("orbit S --frequency 0.25 --period-multiple 65", lambda s: s.orbits(0.25, 65), "65 is not in 1..=64"),
+        ("orbit S --frequency nan", lambda s: s.orbits(float("nan")), "must be a number of hertz from 1e-10 to 1e10"),
+        ("lyapunov S --frequency 0.25 --to 0.2", lambda s: s.lyapunov(0.25, 0.2), "0.2 Hz, which is below"),
+        ("lyapunov S --frequency 0.25 --periods 3", lambda s: s.lyapunov(0.25, periods=3), "3 is not in 20..=100000000"),
+        ("simulate S --frequency 0.25 --initial 1,2,3", lambda s: s.simulate(0.25, initial=[1, 2, 3]), "found 3 number(s)"),
+        ("simulate S --frequency 0.25 --initial what", lambda s: s.simulate(0.25, initial="what"), 'found "what"; allowed'),
+        ("basins S --frequency 0.25 --x q1=-1..1 --y q7=-1..1",
+         lambda s: s.basins(0.25, ("q1", -1, 1), ("q7", -1, 1)), 'allowed: q1 to q1, v1 to v1'),
+    ],  # fmt: skip
 )
 def test_words_and_exit_codes_are_those_of_the_command(
-    duffing: Study, arguments: list[str], call: Callable[[Study], Any]
+    duffing: Study, arguments: str, call: Callable[[Study], Any], words: str
 ) -> None:
     with pytest.raises(BadInput) as raised:
         call(duffing)
+    assert words in str(raised.value)
     if (program := command()) is None:
         pytest.skip("the command is not built")
-    line = [str(STUDIES / "duffing.toml") if word == "S" else word for word in arguments]
+    line = [str(STUDIES / "duffing.toml") if word == "S" else word for word in arguments.split()]
     told = subprocess.run([program, *line], capture_output=True, text=True)
     assert told.returncode == raised.value.exit_code == 2
-    # What is behind the name of what was given.
-    assert str(raised.value).split(": ", 1)[-1].split(";")[0] in " ".join(told.stderr.split())
+    assert words in " ".join(told.stderr.split())
 
 
 def test_an_unsymmetric_matrix_is_refused_with_file_and_line() -> None:
     mass, stiffness = chain(4)
     stiffness[0, 1] = 7.0
     with pytest.raises(hammerbeam.StudyError, match="K.mtx") as raised:
-        Study.from_matrices(mass, stiffness, points={"tip": 3})
+        Study.from_matrices(mass, stiffness, points={"tip": 3}, reduction={"method": "none"})
     assert "symmetric" in str(raised.value)
 
 
@@ -96,7 +97,7 @@ def test_an_unsymmetric_matrix_is_refused_with_file_and_line() -> None:
 )
 def test_matrices_that_are_none(mass: Any, stiffness: Any, words: str) -> None:
     with pytest.raises(HammerbeamError, match=words):
-        Study.from_matrices(mass, stiffness, points={"tip": 0})
+        Study.from_matrices(mass, stiffness, points={"tip": 0}, reduction={"method": "none"})
 
 
 def test_a_closed_folder_raises_and_other_results_go_on(folder: Path) -> None:
@@ -139,7 +140,7 @@ def test_errors_carry_their_numbers(duffing: Study) -> None:
 
 
 def test_a_warning_is_one() -> None:
-    tables = {**OSCILLATOR, "structure": {
+    tables: dict[str, Any] = {**OSCILLATOR, "structure": {
         "kind": "lumped",
         "mass": [{"name": "mass", "mass_kg": 1.0}],
         "damper": [{"between": ["mass", "ground"], "damping_n_s_m": 0.1}],
@@ -191,7 +192,7 @@ def test_thousands_of_bad_calls_raise_and_abort_nothing(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     pick = random.Random(1)
-    fast = {"progress": False}
+    fast: dict[str, Any] = {"progress": False}
     calls: list[tuple[Callable[..., Any], int]] = [
         (Study.read, 1), (Study.parse, 2), (Study.from_dict, 2),
         (lambda m, k, c, p: Study.from_matrices(m, k, c, points=p), 4),

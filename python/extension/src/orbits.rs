@@ -39,6 +39,12 @@ impl NativeOrbits {
         self.orbits.len()
     }
 
+    /// Name of the response point.
+    #[getter]
+    fn response_point(&self) -> &str {
+        &self.study.file.study.response.point
+    }
+
     /// One row for each.
     fn table<'py>(&self, py: Python<'py>) -> PackedTable<'py> {
         packed(py, &orbit_table(&self.orbits))
