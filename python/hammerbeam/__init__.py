@@ -1,7 +1,8 @@
 """Steady-state vibration of structures with impacts.
 
-A `Study` says what a structure is and what shakes it. Its methods do what the commands of `hammerbeam` do, and give
-NumPy arrays; `Results` reads a results folder. Units are SI, frequencies are in hertz where a name ends in `_hz`.
+A `Study` says what a structure is and what shakes it. Its methods do what the commands of `hammerbeam` do,
+and give NumPy arrays; `Results` reads a results folder. Units are SI, frequencies are in hertz where a name
+ends in `_hz`.
 
     import hammerbeam
 

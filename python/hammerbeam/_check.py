@@ -120,7 +120,9 @@ def initial(value: Any) -> str:
     if isinstance(value, str):
         return word("initial", value)
     if isinstance(value, Mapping):
-        return word("initial", ",".join(f"{key}={number('initial', entry)!r}" for key, entry in value.items()))
+        return word(
+            "initial", ",".join(f"{key}={number('initial', entry)!r}" for key, entry in value.items())
+        )
     array = vector("initial", value)
     return ",".join(repr(float(entry)) for entry in array)
 

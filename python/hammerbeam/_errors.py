@@ -1,7 +1,7 @@
 """Exceptions: one tree, with the names and the numbers of the errors in Rust.
 
-`BadInput` is what exit code 2 of the command is, `NoResult` what 1 is. A class below them that can be either, such as
-`StoreError`, says which by its `exit_code`.
+`BadInput` is what exit code 2 of the command is, `NoResult` what 1 is. A class below them that can be
+either, such as `StoreError`, says which by its `exit_code`.
 """
 
 from collections.abc import Mapping

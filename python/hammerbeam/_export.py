@@ -56,7 +56,10 @@ def _parquet(tables: Mapping[str, Array], folder: Path, name: str) -> list[Path]
         for column in rows.dtype.names or ():
             values = rows[column]
             if values.dtype.kind == "c":
-                columns[f"{column}_re"], columns[f"{column}_im"] = _lists(arrow, values.real), _lists(arrow, values.imag)
+                columns[f"{column}_re"], columns[f"{column}_im"] = (
+                    _lists(arrow, values.real),
+                    _lists(arrow, values.imag),
+                )
             else:
                 columns[column] = _lists(arrow, values)
         path = folder / f"{table}.parquet"
@@ -91,4 +94,3 @@ WRITERS: dict[str, Callable[[Mapping[str, Array], Path, str], list[Path]]] = {
     "parquet": _parquet,
     "hdf5": _hdf5,
 }
-

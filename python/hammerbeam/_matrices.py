@@ -44,7 +44,9 @@ def write_bundle(
     folder.mkdir(parents=True, exist_ok=True)
     for name, (rows, lines, columns, values) in entries.items():
         shape = (rows, rows)
-        _native.write_matrix(folder / f"{name}.mtx", shape, lines.tobytes(), columns.tobytes(), values.tobytes())
+        _native.write_matrix(
+            folder / f"{name}.mtx", shape, lines.tobytes(), columns.tobytes(), values.tobytes()
+        )
     path = folder / "study.toml"
     path.write_text(text, encoding="utf-8")
     return path

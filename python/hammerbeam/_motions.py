@@ -13,8 +13,8 @@ class Motion:
     """A motion in time.
 
     * `report`: it in few numbers, as `simulate --json` says.
-    * `samples`, `contacts`, `section`: structured arrays with the columns of `samples.csv`, `contacts.csv` and
-      `stroboscopic.csv`; the modal state of the section is one column `state`.
+    * `samples`, `contacts`, `section`: structured arrays with the columns of `samples.csv`, `contacts.csv`
+      and `stroboscopic.csv`; the modal state of the section is one column `state`.
     """
 
     def __init__(self, report: Mapping[str, Any], tables: Mapping[str, Array]) -> None:
@@ -28,7 +28,8 @@ class Motion:
         return _plot.motion(self.samples, ax)
 
     def __repr__(self) -> str:
-        return f"<Motion {self.report['time_s']:.6g} s, {len(self.samples)} samples, {len(self.contacts)} contacts>"
+        counts = f"{len(self.samples)} samples, {len(self.contacts)} contacts"
+        return f"<Motion {self.report['time_s']:.6g} s, {counts}>"
 
 
 class Sweep:
@@ -76,15 +77,20 @@ class Exponents:
     """Spectra of Lyapunov exponents.
 
     * `report`: as `lyapunov --json` says of a series.
-    * `frequency_hz`, `exponents_per_s`, `half_widths_per_s`, `kaplan_yorke_dimension`: one row for each frequency.
+    * `frequency_hz`, `exponents_per_s`, `half_widths_per_s`, `kaplan_yorke_dimension`: one row for each
+      frequency.
     """
 
     def __init__(self, report: Mapping[str, Any]) -> None:
         self.report = report
         spectra = report["spectra"]
         # Minus infinity, of directions that a rigid stop takes for good, is null in JSON.
-        exponents = [[-np.inf if one is None else one for one in spectrum["exponents_per_s"]] for spectrum in spectra]
-        widths = [[np.nan if one is None else one for one in spectrum["half_widths_per_s"]] for spectrum in spectra]
+        exponents = [
+            [-np.inf if one is None else one for one in spectrum["exponents_per_s"]] for spectrum in spectra
+        ]
+        widths = [
+            [np.nan if one is None else one for one in spectrum["half_widths_per_s"]] for spectrum in spectra
+        ]
         self.frequency_hz = np.array([spectrum["frequency_hz"] for spectrum in spectra])
         self.exponents_per_s = np.array(exponents)
         self.half_widths_per_s = np.array(widths)

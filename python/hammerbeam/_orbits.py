@@ -27,15 +27,17 @@ class _Number:
 class Orbit:
     """A periodic solution.
 
-    Numbers are those of a row of the branches; `state` is `[q; q']` in modal coordinates at `phase_cycles` of the
-    excitation, `multipliers` holds all Floquet multipliers, the largest first.
+    Numbers are those of a row of the branches; `state` is `[q; q']` in modal coordinates at `phase_cycles`
+    of the excitation, `multipliers` holds all Floquet multipliers, the largest first.
     """
 
     def __init__(self, orbits: NativeOrbits, index: int, row: Any) -> None:
         self._orbits, self._index, self._row = orbits, index, row
 
     frequency_hz = _Number("frequency_hz", "Excitation frequency [Hz].")
-    max_abs_displacement_m = _Number("max_abs_displacement_m", "Largest displacement of the response point [m].")
+    max_abs_displacement_m = _Number(
+        "max_abs_displacement_m", "Largest displacement of the response point [m]."
+    )
     max_abs_acceleration_m_s2 = _Number("max_abs_acceleration_m_s2", "Its largest acceleration [m/s^2].")
     max_contact_force_n = _Number("max_contact_force_n", "Largest contact force [N].")
     max_impact_velocity_m_s = _Number("max_impact_velocity_m_s", "Largest impact velocity [m/s].")
@@ -104,7 +106,8 @@ class Orbit:
         return array(self._orbits.waveform(self._index, count))
 
     def plot(self, ax: Any = None, point: str | None = None) -> Any:
-        """Draws the displacement of a point, the response point by default, over the period, with matplotlib."""
+        """Draws the displacement of a point, the response point by default, over the period, with
+        matplotlib."""
         return _plot.orbit(self.waveform(), self, self._orbits.response_point if point is None else point, ax)
 
     def __repr__(self) -> str:

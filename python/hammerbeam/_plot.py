@@ -37,7 +37,8 @@ def _framed(ax: Any, x: str, y: str) -> Any:
 
 
 def response(table: Array, quantity: str, ax: Any, title: str) -> Any:
-    """Branches over the frequency: a colour for each period, dashes for unstable solutions, marks for events."""
+    """Branches over the frequency: a colour for each period, dashes for unstable solutions, marks for
+    events."""
     if quantity not in QUANTITIES:
         raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
     column, label = QUANTITIES[quantity]
@@ -54,7 +55,15 @@ def response(table: Array, quantity: str, ax: Any, title: str) -> Any:
         known.add(period)
         for event, mark in MARKS.items():
             at = rows[np.char.find(rows["event"], event) >= 0]
-            ax.plot(at["frequency_hz"], at[column], mark, color=colour, markersize=3, markerfacecolor="white", linestyle="")
+            ax.plot(
+                at["frequency_hz"],
+                at[column],
+                mark,
+                color=colour,
+                markersize=3,
+                markerfacecolor="white",
+                linestyle="",
+            )
     values = table[column]
     positive = values[values > 0]
     if len(positive) == len(values) > 0 and positive.max() > 40 * positive.min():
@@ -76,7 +85,11 @@ def _with_next(stable: Array, wanted: bool) -> Array:
 
 def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
     """Displacement over a period."""
-    names = [name.removesuffix("_displacement_m") for name in waveform.dtype.names or () if name.endswith("_displacement_m")]
+    names = [
+        name.removesuffix("_displacement_m")
+        for name in waveform.dtype.names or ()
+        if name.endswith("_displacement_m")
+    ]
     if point not in names:
         raise BadInput(f"there is no point {point!r}; allowed: {', '.join(names)}")
     ax = _framed(_axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
@@ -98,7 +111,9 @@ def sweep(samples: Array, ax: Any) -> Any:
     for place, origin in enumerate(np.unique(samples["from"])):
         rows = samples[samples["from"] == origin]
         colour = PERIODS[place % len(PERIODS)]
-        ax.plot(rows["frequency_hz"], rows["displacement_m"], ".", color=colour, markersize=2, label=str(origin))
+        ax.plot(
+            rows["frequency_hz"], rows["displacement_m"], ".", color=colour, markersize=2, label=str(origin)
+        )
     return ax
 
 
@@ -109,5 +124,7 @@ def basins(found: Any, ax: Any) -> Any:
     count = max(int(found.cells.max(initial=0)), 1)
     shown = colors.ListedColormap([INK, *(FILLS[k % len(FILLS)] for k in range(count))])
     extent = [found.report[axis][end] for axis in ("x", "y") for end in ("low", "high")]
-    ax.imshow(found.cells, origin="lower", extent=extent, aspect="auto", cmap=shown, vmin=-0.5, vmax=count + 0.5)
+    ax.imshow(
+        found.cells, origin="lower", extent=extent, aspect="auto", cmap=shown, vmin=-0.5, vmax=count + 0.5
+    )
     return ax

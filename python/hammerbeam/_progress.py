@@ -10,10 +10,12 @@ from typing import Any
 from ._errors import HammerbeamWarning, Interrupted
 
 Report = Callable[[float | None, str], None]
-"""Called with the part of the work that is done, 0 to 1, or `None`, and with words that say where the work is."""
+"""Called with the part of the work that is done, 0 to 1, or `None`, and with words that say where the work
+is."""
 
 Progress = bool | None | Report
-"""`True`: shown; `False`: not; `None`: shown where someone looks, a terminal or a notebook; or a function to call."""
+"""`True`: shown; `False`: not; `None`: shown where someone looks, a terminal or a notebook; or a function to
+call."""
 
 _WIDTH = 24
 

@@ -39,8 +39,8 @@ class Page:
 class Results:
     """A results folder, open for reading. Shows itself in a notebook as its response diagram.
 
-    Tables are structured arrays with the columns of the tables of `hammerbeam export`; `hammerbeam.frame` makes data
-    frames of them. `report` is what the run that made it said, if it did.
+    Tables are structured arrays with the columns of the tables of `hammerbeam export`; `hammerbeam.frame`
+    makes data frames of them. `report` is what the run that made it said, if it did.
     """
 
     def __init__(self, folder: AnyPath, *, report: Mapping[str, Any] | None = None) -> None:
@@ -60,8 +60,8 @@ class Results:
         return Study(self._native.study)
 
     def branches(self, branch: Branches = None) -> Array:
-        """One row per solution, end to end along each branch: the columns of `branches.csv`, with `stability` in words
-        beside `stable`."""
+        """One row per solution, end to end along each branch: the columns of `branches.csv`, with
+        `stability` in words beside `stable`."""
         return self._table("branches", branch)
 
     def events(self, branch: Branches = None) -> Array:
@@ -81,7 +81,8 @@ class Results:
         return {packed[0]: array(packed) for packed in self._native.tables("varied", [])}
 
     def motions(self) -> dict[str, Array]:
-        """Tables of motions, sweeps, exponents and basins in the folder, with the numbers of their requests."""
+        """Tables of motions, sweeps, exponents and basins in the folder, with the numbers of their
+        requests."""
         return {packed[0]: array(packed) for packed in self._native.tables("motions", [])}
 
     def orbits(
@@ -91,7 +92,8 @@ class Results:
         branch: Branches = None,
         event: str | Sequence[str] | None = None,
     ) -> Orbits:
-        """Orbits in which branches cross frequencies, and solutions with events such as `"fold"` or `"grazing"`."""
+        """Orbits in which branches cross frequencies, and solutions with events such as `"fold"` or
+        `"grazing"`."""
         frequencies = [] if frequency_hz is None else _check.numbers("frequency_hz", frequency_hz)
         events = [] if event is None else _check.words("event", event)
         return Orbits(self._native.orbits(_numbers(branch), frequencies, events))
@@ -103,7 +105,8 @@ class Results:
         return frame(self.branches(branch))
 
     def plot(self, quantity: str = "displacement", ax: Any = None) -> Any:
-        """Draws the response diagram with matplotlib: `displacement`, `acceleration`, `force` or `velocity`."""
+        """Draws the response diagram with matplotlib: `displacement`, `acceleration`, `force` or
+        `velocity`."""
         return _plot.response(self.branches(), quantity, ax, self._native.study.title)
 
     def draw(
@@ -140,11 +143,9 @@ class Results:
             self.draw(kinds="page", progress=False)
         return Page(path)
 
-    def export(
-        self, format: str = "csv", out: AnyPath | None = None, *, states: bool = False
-    ) -> list[Path]:
-        """Writes everything for other programs: `csv`, `json`, `npz`, `mat` (SciPy), `parquet` (PyArrow) or `hdf5`
-        (h5py), into `export` in the folder by default.
+    def export(self, format: str = "csv", out: AnyPath | None = None, *, states: bool = False) -> list[Path]:
+        """Writes everything for other programs: `csv`, `json`, `npz`, `mat` (SciPy), `parquet` (PyArrow) or
+        `hdf5` (h5py), into `export` in the folder by default.
 
         * `states`: also states and multipliers of every solution.
         """
@@ -158,7 +159,8 @@ class Results:
     def export_orbits(
         self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
     ) -> list[Path]:
-        """Writes orbits with their motion at all points, states and multipliers, in the formats of `export`."""
+        """Writes orbits with their motion at all points, states and multipliers, in the formats of
+        `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
@@ -192,7 +194,8 @@ class Results:
         if self.closed:
             return f"<Results {self.folder}, closed>"
         branches = self._native.branch_rows()
-        return f"<Results {self.folder}: {sum(rows for *_, rows in branches)} solutions on {len(branches)} branches>"
+        solutions = sum(rows for *_, rows in branches)
+        return f"<Results {self.folder}: {solutions} solutions on {len(branches)} branches>"
 
     def _repr_svg_(self) -> str | None:
         return None if self.closed else self.svg()

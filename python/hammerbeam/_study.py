@@ -23,9 +23,9 @@ from ._toml import study_text
 
 AnyPath = str | PathLike[str]
 Initial = str | Mapping[str, float] | Sequence[float] | Array
-"""A state at phase 0: `"rest"`; `"linear"`, the motion without contacts; the numbers of a modal state; `{"tip.y": 1e-3,
-"tip.v": 0.2}` for points in space; or `"branch:3"`, the orbit in which that branch of `results` crosses the
-frequency."""
+"""A state at phase 0: `"rest"`; `"linear"`, the motion without contacts; the numbers of a modal state;
+`{"tip.y": 1e-3, "tip.v": 0.2}` for points in space; or `"branch:3"`, the orbit in which that branch of
+`results` crosses the frequency."""
 
 _MOST_PERIODS = 100_000_000
 
@@ -55,9 +55,10 @@ class Modes:
 class Study:
     """A structure, its stops and its excitation, with the equations of motion that they make.
 
-    Made by `Study.read`, `Study.parse`, `Study.from_dict` or `Study.from_matrices`. Methods do what the commands of the
-    same names do. Each works without the interpreter's lock, shows its progress as `progress` says, and ends on Ctrl-C
-    with `Interrupted`; what was stored in `out` by then is kept, and the same call goes on from there.
+    Made by `Study.read`, `Study.parse`, `Study.from_dict` or `Study.from_matrices`. Methods do what the
+    commands of the same names do. Each works without the interpreter's lock, shows its progress as
+    `progress` says, and ends on Ctrl-C with `Interrupted`; what was stored in `out` by then is kept, and the
+    same call goes on from there.
     """
 
     def __init__(self, native: NativeStudy, bundle: "tempfile.TemporaryDirectory[str] | None" = None) -> None:
@@ -101,13 +102,14 @@ class Study:
     ) -> "Study":
         """A study of a structure given by its matrices, in SI units.
 
-        * `M`, `K`, `C`: mass, stiffness and damping, symmetric, of n rows: arrays, or sparse matrices of SciPy.
+        * `M`, `K`, `C`: mass, stiffness and damping, symmetric, of n rows: arrays, or sparse matrices of
+          SciPy.
         * `points`: rows by names, from 0 on; stops, loads and the response go by these names.
         * `fixed`: rows that are held.
-        * `folder`: where `K.mtx`, `M.mtx`, `C.mtx` and `study.toml` are written; by default somewhere temporary, and
-          with the results of a run into its folder.
-        * `tables`: further tables of the study file: `excitation`, `stop` (a list), `load`, `reduction`, `response`,
-          `title` and so on.
+        * `folder`: where `K.mtx`, `M.mtx`, `C.mtx` and `study.toml` are written; by default somewhere
+          temporary, and with the results of a run into its folder.
+        * `tables`: further tables of the study file: `excitation`, `stop` (a list), `load`, `reduction`,
+          `response`, `title` and so on.
         """
         matrices = {"K": K, "M": M, "C": C}
         if folder is not None:
@@ -181,7 +183,9 @@ class Study:
             raise Interrupted(f"interrupted; {kept}")
         if not found["branches"]:
             low, high = self.range_hz or (0.0, 0.0)
-            raise NoResult(f"no periodic solution was found between {low} Hz and {high} Hz", name="NoBranches")
+            raise NoResult(
+                f"no periodic solution was found between {low} Hz and {high} Hz", name="NoBranches"
+            )
         return Results(folder, report=found)
 
     def orbits(self, frequency_hz: float, period_multiple: int = 1, progress: Progress = None) -> Orbits:
@@ -200,9 +204,8 @@ class Study:
         """
         found = self.orbits(frequency_hz, period_multiple, progress)
         if not found:
-            message = (
-                f"no periodic solution of {period_multiple} excitation period(s) was found at {float(frequency_hz)} Hz"
-            )
+            place = f"{period_multiple} excitation period(s) was found at {float(frequency_hz)} Hz"
+            message = f"no periodic solution of {place}"
             raise NoResult(message + (f"; {found.incomplete}" if found.incomplete else ""), name="NoOrbit")
         return found[0]
 
@@ -224,11 +227,17 @@ class Study:
         """A motion in time: so many periods of the excitation, or a duration of a study without one."""
         forced, free = None, None
         if self.range_hz is None:
-            given = {"frequency_hz": frequency_hz, "periods": periods, "samples_per_period": samples_per_period}
+            given = {
+                "frequency_hz": frequency_hz,
+                "periods": periods,
+                "samples_per_period": samples_per_period,
+            }
             given |= {"transient_periods": transient_periods or None, "section_phase": section_phase or None}
             for name, value in given.items():
                 if value is not None:
-                    message = "the study has no [excitation], so no period; allowed: duration_s and sampling_hz"
+                    message = (
+                        "the study has no [excitation], so no period; allowed: duration_s and sampling_hz"
+                    )
                     raise BadInput(f"{name}: {message}")
             if duration_s is None:
                 raise BadInput("duration_s is missing: the study has no [excitation], so no period to count")
@@ -247,7 +256,13 @@ class Study:
             count = 10 if periods is None else _check.whole("periods", periods, 1, _MOST_PERIODS)
             transient = _check.whole("transient_periods", transient_periods, 0, _MOST_PERIODS)
             samples = 100 if samples_per_period is None else samples_per_period
-            forced = (hertz, transient, count, seconds, _check.whole("samples_per_period", samples, 1, 1_000_000))
+            forced = (
+                hertz,
+                transient,
+                count,
+                seconds,
+                _check.whole("samples_per_period", samples, 1, 1_000_000),
+            )
         start = (_check.phase("section_phase", section_phase), _check.initial(initial))
         stored = _check.optional_folder("results", results)
         place = _check.optional_folder("out", out)
@@ -284,8 +299,8 @@ class Study:
         jobs: int | None = None,
         progress: Progress = None,
     ) -> Sweep:
-        """Settled motions over the frequency, the range of the study by default: each begun where the one before has
-        ended, or, with `starts`, at so many states at every frequency."""
+        """Settled motions over the frequency, the range of the study by default: each begun where the one
+        before has ended, or, with `starts`, at so many states at every frequency."""
         low, high = self.range_hz or (None, None)
         series = _series(low if from_hz is None else from_hz, high if to_hz is None else to_hz, step_hz)
         if starts is not None and (down or not isinstance(initial, str) or initial != "rest"):
@@ -363,7 +378,8 @@ class Study:
         return Basins(found)
 
     def _placed(self, out: Path | None) -> NativeStudy:
-        """The study, with matrices that are somewhere temporary copied to its results, which go on being read."""
+        """The study, with matrices that are somewhere temporary copied to its results, which go on being
+        read."""
         if self._bundle is None or out is None or (out / "results.db").exists():
             return self._native
         folder = out / "structure"
@@ -390,7 +406,9 @@ def _kept(out: Path | None) -> str:
 
 def _series(from_hz: Any, to_hz: Any, step_hz: Any) -> tuple[float, float, float | None]:
     if from_hz is None or to_hz is None:
-        raise BadInput("the study has no [excitation]: without a frequency there are no periodic responses to look for")
+        raise BadInput(
+            "the study has no [excitation]: without a frequency there are no periodic responses to look for"
+        )
     step = None if step_hz is None else _check.frequency("step_hz", step_hz)
     return _check.frequency("from_hz", from_hz), _check.frequency("to_hz", to_hz), step
 

@@ -15,7 +15,12 @@ Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
 def array(packed: Packed) -> Array:
     """Records as a structured array on the same memory."""
     _, fields, rows, data = packed
-    kind = np.dtype([(name, letters) if length is None else (name, letters, (length,)) for name, letters, length in fields])
+    kind = np.dtype(
+        [
+            (name, letters) if length is None else (name, letters, (length,))
+            for name, letters, length in fields
+        ]
+    )
     if rows == 0:
         return np.empty(0, dtype=kind)
     return np.frombuffer(data, dtype=kind)
@@ -24,8 +29,8 @@ def array(packed: Packed) -> Array:
 def frame(table: Array) -> Any:
     """A structured array as a data frame of pandas.
 
-    Columns with several numbers in a row, states and multipliers, become one column for each of them, `state_1` and so
-    on.
+    Columns with several numbers in a row, states and multipliers, become one column for each of them,
+    `state_1` and so on.
     """
     pandas = needed("pandas", "frames")
     columns: dict[str, Any] = {}

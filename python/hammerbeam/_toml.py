@@ -66,11 +66,17 @@ def _value(value: Any, name: str) -> str:
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, Mapping):
-        entries = (f"{_key(key)} = {_value(entry, f'{name}.{key}')}" for key, entry in value.items() if entry is not None)
+        entries = (
+            f"{_key(key)} = {_value(entry, f'{name}.{key}')}"
+            for key, entry in value.items()
+            if entry is not None
+        )
         return "{ " + ", ".join(entries) + " }"
     if isinstance(value, Sequence) and not isinstance(value, bytes):
         return "[" + ", ".join(_value(entry, name) for entry in value) + "]"
-    raise BadInput(f"{name}: found {value!r}, must be a number, a word, true or false, a list or a dictionary")
+    raise BadInput(
+        f"{name}: found {value!r}, must be a number, a word, true or false, a list or a dictionary"
+    )
 
 
 def _text(text: str) -> str:

@@ -13,13 +13,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import hammerbeam
 import numpy as np
 import pytest
 from conftest import ROOT, STUDIES, changed
-from test_study import OSCILLATOR, chain
-
-import hammerbeam
 from hammerbeam import BadInput, HammerbeamError, Results, Study
+from test_study import OSCILLATOR, chain
 
 
 def command() -> Path | None:
@@ -50,14 +49,37 @@ def test_faults_of_a_study_are_those_of_the_command(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "call", "words"),
     [
-        ("orbit S --frequency 0.25 --period-multiple 65", lambda s: s.orbits(0.25, 65), "65 is not in 1..=64"),
-        ("orbit S --frequency nan", lambda s: s.orbits(float("nan")), "must be a number of hertz from 1e-10 to 1e10"),
+        (
+            "orbit S --frequency 0.25 --period-multiple 65",
+            lambda s: s.orbits(0.25, 65),
+            "65 is not in 1..=64",
+        ),
+        (
+            "orbit S --frequency nan",
+            lambda s: s.orbits(float("nan")),
+            "must be a number of hertz from 1e-10 to 1e10",
+        ),
         ("lyapunov S --frequency 0.25 --to 0.2", lambda s: s.lyapunov(0.25, 0.2), "0.2 Hz, which is below"),
-        ("lyapunov S --frequency 0.25 --periods 3", lambda s: s.lyapunov(0.25, periods=3), "3 is not in 20..=100000000"),
-        ("simulate S --frequency 0.25 --initial 1,2,3", lambda s: s.simulate(0.25, initial=[1, 2, 3]), "found 3 number(s)"),
-        ("simulate S --frequency 0.25 --initial what", lambda s: s.simulate(0.25, initial="what"), 'found "what"; allowed'),
-        ("basins S --frequency 0.25 --x q1=-1..1 --y q7=-1..1",
-         lambda s: s.basins(0.25, ("q1", -1, 1), ("q7", -1, 1)), 'allowed: q1 to q1, v1 to v1'),
+        (
+            "lyapunov S --frequency 0.25 --periods 3",
+            lambda s: s.lyapunov(0.25, periods=3),
+            "3 is not in 20..=100000000",
+        ),
+        (
+            "simulate S --frequency 0.25 --initial 1,2,3",
+            lambda s: s.simulate(0.25, initial=[1, 2, 3]),
+            "found 3 number(s)",
+        ),
+        (
+            "simulate S --frequency 0.25 --initial what",
+            lambda s: s.simulate(0.25, initial="what"),
+            'found "what"; allowed',
+        ),
+        (
+            "basins S --frequency 0.25 --x q1=-1..1 --y q7=-1..1",
+            lambda s: s.basins(0.25, ("q1", -1, 1), ("q7", -1, 1)),
+            "allowed: q1 to q1, v1 to v1",
+        ),
     ],  # fmt: skip
 )
 def test_words_and_exit_codes_are_those_of_the_command(
@@ -140,11 +162,14 @@ def test_errors_carry_their_numbers(duffing: Study) -> None:
 
 
 def test_a_warning_is_one() -> None:
-    tables: dict[str, Any] = {**OSCILLATOR, "structure": {
-        "kind": "lumped",
-        "mass": [{"name": "mass", "mass_kg": 1.0}],
-        "damper": [{"between": ["mass", "ground"], "damping_n_s_m": 0.1}],
-    }}
+    tables: dict[str, Any] = {
+        **OSCILLATOR,
+        "structure": {
+            "kind": "lumped",
+            "mass": [{"name": "mass", "mass_kg": 1.0}],
+            "damper": [{"between": ["mass", "ground"], "damping_n_s_m": 0.1}],
+        },
+    }
     tables["stop"] = [{"at": "mass", "law": "linear", "stiffness_n_m": 10.0, "gap_m": 0.1, "side": "above"}]
     study = Study.from_dict(tables)
     try:
@@ -184,7 +209,7 @@ VALUES: list[Any] = [
     [], [1.0], [1.0, float("nan")], (), ("q1", -1.0, 1.0), ("q1", 1.0, -1.0), ("q1", "a", 1), {}, {"a": 1}, {"mass.y": 1.0},
     object(), np.float64(0.25), np.int32(3), np.array(0.25), np.zeros(3), np.zeros((2, 2)), np.array(["a"]), 1j, print,
     {1, 2}, range(3), Path("nowhere"), STUDIES, np.array([1, "a"], dtype=object),
-]  # fmt: skip
+]
 
 
 def test_thousands_of_bad_calls_raise_and_abort_nothing(
@@ -202,7 +227,7 @@ def test_thousands_of_bad_calls_raise_and_abort_nothing(
         (lambda f, d, s: duffing.simulate(f, duration_s=d, sampling_hz=s, **fast), 3),
         (lambda a, b, c, n: duffing.sweep(a, b, c, samples=n, patience_periods=5, **fast), 4),
         (lambda a, b, c, p: duffing.lyapunov(a, b, c, periods=p, **fast), 4),
-        (lambda f, x, y, g: duffing.basins(f, x, y, g, patience_periods=3, averaged_periods=240, **fast), 4),
+        (lambda f, x, y, g: duffing.basins(f, x, y, g, patience_periods=3, **fast), 4),
         (lambda b: results.branches(b), 1), (lambda b: results.states(b), 1),
         (lambda f, b, e: results.orbits(f, branch=b, event=e), 3),
         (lambda f, o: results.export(f, o), 2), (lambda n: results.orbits(0.25)[0].waveform(n), 1),

@@ -4,10 +4,9 @@ import csv
 import json
 from pathlib import Path
 
+import hammerbeam
 import numpy as np
 import pytest
-
-import hammerbeam
 from hammerbeam import Results
 
 
@@ -29,7 +28,9 @@ def test_branches_are_those_of_the_csv(results: Results, tmp_path: Path) -> None
     assert list(events["event"]) == [row["event"] for row in expected]
     np.testing.assert_array_equal(events["frequency_hz"], [float(row["frequency_hz"]) for row in expected])
     states, expected = results.states(), rows_of(tmp_path / "states.csv")
-    np.testing.assert_array_equal(states["state"], [[float(x) for x in row["state"].split()] for row in expected])
+    np.testing.assert_array_equal(
+        states["state"], [[float(x) for x in row["state"].split()] for row in expected]
+    )
     assert [row["message"] for row in rows_of(tmp_path / "ends.csv")] == list(results.ends()["message"])
 
 
@@ -145,7 +146,11 @@ def test_a_million_rows_come_into_numpy_fast() -> None:
     from hammerbeam._tables import array
 
     rows = np.zeros(1_000_000, dtype=[("branch", "<i8"), ("frequency_hz", "<f8"), ("event", "<U4")])
-    fields: list[tuple[str, str, int | None]] = [("branch", "<i8", None), ("frequency_hz", "<f8", None), ("event", "<U4", None)]
+    fields: list[tuple[str, str, int | None]] = [
+        ("branch", "<i8", None),
+        ("frequency_hz", "<f8", None),
+        ("event", "<U4", None),
+    ]
     data = bytearray(rows.tobytes())
     started = time.perf_counter()
     table = array(("branches", fields, len(rows), data))

@@ -1,14 +1,14 @@
-"""Studies and what is asked of them: numbers known in closed form, printed, or asserted by the tests in Rust."""
+"""Studies and what is asked of them: numbers known in closed form, printed, or asserted by the tests in
+Rust."""
 
 import math
 import threading
 from pathlib import Path
 
+import hammerbeam
 import numpy as np
 import pytest
 from conftest import STUDIES
-
-import hammerbeam
 from hammerbeam import Study
 
 OSCILLATOR = {
@@ -108,7 +108,12 @@ def test_a_damping_matrix_counts(tmp_path: Path) -> None:
         reduction={"method": "none"},
     )
     assert abs(study.orbit(1 / (2 * math.pi)).max_abs_displacement_m - 5.0) < 1e-8
-    assert sorted(path.name for path in (tmp_path / "bundle").iterdir()) == ["C.mtx", "K.mtx", "M.mtx", "study.toml"]
+    assert sorted(path.name for path in (tmp_path / "bundle").iterdir()) == [
+        "C.mtx",
+        "K.mtx",
+        "M.mtx",
+        "study.toml",
+    ]
 
 
 def test_all_orbits_between_the_folds(duffing: Study) -> None:
@@ -162,11 +167,15 @@ def test_basins_have_both_attractors(duffing: Study) -> None:
 
 def test_progress_is_reported(duffing: Study, tmp_path: Path) -> None:
     seen: list[tuple[float | None, str]] = []
-    duffing.run(tmp_path / "out", jobs=1, progress=lambda part, words: seen.append((part, words)), figures=False)
+    duffing.run(
+        tmp_path / "out", jobs=1, progress=lambda part, words: seen.append((part, words)), figures=False
+    )
     assert seen and all(part is None or 0.0 <= part <= 1.0 for part, _ in seen)
 
 
-def test_an_exception_in_progress_stops_the_work_and_what_is_done_is_kept(duffing: Study, tmp_path: Path) -> None:
+def test_an_exception_in_progress_stops_the_work_and_what_is_done_is_kept(
+    duffing: Study, tmp_path: Path
+) -> None:
     class Enough(Exception):
         pass
 
@@ -181,14 +190,20 @@ def test_an_exception_in_progress_stops_the_work_and_what_is_done_is_kept(duffin
 
 
 def test_two_studies_from_two_threads(duffing: Study, oscillator: Study, tmp_path: Path) -> None:
-    alone = [study.run(tmp_path / f"alone{k}", jobs=1, progress=False, figures=False).branches()
-             for k, study in enumerate((duffing, oscillator))]
+    alone = [
+        study.run(tmp_path / f"alone{k}", jobs=1, progress=False, figures=False).branches()
+        for k, study in enumerate((duffing, oscillator))
+    ]
     found: dict[int, np.ndarray] = {}
 
     def work(number: int, study: Study) -> None:
-        found[number] = study.run(tmp_path / f"both{number}", jobs=1, progress=False, figures=False).branches()
+        found[number] = study.run(
+            tmp_path / f"both{number}", jobs=1, progress=False, figures=False
+        ).branches()
 
-    threads = [threading.Thread(target=work, args=(k, study)) for k, study in enumerate((duffing, oscillator))]
+    threads = [
+        threading.Thread(target=work, args=(k, study)) for k, study in enumerate((duffing, oscillator))
+    ]
     for thread in threads:
         thread.start()
     for thread in threads:
