@@ -48,6 +48,15 @@ def phase(name: str, value: Any) -> float:
     return found
 
 
+def resolution(value: Any) -> float:
+    """A resolution of figures [pixels per inch]."""
+    must = "must be 24 to 1200 pixels per inch"
+    found = _float("resolution", value, must)
+    if not 24.0 <= found <= 1200.0:
+        raise BadInput(f"resolution: found {found}, {must}")
+    return found
+
+
 def whole(name: str, value: Any, low: int, high: int) -> int:
     """A whole number in a range."""
     must = f"must be a whole number from {low} to {high}"

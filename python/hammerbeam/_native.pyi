@@ -5,12 +5,12 @@ from os import PathLike
 from pathlib import Path
 from typing import final
 
-Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
-Callbacks = tuple[Callable[[float | None, str], None] | None, Callable[[str], None] | None]
-Folders = tuple[Path | None, Path | None]
-Effort = tuple[int, int, int, int]
-Series = tuple[float, float, float | None]
-Axis = tuple[str, float, float]
+_Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
+_Callbacks = tuple[Callable[[float | None, str], None] | None, Callable[[str], None] | None]
+_Folders = tuple[Path | None, Path | None]
+_Effort = tuple[int, int, int, int]
+_Series = tuple[float, float, float | None]
+_Axis = tuple[str, float, float]
 
 def version() -> str: ...
 def write_matrix(
@@ -38,36 +38,36 @@ class NativeStudy:
     def check(self) -> str: ...
     def modes(self) -> str: ...
     def run(
-        self, asked: tuple[Path, Sequence[Path], int | None, bool], callbacks: Callbacks
+        self, asked: tuple[Path, Sequence[Path], int | None, bool], callbacks: _Callbacks
     ) -> tuple[str, bool]: ...
     def orbits(
-        self, frequency_hz: float, period_multiple: int, callbacks: Callbacks
+        self, frequency_hz: float, period_multiple: int, callbacks: _Callbacks
     ) -> tuple[NativeOrbits, str | None]: ...
     def simulate(
         self,
         asked: tuple[tuple[float, int, int, float | None, int] | None, tuple[float, float | None] | None],
         motion: tuple[float, str],
-        kept_in: Folders,
-        callbacks: Callbacks,
+        kept_in: _Folders,
+        callbacks: _Callbacks,
     ) -> str: ...
     def sweep(
         self,
-        asked: Series,
+        asked: _Series,
         motion: tuple[str, bool, int | None, int],
-        spent_on: tuple[Effort, int | None],
-        kept_in: Folders,
-        callbacks: Callbacks,
+        spent_on: tuple[_Effort, int | None],
+        kept_in: _Folders,
+        callbacks: _Callbacks,
     ) -> str: ...
     def lyapunov(
-        self, asked: Series, motion: tuple[str, int, int, int], kept_in: Folders, callbacks: Callbacks
+        self, asked: _Series, motion: tuple[str, int, int, int], kept_in: _Folders, callbacks: _Callbacks
     ) -> str: ...
     def basins(
         self,
         frequency_hz: float,
-        asked: tuple[Axis, Axis, int],
-        spent_on: tuple[Effort, int | None],
-        kept_in: Folders,
-        callbacks: Callbacks,
+        asked: tuple[_Axis, _Axis, int],
+        spent_on: tuple[_Effort, int | None],
+        kept_in: _Folders,
+        callbacks: _Callbacks,
     ) -> str: ...
 
 @final
@@ -75,9 +75,9 @@ class NativeOrbits:
     @property
     def response_point(self) -> str: ...
     def __len__(self) -> int: ...
-    def table(self) -> Packed: ...
-    def tables_of_all(self, samples: int) -> list[Packed]: ...
-    def waveform(self, index: int, samples: int) -> Packed: ...
+    def table(self) -> _Packed: ...
+    def tables_of_all(self, samples: int) -> list[_Packed]: ...
+    def waveform(self, index: int, samples: int) -> _Packed: ...
     def nodes(self, index: int) -> list[list[float]]: ...
 
 @final
@@ -91,15 +91,15 @@ class NativeResults:
     @property
     def closed_already(self) -> bool: ...
     def close(self) -> None: ...
-    def tables(self, name: str, branches: Sequence[int]) -> list[Packed]: ...
-    def request_tables(self, request: int) -> list[Packed]: ...
+    def tables(self, name: str, branches: Sequence[int]) -> list[_Packed]: ...
+    def request_tables(self, request: int) -> list[_Packed]: ...
     def branch_rows(self) -> list[tuple[int, int, int]]: ...
     def orbits(
         self, branches: Sequence[int], frequencies_hz: Sequence[float], events: Sequence[str]
     ) -> NativeOrbits: ...
     def export(self, format: str, folder: Path, states: bool) -> list[Path]: ...
     def draw(
-        self, folder: Path, asked: tuple[Sequence[str], Sequence[str], float | None], callbacks: Callbacks
+        self, folder: Path, asked: tuple[Sequence[str], Sequence[str], float | None], callbacks: _Callbacks
     ) -> list[str]: ...
     @staticmethod
     def export_orbits(orbits: NativeOrbits, format: str, folder: Path, samples: int) -> list[Path]: ...

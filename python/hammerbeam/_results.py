@@ -123,7 +123,7 @@ class Results:
         * `kinds`: such as `response`, `orbits`, `page`; all by default. `formats`: `svg`, `png`, `pdf`.
         """
         folder = self.folder if out is None else _check.folder("out", out)
-        pixels = None if resolution is None else _check.number("resolution", resolution)
+        pixels = None if resolution is None else _check.resolution(resolution)
         asked = (_check.words("kinds", kinds), _check.words("formats", formats), pixels)
         with interruptible("figures that were drawn are kept"), watched(progress) as callbacks:
             names = self._native.draw(folder, asked, callbacks)

@@ -6,7 +6,7 @@ use hammerbeam_orbit::{Events, PeriodicSolution};
 use hammerbeam_results::columns::{ColumnTable, ColumnValues};
 use hammerbeam_study::Model;
 
-use crate::{JobError, PreparedStudy, StoredBranches, Waveform, waveform};
+use crate::{JobError, OrbitWaveform, PreparedStudy, StoredBranches, orbit_waveform};
 
 /// Which orbits of a results folder are meant: those that fit everything that is given.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -92,7 +92,7 @@ pub fn orbit_tables(
 ) -> Result<[ColumnTable; 2], JobError> {
     let waveforms = orbits
         .iter()
-        .map(|orbit| waveform(model, &orbit.solution, samples))
+        .map(|orbit| orbit_waveform(model, &orbit.solution, samples))
         .collect::<Result<Vec<_>, _>>()?;
     Ok([orbit_table(orbits), waveform_table(model, &waveforms)])
 }
@@ -136,8 +136,8 @@ pub fn orbit_table(orbits: &[ChosenOrbit]) -> ColumnTable {
     ColumnTable::new("orbits", columns.map(|(name, values)| (name.to_owned(), values)).into())
 }
 
-fn waveform_table(model: &Model, waveforms: &[Waveform]) -> ColumnTable {
-    let joined = |of: &dyn Fn(&Waveform) -> &[f64]| {
+fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ColumnTable {
+    let joined = |of: &dyn Fn(&OrbitWaveform) -> &[f64]| {
         ColumnValues::Numbers(waveforms.iter().flat_map(|waveform| of(waveform)).copied().collect())
     };
     let numbers =

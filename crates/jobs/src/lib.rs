@@ -13,7 +13,7 @@
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
 //! | `branch` | one side of a branch, row by row |
 //! | [`orbits`] | all periodic solutions at one frequency |
-//! | [`chosen_orbits`], `waveform` | stored orbits by branch, frequency or event; the motion of an orbit over its period |
+//! | [`chosen_orbits`], `orbit_waveform` | stored orbits by branch, frequency or event; the motion of an orbit over its period |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
@@ -40,6 +40,7 @@ mod matrix_document;
 mod modes_document;
 mod observer;
 mod orbit_solver;
+mod orbit_waveform;
 pub mod orbits;
 pub mod pool;
 mod prepared;
@@ -52,7 +53,6 @@ pub mod sweep;
 pub mod update;
 pub mod varied;
 pub mod verify;
-mod waveform;
 
 pub use branch::BranchRows;
 pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
@@ -64,7 +64,7 @@ pub use matrix_document::matrix_document;
 pub use modes_document::modes_document;
 pub use observer::{CountedProgress, Observer, Progress, Quiet, VariedProgress};
 pub use orbit_solver::OrbitSolver;
+pub use orbit_waveform::{OrbitWaveform, PointWaveform, orbit_waveform};
 pub use pool::PooledOrder;
 pub use prepared::PreparedStudy;
 pub use request::{FrequencySeries, JobFolders};
-pub use waveform::{PointWaveform, Waveform, waveform};

@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
 use serde::{Serialize, Serializer};
 
-use crate::{JobError, Observer, OrbitSolver, PreparedStudy, Waveform, waveform};
+use crate::{JobError, Observer, OrbitSolver, OrbitWaveform, PreparedStudy, orbit_waveform};
 
 /// The periodic solutions at a frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +15,7 @@ pub struct OrbitsReport {
     /// Names of the figures that were drawn of them.
     pub figures: Option<Vec<String>>,
     /// The motion of each over its period, where it was asked for.
-    pub waveforms: Vec<Waveform>,
+    pub waveforms: Vec<OrbitWaveform>,
 }
 
 /// Samples of a motion in an excitation period.
@@ -27,7 +27,7 @@ impl OrbitsReport {
     /// # Errors
     /// [`JobError::Motion`]: a motion cannot be computed again.
     pub fn add_waveforms(&mut self, study: &PreparedStudy) -> Result<(), JobError> {
-        let each = self.orbits.iter().map(|orbit| waveform(&study.model, orbit, SAMPLES));
+        let each = self.orbits.iter().map(|orbit| orbit_waveform(&study.model, orbit, SAMPLES));
         self.waveforms = each.collect::<Result<_, _>>()?;
         Ok(())
     }
@@ -103,7 +103,7 @@ impl<'a> From<&'a PeriodicSolution> for OrbitDocument<'a> {
 struct WholeOrbit<'a> {
     #[serde(flatten)]
     orbit: OrbitDocument<'a>,
-    waveform: &'a Waveform,
+    waveform: &'a OrbitWaveform,
 }
 
 /// The first solution, with the others beside it; all of them in one list where their motions are known.

@@ -70,6 +70,11 @@ impl NativeResults {
         }
     }
 
+    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait for it.
+    fn check_open(&self, py: Python<'_>) -> PyResult<()> {
+        if py.detach(|| self.store().is_none()) { Err(self.closed(py)) } else { Ok(()) }
+    }
+
     fn closed(&self, py: Python<'_>) -> PyErr {
         let message = format!("the results of {} are closed", self.folder.display());
         bad_input(py, "ClosedResults", message)
@@ -152,9 +157,7 @@ impl NativeResults {
         frequencies_hz: Vec<f64>,
         events: Vec<String>,
     ) -> PyResult<NativeOrbits> {
-        if self.store().is_none() {
-            return Err(self.closed(py));
-        }
+        self.check_open(py)?;
         let known = event_names();
         if let Some(event) = events.iter().find(|event| !known.contains(event)) {
             let message = format!("there is no event {event:?}; allowed: {}", known.join(", "));
@@ -197,22 +200,18 @@ impl NativeResults {
         }
         let mut settings = DrawSettings::default();
         if !formats.is_empty() {
-            settings.formats = FigureFormat::ALL
-                .into_iter()
-                .filter(|format| formats.iter().any(|name| name == format.suffix()))
-                .collect();
+            settings.formats = formats.iter().map(|name| figure_format(py, name)).collect::<PyResult<_>>()?;
         }
         settings.resolution = resolution.unwrap_or(settings.resolution);
+        self.check_open(py)?;
+        // A store of its own: what is called meanwhile may ask these results for something.
         let drawn = PythonObserver::run(py, callbacks, |observer| {
-            let guard = self.store();
-            let Some(store) = guard.as_ref() else { return Ok(None) };
-            let study = &self.study;
-            let files = draw_into::<DrawingError>(&folder, settings, observer, |files| {
-                draw(store, (&study.file, &study.model), &selection, files)
-            });
-            files.map(|files| Some(files.names))
+            let (store, study) = (Store::open(&self.folder)?, &self.study);
+            draw_into::<DrawingError>(&folder, settings, observer, |files| {
+                draw(&store, (&study.file, &study.model), &selection, files)
+            })
         })?;
-        drawn.map_err(|error| drawing_exception(py, error))?.ok_or_else(|| self.closed(py))
+        Ok(drawn.map_err(|error| drawing_exception(py, error))?.names)
     }
 
     /// Writes orbits and their motions as `csv`, `json` or `npz`: the files.
@@ -237,5 +236,13 @@ fn table_format(py: Python<'_>, name: &str) -> PyResult<TableFormat> {
     let found = TableFormat::ALL.into_iter().find(|format| format.name() == name);
     found.ok_or_else(|| {
         bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: csv, json, npz"))
+    })
+}
+
+/// A format of figures by its name.
+fn figure_format(py: Python<'_>, name: &str) -> PyResult<FigureFormat> {
+    let found = FigureFormat::ALL.into_iter().find(|format| format.suffix() == name);
+    found.ok_or_else(|| {
+        bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: svg, png, pdf"))
     })
 }

@@ -64,15 +64,15 @@ fn run(
     let threads = threads(jobs);
     let WholeRun { store, mut report } = run_study(study, RunRequest { out, from, threads }, observer)?;
     let is_interrupted = report.outcome == RunOutcome::Interrupted;
-    if drawn && !is_interrupted {
+    let figures = (drawn && !is_interrupted).then(|| {
         let settings = DrawSettings { threads, ..DrawSettings::default() };
         let selection = FigureSelection::of_run(&study.file);
-        let files = draw_into::<DrawingError>(out, settings, observer, |files| {
+        draw_into::<DrawingError>(out, settings, observer, |files| {
             draw(&store, (&study.file, &study.model), &selection, files)
-        });
-        report.figures = files?.names;
-    }
+        })
+    });
     store.finish().map_err(Error::from)?;
+    report.figures = figures.transpose()?.map(|files| files.names).unwrap_or_default();
     Ok((json(&report), is_interrupted))
 }
 

@@ -26,7 +26,7 @@ pub struct PointWaveform {
 
 /// A periodic solution over its period, from phase 0 of the excitation on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Waveform {
+pub struct OrbitWaveform {
     /// Times [s].
     pub time: Vec<f64>,
     /// Phases of the excitation, from 0 to the orbit's multiple of the period [cycles].
@@ -45,7 +45,11 @@ pub struct Waveform {
 ///
 /// # Errors
 /// [`AttractorError`]: the motion cannot be computed again, or there are too many samples.
-pub fn waveform(model: &Model, orbit: &PeriodicSolution, samples: usize) -> Result<Waveform, AttractorError> {
+pub fn orbit_waveform(
+    model: &Model,
+    orbit: &PeriodicSolution,
+    samples: usize,
+) -> Result<OrbitWaveform, AttractorError> {
     let (system, frequency_hz) = (&model.system, orbit.frequency_hz);
     let settings = ExactSettings::default();
     let mut integrator = ExactIntegrator::new(system.clone(), settings)?;
@@ -80,14 +84,14 @@ pub fn waveform(model: &Model, orbit: &PeriodicSolution, samples: usize) -> Resu
     Ok(found)
 }
 
-fn empty(model: &Model) -> Waveform {
+fn empty(model: &Model) -> OrbitWaveform {
     let point = |name: &str| PointWaveform {
         point: name.to_owned(),
         displacement: Vec::new(),
         velocity: Vec::new(),
         acceleration: Vec::new(),
     };
-    Waveform {
+    OrbitWaveform {
         time: Vec::new(),
         phase_cycles: Vec::new(),
         points: model.point_names().into_iter().map(point).collect(),
@@ -97,7 +101,7 @@ fn empty(model: &Model) -> Waveform {
 }
 
 /// Times, phases and states, the motion of each point and the force of each local element by their names.
-impl Serialize for Waveform {
+impl Serialize for OrbitWaveform {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let point = |point: &PointWaveform| {
             let motion = json!({
