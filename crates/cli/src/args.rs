@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
+use hammerbeam_results::columns::TableFormat;
 use hammerbeam_study::{Setting, StudyError, StudyFile, file::DrawnOrbit};
 
 use crate::{
@@ -276,7 +277,8 @@ pub struct ExportOptions {
     /// Results folder
     pub results: PathBuf,
 
-    /// Format; csv writes branches.csv, one row per solution
+    /// Format: csv writes branches.csv, one row per solution, and a file for each further table; json and npz
+    /// write one file, by columns; MAT, Parquet and HDF5 are written from Python
     #[arg(long, value_enum)]
     pub format: Format,
 
@@ -285,9 +287,37 @@ pub struct ExportOptions {
     #[arg(long)]
     pub states: bool,
 
+    /// Write the orbits in which branches cross this frequency, with their motion at all points, states and
+    /// multipliers, as orbits and waveforms; may be given several times
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
+    pub frequency: Vec<f64>,
+
+    /// Write the orbits with this event in the same way: fold, flip, neimark-sacker, branch-point, grazing,
+    /// start or end; may be given several times
+    #[arg(long, value_name = "NAME", value_parser = event_name)]
+    pub event: Vec<String>,
+
+    /// Only orbits of this branch; may be given several times
+    #[arg(long, value_name = "N")]
+    pub branch: Vec<u32>,
+
+    /// Samples of an orbit in an excitation period
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub samples: u32,
+
     /// Folder to write into [default: RESULTS/export]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// The name of an event.
+fn event_name(text: &str) -> Result<String, String> {
+    let known = hammerbeam_jobs::chosen_orbits::event_names();
+    known
+        .iter()
+        .find(|name| *name == text)
+        .cloned()
+        .ok_or_else(|| format!("must be one of {}", known.join(", ")))
 }
 
 #[derive(Debug, Args)]
@@ -452,6 +482,20 @@ pub struct VerifyOptions {
 pub enum Format {
     /// Comma-separated values
     Csv,
+    /// One JSON document
+    Json,
+    /// Record arrays of NumPy
+    Npz,
+}
+
+impl From<Format> for TableFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Csv => Self::Csv,
+            Format::Json => Self::Json,
+            Format::Npz => Self::Npz,
+        }
+    }
 }
 
 /// A number of hertz, or a frequency with its unit.

@@ -243,3 +243,35 @@ impl From<anyhow::Error> for Failure {
         error.downcast::<WriteError>().map_or_else(Self::Other, Self::from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    /// The exit code of a job's error is the one that its kind says, which the exceptions of Python follow.
+    #[test]
+    fn an_error_has_the_exit_code_of_its_kind() {
+        let folder = PathBuf::from("results");
+        let errors: [fn(PathBuf) -> JobError; 8] = [
+            |folder| StoreError::NoResults { folder }.into(),
+            |folder| StoreError::Locked { folder }.into(),
+            |_| StoreError::OtherThanStored.into(),
+            |results| JobError::NoBranches { results },
+            |_| JobError::FallingFrequencies { from_hz: 2.0, to_hz: 1.0 },
+            |_| JobError::NoSearch { message: String::new() },
+            |_| JobError::NoSearch { message: String::new() }.stopped_after(3),
+            |_| JobError::Interrupted { done: 3, part_s: None },
+        ];
+        for error in errors {
+            let kind = error(folder.clone()).kind();
+            assert_eq!(
+                Failure::from(error(folder.clone())).code(),
+                kind.exit_code(),
+                "{:?}",
+                error(folder.clone())
+            );
+        }
+    }
+}

@@ -1,24 +1,14 @@
 //! The state at which a motion begins, as `--initial` has it.
 
-use hammerbeam_jobs::{InitialState, InitialStateError, JobError};
-use hammerbeam_study::{PointStart, PointStartKind};
+use hammerbeam_jobs::{InitialState, InitialStateError, InitialWordsError, JobError};
 
-use crate::{failure::Failure, motion_args::MOST_OF_A_STATE};
+use crate::failure::Failure;
 
 /// What `--initial` means.
 ///
 /// * `size`: entries of a modal state.
 pub fn meant(text: &str, size: usize) -> Result<InitialState, Failure> {
-    if let Some(branch) = text.strip_prefix("branch:") {
-        // No branch has the number 0.
-        return Ok(InitialState::Branch(branch.parse().unwrap_or(0)));
-    }
-    match text {
-        "rest" => Ok(InitialState::Rest),
-        "linear" => Ok(InitialState::Linear),
-        points if points.contains('=') => of_points(points),
-        numbers => numbers_of(numbers, size),
-    }
+    InitialState::parse(text, size).map_err(|error| Failure::BadInput(format!("--initial: {error}")))
 }
 
 /// Why a motion cannot begin there, or another failure of its job.
@@ -33,7 +23,8 @@ pub fn refused(text: &str, size: usize, error: JobError) -> Result<Failure, JobE
             format!("--initial {text}{place}: {source}")
         }
         InitialStateError::Length { found, .. } => {
-            return Ok(not_numbers(&format!("found {found} number(s)"), size));
+            let error = InitialWordsError::not_numbers(&format!("found {found} number(s)"), size);
+            return Ok(Failure::BadInput(format!("--initial: {error}")));
         }
         InitialStateError::NoResults => "--initial branch:N needs --results DIR".to_owned(),
         InitialStateError::NoSuchBranch { last } => {
@@ -47,51 +38,4 @@ pub fn refused(text: &str, size: usize, error: JobError) -> Result<Failure, JobE
         InitialStateError::Points(error) => format!("--initial: {error}"),
         other => return Ok(Failure::NoResult(other.to_string())),
     }))
-}
-
-/// `tip.y=1e-3,tip.v=0.2`: displacements [m] and velocities [m/s] of points in space.
-fn of_points(text: &str) -> Result<InitialState, Failure> {
-    let refused = |part: &str| {
-        let found = format!("--initial: found {part:?}");
-        Failure::BadInput(format!(
-            "{found}; allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND, separated by commas, each number from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
-        ))
-    };
-    let mut starts = Vec::new();
-    for part in text.split(',').map(str::trim) {
-        let (name, value) = part.rsplit_once('=').ok_or_else(|| refused(part))?;
-        let value = value.trim().parse::<f64>().ok().filter(|value| value.abs() <= MOST_OF_A_STATE);
-        let (point, kind) = match name.trim().rsplit_once('.') {
-            Some((point, "y")) => (point, PointStartKind::Displacement),
-            Some((point, "v")) => (point, PointStartKind::Velocity),
-            _ => return Err(refused(part)),
-        };
-        let value = value.ok_or_else(|| refused(part))?;
-        let is_same = |start: &PointStart| start.point == point && start.kind == kind;
-        if starts.iter().any(is_same) {
-            let name = name.trim();
-            return Err(Failure::BadInput(format!("--initial: {name} is given twice; allowed: once")));
-        }
-        starts.push(PointStart { point: point.to_owned(), kind, value });
-    }
-    Ok(InitialState::Points(starts))
-}
-
-fn numbers_of(text: &str, size: usize) -> Result<InitialState, Failure> {
-    let mut state = Vec::new();
-    let separator = if text.contains(',') { "," } else { " " };
-    for part in text.trim().split(separator) {
-        match part.trim().parse::<f64>() {
-            Ok(number) if number.abs() <= MOST_OF_A_STATE => state.push(number),
-            _ => return Err(not_numbers(&format!("found {:?}", part.trim()), size)),
-        }
-    }
-    Ok(InitialState::Modal(state))
-}
-
-fn not_numbers(found: &str, size: usize) -> Failure {
-    let allowed = format!(
-        "rest, linear, branch:N with --results, POINT.y=METRES,POINT.v=METRES_PER_SECOND, or {size} numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
-    );
-    Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
 }

@@ -4,11 +4,9 @@ use std::{ops::RangeInclusive, path::PathBuf};
 
 use clap::Args;
 use hammerbeam_attractor::{Effort, Patience};
+use hammerbeam_jobs::MOST_OF_A_STATE;
 
 use crate::args::{StudyInput, excitation_frequency};
-
-/// Largest entry of a state that is given: its square and the energy of the motion are numbers.
-pub const MOST_OF_A_STATE: f64 = 1e100;
 
 const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers q1,..,qn,v1,..,vn of the modal state; POINT.y=METRES,POINT.v=METRES_PER_SECOND,... for points in space, everything else moving as little as possible; or `branch:N` for the orbit in which that branch of --results crosses the frequency";
 

@@ -12,6 +12,8 @@
 //! | settled motions over the frequency | [`Study::sweep`] |
 //! | Lyapunov exponents | [`Study::exponents`] |
 //! | basins of attraction | [`Study::basins`] |
+//! | stored orbits by branch, frequency or event; the motion of an orbit | [`chosen_orbits`], [`orbit_waveform`] |
+//! | everything in a results folder as columns of numbers, NPZ, JSON | [`results::columns`] |
 //! | figures of a results folder, and its page | [`drawing`] |
 //!
 //! Each of these has a function in the module of its name that takes a results folder, a number of threads
@@ -56,9 +58,11 @@
 //! ```
 
 pub use hammerbeam_jobs::{
-    BranchRows, CountedProgress, FrequencySeries, InitialState, InitialStateError, JobError as Error,
-    JobFolders, MirrorImage, Observer, PreparedStudy as Study, Progress, Quiet, StoredBranches,
-    VariedProgress, basins, check, comparison, exponents, orbits, rig, run, simulate, sweep, update, verify,
+    BranchRows, CountedProgress, FailureKind, FrequencySeries, InitialState, InitialStateError,
+    InitialWordsError, JobError as Error, JobFolders, MirrorImage, Observer, OrbitWaveform,
+    PreparedStudy as Study, Progress, Quiet, StoredBranches, VariedProgress, basins, check, chosen_orbits,
+    comparison, exponents, modes_document, orbit_waveform, orbits, pool, rig, run, simulate, sweep, update,
+    verify,
 };
 pub use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, Stability, StopReason};
 pub use hammerbeam_results::{self as results, Store};

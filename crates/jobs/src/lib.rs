@@ -5,7 +5,7 @@
 //! | `prepared` | a study with its model, which every job takes |
 //! | `observer` | what a job reports while it works, and how it is stopped |
 //! | [`pool`] | the threads of all jobs |
-//! | `request`, `initial` | where the results of a motion are kept, and the state at which it begins |
+//! | `request`, `initial`, `initial_words` | where the results of a motion are kept, and the state at which it begins |
 //! | [`check`] | what is known of a study before anything is computed |
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
@@ -13,6 +13,7 @@
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
 //! | `branch` | one side of a branch, row by row |
 //! | [`orbits`] | all periodic solutions at one frequency |
+//! | [`chosen_orbits`], `orbit_waveform` | stored orbits by branch, frequency or event; the motion of an orbit over its period |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
@@ -28,14 +29,19 @@
 pub mod basins;
 mod branch;
 pub mod check;
+pub mod chosen_orbits;
 pub mod comparison;
 mod crossings;
 mod error;
 pub mod exponents;
+mod failure_kind;
 mod initial;
+mod initial_words;
 mod matrix_document;
+mod modes_document;
 mod observer;
 mod orbit_solver;
+mod orbit_waveform;
 pub mod orbits;
 pub mod pool;
 mod prepared;
@@ -53,10 +59,14 @@ pub mod verify;
 pub use branch::BranchRows;
 pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
+pub use failure_kind::FailureKind;
 pub use initial::{InitialState, InitialStateError};
+pub use initial_words::{InitialWordsError, MOST_OF_A_STATE};
 pub use matrix_document::matrix_document;
+pub use modes_document::modes_document;
 pub use observer::{CountedProgress, Observer, Progress, Quiet, VariedProgress};
 pub use orbit_solver::OrbitSolver;
+pub use orbit_waveform::{OrbitWaveform, PointWaveform, orbit_waveform};
 pub use pool::PooledOrder;
 pub use prepared::PreparedStudy;
 pub use request::{FrequencySeries, JobFolders};

@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
 use serde::{Serialize, Serializer};
 
-use crate::{JobError, Observer, OrbitSolver, PreparedStudy};
+use crate::{JobError, Observer, OrbitSolver, OrbitWaveform, PreparedStudy, orbit_waveform};
 
 /// The periodic solutions at a frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,23 @@ pub struct OrbitsReport {
     pub incomplete: Option<String>,
     /// Names of the figures that were drawn of them.
     pub figures: Option<Vec<String>>,
+    /// The motion of each over its period, where it was asked for.
+    pub waveforms: Vec<OrbitWaveform>,
+}
+
+/// Samples of a motion in an excitation period.
+const SAMPLES: usize = 256;
+
+impl OrbitsReport {
+    /// Computes the motion of each solution over its period, 256 samples in an excitation period.
+    ///
+    /// # Errors
+    /// [`JobError::Motion`]: a motion cannot be computed again.
+    pub fn add_waveforms(&mut self, study: &PreparedStudy) -> Result<(), JobError> {
+        let each = self.orbits.iter().map(|orbit| orbit_waveform(&study.model, orbit, SAMPLES));
+        self.waveforms = each.collect::<Result<_, _>>()?;
+        Ok(())
+    }
 }
 
 /// Finds all periodic solutions of a period at a frequency.
@@ -35,7 +52,7 @@ pub fn orbits(
     }
     let FoundOrbits { orbits, incomplete } = found.map_err(|message| JobError::NoSearch { message })?;
     let incomplete = incomplete.map(|error| error.to_string());
-    Ok(OrbitsReport { orbits, incomplete, figures: None })
+    Ok(OrbitsReport { orbits, incomplete, figures: None, waveforms: Vec::new() })
 }
 
 /// A solution in few numbers.
@@ -81,7 +98,15 @@ impl<'a> From<&'a PeriodicSolution> for OrbitDocument<'a> {
     }
 }
 
-/// The first solution, with the others beside it.
+/// A solution with its motion over the period.
+#[derive(Serialize)]
+struct WholeOrbit<'a> {
+    #[serde(flatten)]
+    orbit: OrbitDocument<'a>,
+    waveform: &'a OrbitWaveform,
+}
+
+/// The first solution, with the others beside it; all of them in one list where their motions are known.
 impl Serialize for OrbitsReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -90,13 +115,17 @@ impl Serialize for OrbitsReport {
             first: Option<OrbitDocument<'a>>,
             search_complete: bool,
             others: Vec<OrbitDocument<'a>>,
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            solutions: Vec<WholeOrbit<'a>>,
             #[serde(skip_serializing_if = "Option::is_none")]
             figures: Option<&'a [String]>,
         }
+        let whole = self.orbits.iter().zip(&self.waveforms);
         let mut all = self.orbits.iter().map(OrbitDocument::from);
         let document = Document {
             first: all.next(),
             others: all.collect(),
+            solutions: whole.map(|(orbit, waveform)| WholeOrbit { orbit: orbit.into(), waveform }).collect(),
             search_complete: self.incomplete.is_none(),
             figures: self.figures.as_deref(),
         };

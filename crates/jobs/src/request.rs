@@ -94,6 +94,11 @@ impl KeptRequest {
         Ok(Self { store: Some(store), request: request.id, done: request.done })
     }
 
+    /// Its number in the folder, if it is kept.
+    pub fn number(&self) -> Option<i64> {
+        self.store.as_ref().map(|_| self.request)
+    }
+
     /// What is stored of the request.
     pub fn read<T: Default>(
         &self,

@@ -3,6 +3,7 @@
 //! | room | what it knows |
 //! |---|---|
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; motions in time, sweeps, exponents and basins by request |
+//! | [`columns`] | what is stored as columns of numbers: records in NumPy's layout, NPZ, JSON |
 //! | [`export`] | what is stored as CSV |
 //! | [`summary`] | a branch in few numbers: its range, its peaks |
 //! | [`reason`] | why a branch ended, in words |
@@ -10,6 +11,7 @@
 //!
 //! How a result is computed is not known here: whoever computes hands over rows, and reads them again.
 
+pub mod columns;
 pub mod export;
 pub mod reason;
 pub mod store;

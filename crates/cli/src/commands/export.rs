@@ -1,13 +1,30 @@
 //! `hammerbeam export`: stored results for other programs.
 
-use hammerbeam_results::{Store, export_csv, export_states, whole_file::subfolder};
+use std::path::{Path, PathBuf};
+
+use hammerbeam_jobs::{
+    PreparedStudy,
+    chosen_orbits::{OrbitChoice, chosen_orbits, orbit_tables},
+};
+use hammerbeam_results::{
+    Store,
+    columns::{TableFormat, all_tables, write_tables},
+    export_csv, export_states,
+    whole_file::subfolder,
+};
 use serde_json::json;
 
-use crate::{
-    args::{ExportOptions, Format},
-    failure::Failure,
-    output::Output,
-};
+use crate::{args::ExportOptions, failure::Failure, output::Output};
+
+/// What was written.
+struct Written {
+    /// The files.
+    files: Vec<PathBuf>,
+    /// What is said of the first of them.
+    words: Vec<&'static str>,
+    /// Solutions on branches over the frequency.
+    rows: u64,
+}
 
 pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
@@ -15,28 +32,60 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         Some(folder) => folder.clone(),
         None => subfolder(&options.results, "export")?,
     };
-    let exported = match options.format {
-        Format::Csv => export_csv(&store, &folder)?,
+    let mut written = match options.format.into() {
+        TableFormat::Csv => csv(&store, &folder, options.states)?,
+        other => columns(&store, &folder, (other, options.states))?,
     };
-    let states = options.states.then(|| export_states(&store, &folder)).transpose()?;
-    let path = exported.path.display().to_string();
-    let events_path = exported.events_path.display().to_string();
-    let ends_path = exported.ends_path.display().to_string();
-    let varied: Vec<String> = exported
-        .varied_paths
-        .iter()
-        .chain(&exported.motion_paths)
-        .chain(states.iter().flatten())
-        .map(|path| path.display().to_string())
-        .collect();
-    let mut files = vec![path.clone(), events_path.clone(), ends_path.clone()];
-    files.extend(varied.iter().cloned());
-    output.give(&json!({ "files": files, "rows": exported.rows }), || {
-        let first = format!(
-            "{path}: {} solutions\n{events_path}: what happens at which of them\n{ends_path}: how branches ended, and the states there",
-            exported.rows
-        );
-        std::iter::once(first).chain(varied).collect::<Vec<_>>().join("\n")
+    written.files.extend(orbits(options, &store, &folder)?);
+    let files: Vec<String> = written.files.iter().map(|path| path.display().to_string()).collect();
+    output.give(&json!({ "files": files, "rows": written.rows }), || {
+        let said = |(place, file): (usize, &String)| match written.words.get(place) {
+            Some(words) if place == 0 => format!("{file}: {} {words}", written.rows),
+            Some(words) => format!("{file}: {words}"),
+            None => file.clone(),
+        };
+        files.iter().enumerate().map(said).collect::<Vec<_>>().join("\n")
     })?;
     Ok(())
+}
+
+fn csv(store: &Store, folder: &Path, with_states: bool) -> Result<Written, Failure> {
+    let exported = export_csv(store, folder)?;
+    let mut files = vec![exported.path, exported.events_path, exported.ends_path];
+    files.extend(exported.varied_paths.into_iter().chain(exported.motion_paths));
+    if with_states {
+        files.extend(export_states(store, folder)?);
+    }
+    let words =
+        vec!["solutions", "what happens at which of them", "how branches ended, and the states there"];
+    Ok(Written { files, words, rows: exported.rows })
+}
+
+fn columns(
+    store: &Store,
+    folder: &Path,
+    (format, with_states): (TableFormat, bool),
+) -> Result<Written, Failure> {
+    let tables = all_tables(store, with_states)?;
+    let rows = tables.first().map_or(0, |branches| branches.rows() as u64);
+    Ok(Written { files: write_tables(&tables, folder, ("results", format))?, words: vec!["solutions"], rows })
+}
+
+/// The orbits that are asked for, if there are such.
+fn orbits(options: &ExportOptions, store: &Store, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if options.frequency.is_empty() && options.event.is_empty() {
+        return Ok(Vec::new());
+    }
+    let study = PreparedStudy::of_store(store)?;
+    let choice = OrbitChoice {
+        branches: options.branch.clone(),
+        frequencies_hz: options.frequency.clone(),
+        events: options.event.clone(),
+    };
+    let found = chosen_orbits(&study, &options.results, &choice)?;
+    if found.is_empty() {
+        return Err(Failure::NoResult("no stored orbit fits what is asked for".to_owned()));
+    }
+    let tables = orbit_tables(&study.model, &found, options.samples as usize)?;
+    Ok(write_tables(&tables, folder, ("orbits", options.format.into()))?)
 }

@@ -2,9 +2,9 @@
 
 use hammerbeam_drawing::{DrawSettings, draw_into, draw_linear};
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_jobs::matrix_document;
+use hammerbeam_jobs::modes_document;
 use hammerbeam_study::Model;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::{
     args::ModesOptions,
@@ -20,7 +20,7 @@ const SHOWN: usize = 12;
 pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let file = options.study.read()?;
     let model = Model::build(&file)?;
-    let mut document = document(&model);
+    let mut document = modes_document(&model);
     if let Some(folder) = &options.out {
         let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
         let drawn = draw_into::<Failure>(folder, settings, &mut Notices, |drawn| {
@@ -31,25 +31,6 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     }
     output.give(&document, || text(&model, output.frequency_unit))?;
     Ok(())
-}
-
-fn document(model: &Model) -> Value {
-    let tables = &model.tables;
-    let points = &model.system.model().points;
-    let shapes: serde_json::Map<String, Value> =
-        points.iter().map(|point| (point.name.clone(), json!(point.shape))).collect();
-    let errors: Vec<f64> = tables.frequency_errors.iter().map(|error| error.relative).collect();
-    let flexibility = |error: &hammerbeam_structure::FlexibilityError| json!({ "point": error.point, "full_m_n": error.full, "reduced_m_n": error.reduced, "relative": error.relative });
-    json!({
-        "clamped_hz": tables.clamped_hz,
-        "free_interface_hz": tables.free_interface_hz,
-        "reduced_hz": tables.reduced_hz,
-        "fixed_interface_hz": tables.fixed_interface_hz,
-        "reduced_relative_error": errors,
-        "mass_normalised_shapes": shapes,
-        "matrices": model.matrices.as_ref().map(matrix_document),
-        "static_flexibility": tables.flexibility_errors.iter().map(flexibility).collect::<Vec<_>>(),
-    })
 }
 
 /// The shape of each mode at the points, divided by its largest entry there; signs are those of the modal

@@ -39,6 +39,9 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         });
         report.figures = Some(drawn?.names);
     }
+    if output.json {
+        report.add_waveforms(&study)?;
+    }
     let point = &study.file.study.response.point;
     output.give(&report, || text(&report.orbits, (point, output.frequency_unit)))?;
     Ok(())

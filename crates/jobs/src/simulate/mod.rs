@@ -77,13 +77,14 @@ pub fn simulate(
     observer.finishing();
     // Under the lock of the folder: two jobs do not write the same tables at once.
     let written = written.finish();
+    let request = kept.number();
     kept.finish()?;
     let summary = written.map_err(|error| error.stopped_after(done))?;
     match failure {
         Some(error) if done > 0 => Err(JobError::from(error).stopped_after(done)),
         Some(error) => Err(error.into()),
         None if done < total => Err(JobError::Interrupted { done, part_s: None }),
-        None => Ok(summary.report(&layout, pieces, folders)),
+        None => Ok(SimulationReport { request, ..summary.report(&layout, pieces, folders) }),
     }
 }
 

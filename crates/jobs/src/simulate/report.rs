@@ -51,6 +51,8 @@ pub struct SimulationReport {
     pub final_modal_state: Vec<f64>,
     /// The folder that keeps the motion, with its tables.
     pub results: Option<String>,
+    /// Number of the motion in that folder, as the tables of an export have it.
+    pub request: Option<i64>,
 }
 
 /// A contact of a motion.
@@ -151,6 +153,7 @@ impl Summary {
             contact_list: self.listed,
             final_modal_state: self.state,
             results: folders.shown(),
+            request: None,
         }
     }
 }

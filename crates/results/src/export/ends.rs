@@ -91,7 +91,7 @@ pub(super) fn write_varied_ends(
 }
 
 /// Numbers with blanks between them.
-pub(super) fn entries(state: &[f64]) -> String {
+pub(crate) fn entries(state: &[f64]) -> String {
     let entries: Vec<String> = state.iter().map(|entry| format!("{entry:?}")).collect();
     entries.join(" ")
 }

@@ -119,7 +119,7 @@ fn write_event(writer: &mut impl Write, event: &LocatedEvent, multipliers: &[[f6
 }
 
 /// `re+imi`, with blanks between them.
-pub(super) fn complex_numbers(numbers: &[[f64; 2]]) -> String {
+pub(crate) fn complex_numbers(numbers: &[[f64; 2]]) -> String {
     let numbers: Vec<String> = numbers.iter().map(|[re, im]| format!("{re:?}{im:+?}i")).collect();
     numbers.join(" ")
 }

@@ -20,6 +20,11 @@ pub use simulation::SimulationTables;
 pub use states::{PARAMETER_STATE_COLUMNS, STATE_COLUMNS};
 pub use table::{Table, header, number, word};
 
+pub(crate) use ends::entries;
+pub(crate) use events::complex_numbers;
+pub(crate) use motions::grid;
+pub(crate) use table::quoted;
+
 use ends::write_ends;
 use events::write_events;
 use motions::export_motions;

@@ -214,7 +214,7 @@ pub(super) fn export_motions(store: &Store, folder: &Path) -> Result<Vec<PathBuf
 }
 
 /// The grid of a request, as far as its words tell: where the cells lie, not what the coordinates are.
-fn grid(request: &RequestRecord) -> Result<Grid, StoreError> {
+pub(crate) fn grid(request: &RequestRecord) -> Result<Grid, StoreError> {
     let value = |key: &str| {
         let found = request.word(key).unwrap_or_default();
         found

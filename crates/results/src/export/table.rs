@@ -55,7 +55,7 @@ pub(super) fn optional(value: Option<impl ToString>) -> String {
 }
 
 /// A text in which a comma, a quotation mark or an end of line would change the columns, in quotation marks.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

@@ -1,0 +1,165 @@
+//! Stored orbits that are chosen by branch, frequency or event, with their motion over the period.
+
+use std::path::Path;
+
+use hammerbeam_orbit::{Events, PeriodicSolution};
+use hammerbeam_results::columns::{ColumnTable, ColumnValues};
+use hammerbeam_study::Model;
+
+use crate::{JobError, OrbitWaveform, PreparedStudy, StoredBranches, orbit_waveform};
+
+/// Which orbits of a results folder are meant: those that fit everything that is given.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OrbitChoice {
+    /// Numbers of branches; all if there are none.
+    pub branches: Vec<u32>,
+    /// Orbits in which branches cross these frequencies [Hz].
+    pub frequencies_hz: Vec<f64>,
+    /// Solutions with an event of these names: `fold`, `flip`, `neimark-sacker`, `branch-point`, `grazing`,
+    /// `start`, `end`.
+    pub events: Vec<String>,
+}
+
+/// An orbit of a results folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenOrbit {
+    /// The branch that holds it; `None` where it is not stored.
+    pub branch: Option<u32>,
+    /// Its events joined by `+`; none where a branch crosses a frequency between two rows.
+    pub event: String,
+    /// The solution.
+    pub solution: PeriodicSolution,
+}
+
+/// Orbits that are chosen: at each frequency in the order of the branches, then those with events.
+///
+/// # Errors
+/// [`JobError::Store`]: there are no results, or solutions are missing or damaged.
+pub fn chosen_orbits(
+    study: &PreparedStudy,
+    results: &Path,
+    choice: &OrbitChoice,
+) -> Result<Vec<ChosenOrbit>, JobError> {
+    let stored = StoredBranches::open(results, &study.file)?;
+    let is_wanted = |id: u32| choice.branches.is_empty() || choice.branches.contains(&id);
+    let mut found = Vec::new();
+    for frequency_hz in &choice.frequencies_hz {
+        let crossings = stored.crossings(&study.model, *frequency_hz, |record| is_wanted(record.id))?;
+        found.extend(crossings.into_iter().map(|(branch, solution)| ChosenOrbit {
+            branch: Some(branch),
+            event: String::new(),
+            solution,
+        }));
+    }
+    for branch in stored.branches().iter().filter(|branch| is_wanted(branch.record.id)) {
+        for placed in &branch.rows {
+            let event = placed.row.events.label();
+            if event.split('+').any(|name| choice.events.iter().any(|wanted| wanted == name)) {
+                let solution = stored.solution(branch, placed)?;
+                found.push(ChosenOrbit { branch: Some(branch.record.id), event, solution });
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Names of all events that rows may have.
+#[must_use]
+pub fn event_names() -> Vec<String> {
+    let all = Events {
+        fold: true,
+        flip: true,
+        neimark_sacker: true,
+        branch_point: true,
+        grazing: true,
+        start: true,
+        end: true,
+    };
+    all.label().split('+').map(str::to_owned).collect()
+}
+
+/// Orbits as two tables: `orbits`, one row for each with its numbers, state and multipliers, and `waveforms`,
+/// one row for each sample, with the number of its orbit.
+///
+/// * `samples`: in each excitation period.
+///
+/// # Errors
+/// [`JobError::Motion`]: a motion cannot be computed again.
+pub fn orbit_tables(
+    model: &Model,
+    orbits: &[ChosenOrbit],
+    samples: usize,
+) -> Result<[ColumnTable; 2], JobError> {
+    let waveforms = orbits
+        .iter()
+        .map(|orbit| orbit_waveform(model, &orbit.solution, samples))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok([orbit_table(orbits), waveform_table(model, &waveforms)])
+}
+
+/// Orbits in one row each, the table `orbits`.
+#[must_use]
+pub fn orbit_table(orbits: &[ChosenOrbit]) -> ColumnTable {
+    let number = |of: fn(&PeriodicSolution) -> f64| {
+        ColumnValues::Numbers(orbits.iter().map(|orbit| of(&orbit.solution)).collect())
+    };
+    let whole = |of: fn(&ChosenOrbit) -> u32| {
+        ColumnValues::Whole(orbits.iter().map(|orbit| of(orbit).into()).collect())
+    };
+    let states: Vec<Vec<f64>> = orbits.iter().map(|orbit| orbit.solution.nodes[0].clone()).collect();
+    let multipliers: Vec<Vec<[f64; 2]>> =
+        orbits.iter().map(|orbit| orbit.solution.floquet_multipliers.clone()).collect();
+    let stability = orbits.iter().map(|orbit| orbit.solution.stability().word().into());
+    let columns = [
+        ("orbit", ColumnValues::Whole((1..=orbits.len() as i64).collect())),
+        (
+            "branch",
+            ColumnValues::Whole(orbits.iter().map(|orbit| orbit.branch.map_or(-1, i64::from)).collect()),
+        ),
+        ("event", ColumnValues::Words(orbits.iter().map(|orbit| orbit.event.clone().into()).collect())),
+        ("period_multiple", whole(|orbit| orbit.solution.period_multiple)),
+        ("frequency_hz", number(|orbit| orbit.frequency_hz)),
+        ("max_abs_displacement_m", number(|orbit| orbit.maxima.displacement)),
+        ("max_abs_acceleration_m_s2", number(|orbit| orbit.maxima.acceleration)),
+        ("max_contact_force_n", number(|orbit| orbit.maxima.contact_force)),
+        ("max_impact_velocity_m_s", number(|orbit| orbit.maxima.impact_velocity)),
+        ("impulse_n_s", number(|orbit| orbit.maxima.impulse)),
+        ("contacts", whole(|orbit| orbit.solution.maxima.contacts)),
+        ("stable", ColumnValues::Flags(orbits.iter().map(|orbit| orbit.solution.stable()).collect())),
+        ("stability", ColumnValues::Words(stability.collect())),
+        ("residual", number(|orbit| orbit.residual)),
+        ("error_estimate", number(|orbit| orbit.error_estimate)),
+        ("phase_cycles", number(|orbit| orbit.phase)),
+        ("state", ColumnValues::vectors(&states)),
+        ("multipliers", ColumnValues::complex(&multipliers)),
+    ];
+    ColumnTable::new("orbits", columns.map(|(name, values)| (name.to_owned(), values)).into())
+}
+
+fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ColumnTable {
+    let joined = |of: &dyn Fn(&OrbitWaveform) -> &[f64]| {
+        ColumnValues::Numbers(waveforms.iter().flat_map(|waveform| of(waveform)).copied().collect())
+    };
+    let numbers =
+        waveforms.iter().zip(1..).flat_map(|(waveform, k)| std::iter::repeat_n(k, waveform.time.len()));
+    let mut columns: Vec<(String, ColumnValues)> = vec![
+        ("orbit".to_owned(), ColumnValues::Whole(numbers.collect())),
+        ("time_s".to_owned(), joined(&|waveform| &waveform.time)),
+        ("phase_cycles".to_owned(), joined(&|waveform| &waveform.phase_cycles)),
+    ];
+    for (k, point) in model.point_names().into_iter().enumerate() {
+        columns
+            .push((format!("{point}_displacement_m"), joined(&|waveform| &waveform.points[k].displacement)));
+        columns.push((format!("{point}_velocity_m_s"), joined(&|waveform| &waveform.points[k].velocity)));
+        columns.push((
+            format!("{point}_acceleration_m_s2"),
+            joined(&|waveform| &waveform.points[k].acceleration),
+        ));
+    }
+    for (k, element) in model.system.elements().iter().enumerate() {
+        columns.push((format!("{}_force_n", element.name), joined(&|waveform| &waveform.forces[k].1)));
+    }
+    let states: Vec<Vec<f64>> = waveforms.iter().flat_map(|waveform| waveform.states.clone()).collect();
+    columns.push(("state".to_owned(), ColumnValues::vectors(&states)));
+    ColumnTable::new("waveforms", columns)
+}

@@ -1,0 +1,239 @@
+//! Motions that need not repeat by columns: in time, settled ones, exponents, basins.
+
+use super::{ColumnTable, ColumnValues, named, or_nan, or_none};
+use crate::{
+    export::grid,
+    store::{
+        ExponentRecord, RequestKind, RequestRecord, SettledMotion, SimulatedContact, SimulationLayout, Store,
+        StoreError,
+    },
+};
+
+/// The tables of every request in a store, with its number in their names.
+///
+/// # Errors
+/// [`StoreError`].
+pub fn motion_tables(store: &Store) -> Result<Vec<ColumnTable>, StoreError> {
+    let mut tables = Vec::new();
+    for request in store.requests()? {
+        tables.extend(request_tables(store, &request)?.into_iter().map(|mut table| {
+            table.name = format!("{}-{}", table.name, request.id);
+            table
+        }));
+    }
+    Ok(tables)
+}
+
+/// The tables of a request, with the columns of their CSV files: `samples`, `contacts`, `stroboscopic`;
+/// `sweep`, `sweep_samples`; `spectra`, `exponents`; or `basins`.
+///
+/// # Errors
+/// [`StoreError`].
+pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<ColumnTable>, StoreError> {
+    match request.kind {
+        RequestKind::Simulation => simulation(store, request),
+        RequestKind::Sweep | RequestKind::Starts => Ok(settled(&store.settled(request.id)?)),
+        RequestKind::Exponents => Ok(exponents(&store.exponents(request.id)?)),
+        RequestKind::Basins => {
+            let (cells, _) = store.basins(request.id)?;
+            let grid = grid(request)?;
+            let places: Vec<[f64; 2]> = (0..cells.len()).map(|cell| grid.place(cell)).collect();
+            let along = |axis: usize| ColumnValues::Numbers(places.iter().map(|place| place[axis]).collect());
+            let attractors = ColumnValues::Whole(cells.iter().map(|&cell| cell.into()).collect());
+            let columns = named([("x", along(0)), ("y", along(1)), ("attractor", attractors)]);
+            Ok(vec![ColumnTable::new("basins", columns)])
+        }
+    }
+}
+
+/// Samples, contacts and the stroboscopic section of a motion in time.
+fn simulation(store: &Store, request: &RequestRecord) -> Result<Vec<ColumnTable>, StoreError> {
+    let layout = SimulationLayout::of(request)?;
+    let (mut samples, mut section, mut contacts, mut open) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    store.each_simulated::<StoreError>(request.id, &layout, |chunk| {
+        samples.extend(chunk.samples);
+        section.extend(chunk.section);
+        contacts.extend(chunk.contacts);
+        open = chunk.unfinished;
+        Ok(())
+    })?;
+    contacts.extend(open);
+    Ok(vec![
+        sample_table(&layout, &samples),
+        contact_table(&layout, &contacts),
+        section_table(&layout, &section),
+    ])
+}
+
+/// Every `width`-th number, from `first` on.
+fn strided(numbers: &[f64], first: usize, width: usize) -> ColumnValues {
+    ColumnValues::Numbers(numbers.iter().skip(first).step_by(width).copied().collect())
+}
+
+fn sample_table(layout: &SimulationLayout, samples: &[f64]) -> ColumnTable {
+    let width = layout.numbers_of_sample();
+    let per_period = layout.samples_per_period as usize;
+    let count = samples.len() / width;
+    let phase = |sample: usize| layout.phase((sample % per_period) as u32);
+    let time = |sample: usize| {
+        (sample / per_period) as f64 / layout.frequency_hz + phase(sample) / layout.frequency_hz
+    };
+    let mut columns = named([
+        ("time_s", ColumnValues::Numbers((0..count).map(time).collect())),
+        ("phase_cycles", ColumnValues::Numbers((0..count).map(phase).collect())),
+        ("displacement_m", strided(samples, 0, width)),
+        ("velocity_m_s", strided(samples, 1, width)),
+        ("acceleration_m_s2", strided(samples, 2, width)),
+    ]);
+    for (place, name) in layout.elements.iter().enumerate() {
+        let name = crate::export::word(name);
+        columns.push((format!("{name}_relative_displacement_m"), strided(samples, 3 + 2 * place, width)));
+        columns.push((format!("{name}_force_n"), strided(samples, 4 + 2 * place, width)));
+    }
+    ColumnTable::new("samples", columns)
+}
+
+fn section_table(layout: &SimulationLayout, section: &[f64]) -> ColumnTable {
+    let width = layout.numbers_of_section();
+    let count = section.len() / width;
+    let time =
+        |period: usize| period as f64 / layout.frequency_hz + layout.section_phase / layout.frequency_hz;
+    let states: Vec<f64> = section.chunks_exact(width).flat_map(|row| &row[2..]).copied().collect();
+    ColumnTable::new(
+        "stroboscopic",
+        named([
+            ("time_s", ColumnValues::Numbers((0..count).map(time).collect())),
+            ("phase_cycles", ColumnValues::Numbers(vec![layout.section_phase; count])),
+            ("displacement_m", strided(section, 0, width)),
+            ("velocity_m_s", strided(section, 1, width)),
+            ("state", ColumnValues::Vectors { width: width - 2, values: states }),
+        ]),
+    )
+}
+
+fn contact_table(layout: &SimulationLayout, contacts: &[SimulatedContact]) -> ColumnTable {
+    let number = |of: &dyn Fn(&SimulatedContact) -> Option<f64>| {
+        ColumnValues::Numbers(contacts.iter().map(|contact| or_nan(of(contact))).collect())
+    };
+    let name =
+        |contact: &SimulatedContact| layout.elements.get(contact.element).cloned().unwrap_or_default().into();
+    let touch = |contact: &SimulatedContact| contact.touch.clone();
+    ColumnTable::new(
+        "contacts",
+        named([
+            ("element", ColumnValues::Words(contacts.iter().map(name).collect())),
+            ("begin_s", number(&|contact| Some(touch(contact)?.time_s))),
+            ("end_s", number(&|contact| contact.end_s)),
+            ("phase_cycles", number(&|contact| Some(touch(contact)?.phase))),
+            ("impact_velocity_m_s", number(&|contact| Some(touch(contact)?.speed))),
+            ("impulse_n_s", number(&|contact| Some(contact.impulse))),
+            ("peak_force_n", number(&|contact| Some(contact.peak_force))),
+            ("energy_lost_j", number(&|contact| Some(contact.energy_lost))),
+            ("displacement_m", number(&|contact| Some(touch(contact)?.response[0]))),
+            ("velocity_m_s", number(&|contact| Some(touch(contact)?.response[1]))),
+        ]),
+    )
+}
+
+/// Settled motions and their samples.
+fn settled(motions: &[SettledMotion]) -> Vec<ColumnTable> {
+    let number = |of: &dyn Fn(&SettledMotion) -> Option<f64>| {
+        ColumnValues::Numbers(motions.iter().map(|motion| or_nan(of(motion))).collect())
+    };
+    let origin = motions.iter().map(|motion| motion.origin.clone().into());
+    let class = motions.iter().map(|motion| motion.point.class.name().into());
+    let period = motions.iter().map(|motion| or_none(motion.point.class.period()));
+    let sweep = ColumnTable::new(
+        "sweep",
+        named([
+            ("from", ColumnValues::Words(origin.collect())),
+            ("frequency_hz", number(&|motion| Some(motion.point.frequency_hz))),
+            ("class", ColumnValues::Words(class.collect())),
+            ("period", ColumnValues::Whole(period.collect())),
+            ("max_abs_displacement_m", number(&|motion| Some(motion.point.max_abs_displacement))),
+            ("contacts_per_period", number(&|motion| Some(motion.point.contacts_per_period))),
+            ("largest_exponent_per_s", number(&|motion| Some(motion.point.largest_exponent?.value))),
+            ("half_width_per_s", number(&|motion| Some(motion.point.largest_exponent?.half_width))),
+            ("zero_one_k", number(&|motion| motion.point.zero_one)),
+        ]),
+    );
+    let each =
+        || motions.iter().flat_map(|motion| motion.point.samples.iter().map(move |sample| (motion, *sample)));
+    let samples = ColumnTable::new(
+        "sweep_samples",
+        named([
+            ("from", ColumnValues::Words(each().map(|(motion, _)| motion.origin.clone().into()).collect())),
+            (
+                "frequency_hz",
+                ColumnValues::Numbers(each().map(|(motion, _)| motion.point.frequency_hz).collect()),
+            ),
+            (
+                "class",
+                ColumnValues::Words(each().map(|(motion, _)| motion.point.class.name().into()).collect()),
+            ),
+            ("displacement_m", ColumnValues::Numbers(each().map(|(_, sample)| sample).collect())),
+        ]),
+    );
+    vec![sweep, samples]
+}
+
+/// Spectra of exponents, and their convergence.
+fn exponents(records: &[ExponentRecord]) -> Vec<ColumnTable> {
+    let number = |of: &dyn Fn(&ExponentRecord) -> Option<f64>| {
+        ColumnValues::Numbers(records.iter().map(|record| or_nan(of(record))).collect())
+    };
+    let exponents: Vec<Vec<f64>> = records
+        .iter()
+        .map(|record| record.spectrum.exponents.iter().map(|one| one.value).collect())
+        .collect();
+    let widths: Vec<Vec<f64>> = records
+        .iter()
+        .map(|record| record.spectrum.exponents.iter().map(|one| one.half_width).collect())
+        .collect();
+    let spectra = ColumnTable::new(
+        "spectra",
+        named([
+            ("frequency_hz", number(&|record| Some(record.frequency_hz))),
+            ("exponents_per_s", ColumnValues::vectors(&exponents)),
+            ("half_widths_per_s", ColumnValues::vectors(&widths)),
+            ("sum_per_s", number(&|record| Some(record.spectrum.sum))),
+            ("divergence_per_s", number(&|record| Some(record.divergence))),
+            ("expected_sum_per_s", number(&|record| record.spectrum.expected_sum)),
+            ("kaplan_yorke_dimension", number(&|record| Some(record.spectrum.kaplan_yorke_dimension))),
+            ("block_correlation", number(&|record| Some(record.spectrum.block_correlation))),
+            ("zero_one_k", number(&|record| record.zero_one)),
+            ("time_s", number(&|record| Some(record.spectrum.time))),
+        ]),
+    );
+    let places =
+        || records.iter().flat_map(|record| record.spectrum.convergence.iter().map(move |at| (record, at)));
+    let along: Vec<Vec<f64>> = places().map(|(_, at)| at.exponents.clone()).collect();
+    let convergence = ColumnTable::new(
+        "convergence",
+        named([
+            (
+                "frequency_hz",
+                ColumnValues::Numbers(places().map(|(record, _)| record.frequency_hz).collect()),
+            ),
+            ("time_s", ColumnValues::Numbers(places().map(|(_, at)| at.time).collect())),
+            ("exponents_per_s", ColumnValues::vectors(&along)),
+        ]),
+    );
+    let points =
+        || records.iter().flat_map(|record| record.section.iter().map(move |point| (record, *point)));
+    let section = ColumnTable::new(
+        "section",
+        named([
+            (
+                "frequency_hz",
+                ColumnValues::Numbers(points().map(|(record, _)| record.frequency_hz).collect()),
+            ),
+            (
+                "displacement_m",
+                ColumnValues::Numbers(points().map(|(_, [displacement, _])| displacement).collect()),
+            ),
+            ("velocity_m_s", ColumnValues::Numbers(points().map(|(_, [_, velocity])| velocity).collect())),
+        ]),
+    );
+    vec![spectra, convergence, section]
+}

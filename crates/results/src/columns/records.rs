@@ -1,0 +1,168 @@
+//! Columns packed as records in NumPy's layout.
+//!
+//! A record holds the entries of a row one after the other without gaps: `<f8` a number, `<i8` a whole
+//! number, `|b1` a flag, `<U` words of equal width in UCS-4, `(w,)<f8` and `(w,)<c16` vectors. A file `.npy`
+//! is these bytes behind a header that describes them (NumPy Enhancement Proposal 1).
+
+use super::{ColumnTable, ColumnValues, TableColumn};
+
+/// Rows that are packed together, so that what is written stays in the cache.
+const BLOCK: usize = 256;
+/// The header of a `.npy` file ends at a multiple of this.
+const ALIGNED: usize = 64;
+
+/// Packed records.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Records {
+    /// Of each field its name, its type in NumPy's letters, and its length if it is a vector.
+    pub fields: Vec<(String, String, Option<usize>)>,
+    /// Number of records.
+    pub rows: usize,
+    /// The records.
+    pub bytes: Vec<u8>,
+}
+
+/// Packs a table; columns of vectors that have no entry in any row are left out.
+#[must_use]
+pub fn pack(table: &ColumnTable) -> Records {
+    let rows = table.rows();
+    let columns: Vec<&TableColumn> = table.columns.iter().filter(|column| width(column) > 0).collect();
+    let fields = columns.iter().map(|column| field(column)).collect();
+    let widths: Vec<usize> = columns.iter().map(|column| width(column)).collect();
+    let size = widths.iter().sum::<usize>();
+    let mut bytes = vec![0; rows * size];
+    for first in (0..rows).step_by(BLOCK) {
+        let block = first..rows.min(first + BLOCK);
+        let mut offset = 0;
+        for (column, width) in columns.iter().zip(&widths) {
+            for row in block.clone() {
+                let start = row * size + offset;
+                put(column, row, &mut bytes[start..start + width]);
+            }
+            offset += width;
+        }
+    }
+    Records { fields, rows, bytes }
+}
+
+/// Bytes of an entry.
+fn width(column: &TableColumn) -> usize {
+    match &column.values {
+        ColumnValues::Numbers(_) | ColumnValues::Whole(_) => 8,
+        ColumnValues::Flags(_) => 1,
+        ColumnValues::Words(words) => 4 * longest(words),
+        ColumnValues::Vectors { width, .. } => 8 * width,
+        ColumnValues::Complex { width, .. } => 16 * width,
+    }
+}
+
+/// Characters of the longest word, one at least.
+fn longest(words: &[std::borrow::Cow<'static, str>]) -> usize {
+    words.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1)
+}
+
+fn field(column: &TableColumn) -> (String, String, Option<usize>) {
+    let (letters, length) = match &column.values {
+        ColumnValues::Numbers(_) => ("<f8".to_owned(), None),
+        ColumnValues::Whole(_) => ("<i8".to_owned(), None),
+        ColumnValues::Flags(_) => ("|b1".to_owned(), None),
+        ColumnValues::Words(words) => (format!("<U{}", longest(words)), None),
+        ColumnValues::Vectors { width, .. } => ("<f8".to_owned(), Some(*width)),
+        ColumnValues::Complex { width, .. } => ("<c16".to_owned(), Some(*width)),
+    };
+    (column.name.clone(), letters, length)
+}
+
+fn put(column: &TableColumn, row: usize, place: &mut [u8]) {
+    match &column.values {
+        ColumnValues::Numbers(values) => place.copy_from_slice(&values[row].to_le_bytes()),
+        ColumnValues::Whole(values) => place.copy_from_slice(&values[row].to_le_bytes()),
+        ColumnValues::Flags(values) => place[0] = u8::from(values[row]),
+        ColumnValues::Words(words) => {
+            for (letter, place) in words[row].chars().zip(place.chunks_exact_mut(4)) {
+                place.copy_from_slice(&u32::from(letter).to_le_bytes());
+            }
+        }
+        ColumnValues::Vectors { width, values } => {
+            numbers(&values[row * width..(row + 1) * width], place);
+        }
+        ColumnValues::Complex { width, values } => {
+            numbers(values[row * width..(row + 1) * width].as_flattened(), place);
+        }
+    }
+}
+
+fn numbers(values: &[f64], place: &mut [u8]) {
+    for (value, place) in values.iter().zip(place.chunks_exact_mut(8)) {
+        place.copy_from_slice(&value.to_le_bytes());
+    }
+}
+
+impl Records {
+    /// The bytes of a `.npy` file in front of the records.
+    #[must_use]
+    pub fn npy_header(&self) -> Vec<u8> {
+        let field = |(name, letters, length): &(String, String, Option<usize>)| {
+            let name = name.replace('\\', "\\\\").replace('\'', "\\'");
+            match length {
+                None => format!("('{name}', '{letters}'), "),
+                Some(length) => format!("('{name}', '{letters}', ({length},)), "),
+            }
+        };
+        let fields: String = self.fields.iter().map(field).collect();
+        let shape = self.rows;
+        let mut text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({shape},), }}");
+        // Version 3 has its header in UTF-8, the versions before it in Latin-1.
+        let front = b"\x93NUMPY\x03\x00".len() + 4;
+        let length = (front + text.len() + 1).next_multiple_of(ALIGNED);
+        text.extend(std::iter::repeat_n(' ', length - front - text.len() - 1));
+        text.push('\n');
+        let mut header = b"\x93NUMPY\x03\x00".to_vec();
+        header.extend((text.len() as u32).to_le_bytes());
+        header.extend(text.as_bytes());
+        header
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::named;
+
+    fn table() -> ColumnTable {
+        let words = vec!["".into(), "fold".into()];
+        ColumnTable::new(
+            "table",
+            named([
+                ("n", ColumnValues::Whole(vec![1, -1])),
+                ("x", ColumnValues::Numbers(vec![0.5, f64::NAN])),
+                ("ok", ColumnValues::Flags(vec![true, false])),
+                ("word", ColumnValues::Words(words)),
+                ("z", ColumnValues::complex(&[vec![[1.0, 2.0]], vec![]])),
+                ("none", ColumnValues::vectors(&[vec![], vec![]])),
+            ]),
+        )
+    }
+
+    #[test]
+    fn records_hold_their_entries_one_after_the_other() {
+        let records = pack(&table());
+        let size = 8 + 8 + 1 + 4 * 4 + 16;
+        assert_eq!((records.rows, records.bytes.len()), (2, 2 * size));
+        let letters: Vec<&str> = records.fields.iter().map(|(_, letters, _)| letters.as_str()).collect();
+        assert_eq!(letters, ["<i8", "<f8", "|b1", "<U4", "<c16"]);
+        let number = |at: usize| f64::from_le_bytes(records.bytes[at..at + 8].try_into().unwrap());
+        assert_eq!([number(8), number(33), number(41)], [0.5, 1.0, 2.0]);
+        assert_eq!(&records.bytes[size..size + 8], &(-1_i64).to_le_bytes());
+        assert_eq!(records.bytes[size + 17..size + 21], u32::from('f').to_le_bytes());
+        assert!(number(size + 33).is_nan());
+    }
+
+    #[test]
+    fn the_header_ends_at_a_multiple_of_64_and_says_its_length() {
+        let header = pack(&table()).npy_header();
+        assert_eq!(header.len() % 64, 0);
+        let length = u32::from_le_bytes(header[8..12].try_into().unwrap()) as usize;
+        assert_eq!((length + 12, header[header.len() - 1]), (header.len(), b'\n'));
+    }
+}

@@ -1,0 +1,72 @@
+//! Periodic solutions.
+
+use std::sync::Arc;
+
+use hammerbeam::{
+    Error, Study,
+    chosen_orbits::{ChosenOrbit, orbit_table, orbit_tables},
+    results::columns::ColumnTable,
+};
+use pyo3::{exceptions::PyIndexError, prelude::*};
+
+use crate::{
+    failure::exception,
+    records::{PackedTable, all_packed, packed},
+};
+
+/// Periodic solutions of a study.
+#[pyclass(frozen, module = "hammerbeam._native")]
+pub struct NativeOrbits {
+    study: Arc<Study>,
+    orbits: Vec<ChosenOrbit>,
+}
+
+impl NativeOrbits {
+    /// Solutions of a study.
+    pub fn new(study: Arc<Study>, orbits: Vec<ChosenOrbit>) -> Self {
+        Self { study, orbits }
+    }
+
+    /// All of them as tables.
+    pub fn tables(&self, samples: usize) -> Result<[ColumnTable; 2], Error> {
+        orbit_tables(&self.study.model, &self.orbits, samples)
+    }
+}
+
+#[pymethods]
+impl NativeOrbits {
+    fn __len__(&self) -> usize {
+        self.orbits.len()
+    }
+
+    /// Name of the response point.
+    #[getter]
+    fn response_point(&self) -> &str {
+        &self.study.file.study.response.point
+    }
+
+    /// One row for each.
+    fn table<'py>(&self, py: Python<'py>) -> PackedTable<'py> {
+        packed(py, &orbit_table(&self.orbits))
+    }
+
+    /// All of them with their motions.
+    fn tables_of_all<'py>(&self, py: Python<'py>, samples: usize) -> PyResult<Vec<PackedTable<'py>>> {
+        let tables = py.detach(|| self.tables(samples)).map_err(|error| exception(py, error))?;
+        Ok(all_packed(py, &tables))
+    }
+
+    /// The motion of one of them over its period.
+    fn waveform<'py>(&self, py: Python<'py>, index: usize, samples: usize) -> PyResult<PackedTable<'py>> {
+        let orbit = self.orbits.get(index).ok_or_else(|| PyIndexError::new_err("no such orbit"))?;
+        let tables = py.detach(|| orbit_tables(&self.study.model, std::slice::from_ref(orbit), samples));
+        let [_, waveform] = tables.map_err(|error| exception(py, error))?;
+        Ok(packed(py, &waveform))
+    }
+
+    /// Shooting nodes of one of them.
+    fn nodes(&self, index: usize) -> PyResult<Vec<Vec<f64>>> {
+        let orbit = self.orbits.get(index).ok_or_else(|| PyIndexError::new_err("no such orbit"))?;
+        Ok(orbit.solution.nodes.clone())
+    }
+}

@@ -1,0 +1,248 @@
+//! A results folder.
+
+use std::{
+    path::PathBuf,
+    sync::{Arc, Mutex, MutexGuard},
+};
+
+use hammerbeam::{
+    Store, Study,
+    chosen_orbits::{OrbitChoice, chosen_orbits, event_names},
+    drawing::{DrawSettings, DrawingError, FigureFormat, FigureKind, FigureSelection, draw, draw_into},
+    results::{
+        columns::{
+            ColumnTable, TableFormat, branch_table, end_table, event_table, export_all, motion_tables,
+            request_tables, state_table, varied_tables, write_tables,
+        },
+        store::StoreError,
+    },
+};
+use pyo3::prelude::*;
+
+use crate::{
+    failure::{bad_input, drawing_exception, exception, store_exception},
+    observer::PythonObserver,
+    orbits::NativeOrbits,
+    records::{PackedTable, all_packed},
+    study::NativeStudy,
+};
+
+type Callback = Option<Py<PyAny>>;
+
+/// A results folder that is open for reading.
+#[pyclass(frozen, module = "hammerbeam._native")]
+pub struct NativeResults {
+    folder: PathBuf,
+    study: Arc<Study>,
+    /// `None` when it was closed.
+    store: Mutex<Option<Store>>,
+}
+
+/// Which tables are meant.
+fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<ColumnTable>>, StoreError> {
+    let tables = match name {
+        "branches" => vec![branch_table(store, branches)?],
+        "events" => vec![event_table(store, branches)?],
+        "ends" => vec![end_table(store, branches)?],
+        "states" => vec![state_table(store, branches)?],
+        "varied" => varied_tables(store)?,
+        "motions" => motion_tables(store)?,
+        _ => return Ok(None),
+    };
+    Ok(Some(tables))
+}
+
+impl NativeResults {
+    fn store(&self) -> MutexGuard<'_, Option<Store>> {
+        self.store.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// Asks the store without the interpreter's lock.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&Store) -> Result<T, StoreError> + Send,
+    ) -> PyResult<T> {
+        let answer = py.detach(|| self.store().as_ref().map(ask));
+        match answer {
+            Some(answer) => answer.map_err(|error| store_exception(py, error)),
+            None => Err(self.closed(py)),
+        }
+    }
+
+    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait for it.
+    fn check_open(&self, py: Python<'_>) -> PyResult<()> {
+        if py.detach(|| self.store().is_none()) { Err(self.closed(py)) } else { Ok(()) }
+    }
+
+    fn closed(&self, py: Python<'_>) -> PyErr {
+        let message = format!("the results of {} are closed", self.folder.display());
+        bad_input(py, "ClosedResults", message)
+    }
+}
+
+#[pymethods]
+impl NativeResults {
+    /// Opens a results folder.
+    #[staticmethod]
+    fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        let opened = py.detach(|| {
+            let store = Store::open(&folder)?;
+            let study = Study::of_store(&store)?;
+            Ok((store, study))
+        });
+        let (store, study) = opened.map_err(|error| exception(py, error))?;
+        Ok(Self { folder, study: Arc::new(study), store: Mutex::new(Some(store)) })
+    }
+
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.folder.clone()
+    }
+
+    /// The study whose results these are.
+    #[getter]
+    fn study(&self) -> NativeStudy {
+        NativeStudy { study: self.study.clone() }
+    }
+
+    /// Lets the folder go.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let closed = py.detach(|| self.store().take().map_or(Ok(()), Store::finish));
+        closed.map_err(|error| store_exception(py, error))
+    }
+
+    #[getter]
+    fn closed_already(&self, py: Python<'_>) -> bool {
+        py.detach(|| self.store().is_none())
+    }
+
+    /// Tables by their names.
+    fn tables<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        branches: Vec<u32>,
+    ) -> PyResult<Vec<PackedTable<'py>>> {
+        let found = self.ask(py, |store| tables(store, name, &branches))?;
+        match found {
+            Some(tables) => Ok(all_packed(py, &tables)),
+            None => Err(bad_input(py, "BadInput", format!("there is no table {name:?}"))),
+        }
+    }
+
+    /// Tables of one request.
+    fn request_tables<'py>(&self, py: Python<'py>, request: i64) -> PyResult<Vec<PackedTable<'py>>> {
+        let found = self.ask(py, |store| {
+            let requests = store.requests()?;
+            let record = requests.iter().find(|record| record.id == request);
+            record.map_or_else(|| Ok(Vec::new()), |record| request_tables(store, record))
+        })?;
+        Ok(all_packed(py, &found))
+    }
+
+    /// Number of rows of each branch.
+    fn branch_rows(&self, py: Python<'_>) -> PyResult<Vec<(u32, u32, u64)>> {
+        let branches = self.ask(py, Store::branches)?;
+        let rows =
+            |branch: &hammerbeam::results::store::BranchRecord| branch.up.solutions + branch.down.solutions;
+        Ok(branches.iter().map(|branch| (branch.id, branch.period_multiple, rows(branch))).collect())
+    }
+
+    /// Stored orbits by branch, frequency and event.
+    fn orbits(
+        &self,
+        py: Python<'_>,
+        branches: Vec<u32>,
+        frequencies_hz: Vec<f64>,
+        events: Vec<String>,
+    ) -> PyResult<NativeOrbits> {
+        self.check_open(py)?;
+        let known = event_names();
+        if let Some(event) = events.iter().find(|event| !known.contains(event)) {
+            let message = format!("there is no event {event:?}; allowed: {}", known.join(", "));
+            return Err(bad_input(py, "BadInput", message));
+        }
+        let choice = OrbitChoice { branches, frequencies_hz, events };
+        let found = py.detach(|| chosen_orbits(&self.study, &self.folder, &choice));
+        Ok(NativeOrbits::new(self.study.clone(), found.map_err(|error| exception(py, error))?))
+    }
+
+    /// Writes what is stored as `csv`, `json` or `npz`: the files.
+    fn export(&self, py: Python<'_>, format: &str, folder: PathBuf, states: bool) -> PyResult<Vec<PathBuf>> {
+        let format = table_format(py, format)?;
+        let written =
+            py.detach(|| self.store().as_ref().map(|store| export_all(store, &folder, format, states)));
+        let files = written.ok_or_else(|| self.closed(py))?;
+        files.map_err(|error| exception(py, error.into()))
+    }
+
+    /// Draws figures into a folder: their names.
+    fn draw(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        asked: (Vec<String>, Vec<String>, Option<f64>),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<Vec<String>> {
+        let (kinds, formats, resolution) = asked;
+        let mut selection = FigureSelection::of(&self.study.file);
+        let named = |kind: &FigureKind| format!("{kind:?}").to_lowercase();
+        if let Some(kind) =
+            kinds.iter().find(|kind| !FigureKind::ALL.iter().any(|known| named(known) == **kind))
+        {
+            let known: Vec<String> = FigureKind::ALL.iter().map(named).collect();
+            let message = format!("there is no figure {kind:?}; allowed: {}", known.join(", "));
+            return Err(bad_input(py, "BadInput", message));
+        }
+        if !kinds.is_empty() {
+            selection.kinds.retain(|kind| kinds.contains(&named(kind)));
+        }
+        let mut settings = DrawSettings::default();
+        if !formats.is_empty() {
+            settings.formats = formats.iter().map(|name| figure_format(py, name)).collect::<PyResult<_>>()?;
+        }
+        settings.resolution = resolution.unwrap_or(settings.resolution);
+        self.check_open(py)?;
+        // A store of its own: what is called meanwhile may ask these results for something.
+        let drawn = PythonObserver::run(py, callbacks, |observer| {
+            let (store, study) = (Store::open(&self.folder)?, &self.study);
+            draw_into::<DrawingError>(&folder, settings, observer, |files| {
+                draw(&store, (&study.file, &study.model), &selection, files)
+            })
+        })?;
+        Ok(drawn.map_err(|error| drawing_exception(py, error))?.names)
+    }
+
+    /// Writes orbits and their motions as `csv`, `json` or `npz`: the files.
+    #[staticmethod]
+    fn export_orbits(
+        py: Python<'_>,
+        orbits: &NativeOrbits,
+        format: &str,
+        folder: PathBuf,
+        samples: usize,
+    ) -> PyResult<Vec<PathBuf>> {
+        let format = table_format(py, format)?;
+        let written = py.detach(|| -> Result<Vec<PathBuf>, hammerbeam::Error> {
+            Ok(write_tables(&orbits.tables(samples)?, &folder, ("orbits", format))?)
+        });
+        written.map_err(|error| exception(py, error))
+    }
+}
+
+/// A format by its name.
+fn table_format(py: Python<'_>, name: &str) -> PyResult<TableFormat> {
+    let found = TableFormat::ALL.into_iter().find(|format| format.name() == name);
+    found.ok_or_else(|| {
+        bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: csv, json, npz"))
+    })
+}
+
+/// A format of figures by its name.
+fn figure_format(py: Python<'_>, name: &str) -> PyResult<FigureFormat> {
+    let found = FigureFormat::ALL.into_iter().find(|format| format.suffix() == name);
+    found.ok_or_else(|| {
+        bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: svg, png, pdf"))
+    })
+}

@@ -1,0 +1,279 @@
+//! A study and what can be asked of it: most methods are commands, with their options.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use hammerbeam::{
+    Error, FrequencySeries, InitialState, JobFolders, Quiet, Study,
+    attractor::{Effort, Patience},
+    basins::{BasinAxis, BasinsRequest, basins},
+    check::check,
+    chosen_orbits::ChosenOrbit,
+    drawing::{DrawSettings, DrawingError, FigureSelection, draw, draw_into},
+    exponents::{ExponentsRequest, exponents},
+    modes_document,
+    orbits::orbits,
+    pool::threads,
+    run::{RunOutcome, RunRequest, WholeRun, run_study},
+    simulate::{DurationTooLong, SimulationRequest, SimulationTime, simulate},
+    sweep::{SweepRequest, SweepStarts, sweep},
+};
+use pyo3::prelude::*;
+use serde::Serialize;
+
+use crate::{
+    failure::{bad_input, drawing_exception, exception, study_exception},
+    observer::PythonObserver,
+    orbits::NativeOrbits,
+};
+
+type Callback = Option<Py<PyAny>>;
+
+fn json(report: &impl Serialize) -> String {
+    serde_json::to_string(report).expect("reports are plain data with text keys")
+}
+
+fn folders<'a>(results: &'a Option<PathBuf>, out: &'a Option<PathBuf>) -> JobFolders<'a> {
+    JobFolders { results: results.as_deref(), out: out.as_deref() }
+}
+
+fn initial(py: Python<'_>, text: &str, study: &Study) -> PyResult<InitialState> {
+    let state = InitialState::parse(text, 2 * study.dof());
+    state.map_err(|error| bad_input(py, "InitialStateError", format!("initial: {error}")))
+}
+
+/// What is spent on the kind of a motion: periods that are skipped, that it has to repeat in, that a period
+/// has at most, and that are averaged over.
+type EffortNumbers = (u64, u64, usize, u64);
+
+/// Frequency [Hz], periods of the transient, periods, duration [s], samples in a period.
+type ForcedTime = (f64, u64, u64, Option<f64>, u32);
+
+fn effort((skipped, periods, longest, averaged): EffortNumbers) -> Effort {
+    Effort { patience: Patience { skipped, periods, longest }, averaged, ..Effort::default() }
+}
+
+/// A run without its drawing, or with it.
+fn run(
+    study: &Study,
+    (out, from, jobs, drawn): (&Path, &[PathBuf], Option<u16>, bool),
+    observer: &mut PythonObserver,
+) -> Result<(String, bool), DrawingError> {
+    let threads = threads(jobs);
+    let WholeRun { store, mut report } = run_study(study, RunRequest { out, from, threads }, observer)?;
+    let is_interrupted = report.outcome == RunOutcome::Interrupted;
+    let figures = (drawn && !is_interrupted).then(|| {
+        let settings = DrawSettings { threads, ..DrawSettings::default() };
+        let selection = FigureSelection::of_run(&study.file);
+        draw_into::<DrawingError>(out, settings, observer, |files| {
+            draw(&store, (&study.file, &study.model), &selection, files)
+        })
+    });
+    store.finish().map_err(Error::from)?;
+    report.figures = figures.transpose()?.map(|files| files.names).unwrap_or_default();
+    Ok((json(&report), is_interrupted))
+}
+
+/// A study with its model.
+#[pyclass(frozen, module = "hammerbeam._native")]
+pub struct NativeStudy {
+    pub(crate) study: Arc<Study>,
+}
+
+#[pymethods]
+impl NativeStudy {
+    /// Reads a study file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let study = py.detach(|| Study::read(path)).map_err(|error| study_exception(py, error))?;
+        Ok(Self { study: Arc::new(study) })
+    }
+
+    /// Reads a study from a text.
+    #[staticmethod]
+    fn parse(py: Python<'_>, name: &str, text: String) -> PyResult<Self> {
+        let study = py.detach(|| Study::parse(name, text)).map_err(|error| study_exception(py, error))?;
+        Ok(Self { study: Arc::new(study) })
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.study.file.text
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.study.file.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.study.file.study.title
+    }
+
+    #[getter]
+    fn dof(&self) -> usize {
+        self.study.dof()
+    }
+
+    #[getter]
+    fn points(&self) -> Vec<&str> {
+        self.study.model.point_names()
+    }
+
+    /// The range of the excitation frequency [Hz]; `None` without an excitation.
+    #[getter]
+    fn range_hz(&self) -> Option<(f64, f64)> {
+        self.study.file.study.excitation.harmonic().map(|harmonic| harmonic.frequency_hz.into())
+    }
+
+    /// What `check --json` says.
+    fn check(&self, py: Python<'_>) -> PyResult<String> {
+        let report = check(&self.study, &mut Quiet).map_err(|error| exception(py, error))?;
+        Ok(json(&report))
+    }
+
+    /// What `modes --json` says.
+    fn modes(&self) -> String {
+        modes_document(&self.study.model).to_string()
+    }
+
+    /// Runs what is left of the study: its report, and whether it was stopped.
+    fn run(
+        &self,
+        py: Python<'_>,
+        asked: (PathBuf, Vec<PathBuf>, Option<u16>, bool),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<(String, bool)> {
+        let (out, from, jobs, drawn) = asked;
+        let asked = (out.as_path(), from.as_slice(), jobs, drawn);
+        let done = PythonObserver::run(py, callbacks, |observer| run(&self.study, asked, observer))?;
+        done.map_err(|error| drawing_exception(py, error))
+    }
+
+    /// All periodic solutions at a frequency, and why the search is not complete, if it is not.
+    fn orbits(
+        &self,
+        py: Python<'_>,
+        frequency_hz: f64,
+        period_multiple: u32,
+        callbacks: (Callback, Callback),
+    ) -> PyResult<(NativeOrbits, Option<String>)> {
+        let found = PythonObserver::run(py, callbacks, |observer| {
+            orbits(&self.study, frequency_hz, period_multiple, observer)
+        })?;
+        let found = found.map_err(|error| exception(py, error))?;
+        let chosen = |solution| ChosenOrbit { branch: None, event: String::new(), solution };
+        let all = found.orbits.into_iter().map(chosen).collect();
+        Ok((NativeOrbits::new(self.study.clone(), all), found.incomplete))
+    }
+
+    /// A motion in time: of a study with an excitation `(frequency_hz, transient, periods, duration_s,
+    /// samples)`, where a duration counts before periods, of one without `(duration_s, sampling_hz)`.
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        asked: (Option<ForcedTime>, Option<(f64, Option<f64>)>),
+        motion: (f64, &str),
+        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<String> {
+        let (forced, free) = asked;
+        let (section_phase, start) = motion;
+        let (results, out) = kept_in;
+        let too_long = |error: DurationTooLong| bad_input(py, "SimulationTooLarge", error.to_string());
+        let time = match (forced, free) {
+            (_, Some((duration, sampling))) => {
+                SimulationTime::free(duration, sampling, &self.study.model).map_err(too_long)?
+            }
+            (Some((frequency_hz, transient, periods, duration, samples)), None) => {
+                let whole = |duration| SimulationTime::periods_in(duration, frequency_hz).map_err(too_long);
+                let periods = duration.map_or(Ok(periods), whole)?;
+                SimulationTime::periods(frequency_hz, transient, periods, samples)
+            }
+            (None, None) => {
+                let message = "neither periods nor a duration are given".to_owned();
+                return Err(bad_input(py, "BadInput", message));
+            }
+        };
+        let request = SimulationRequest { time, section_phase, initial: initial(py, start, &self.study)? };
+        let report = PythonObserver::run(py, callbacks, |observer| {
+            simulate(&self.study, &request, folders(&results, &out), observer)
+        })?;
+        Ok(json(&report.map_err(|error| exception(py, error))?))
+    }
+
+    /// Settled motions over `(from_hz, to_hz, step_hz)`: carried over from a state, or from so many states.
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        asked: (f64, f64, Option<f64>),
+        motion: (&str, bool, Option<usize>, usize),
+        spent_on: (EffortNumbers, Option<u16>),
+        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<String> {
+        let (from_hz, to_hz, step_hz) = asked;
+        let (start, down, starts, samples) = motion;
+        let (spent, jobs) = spent_on;
+        let (results, out) = kept_in;
+        let starts = match starts {
+            Some(starts) => SweepStarts::Many(starts),
+            None => SweepStarts::CarriedOver { initial: initial(py, start, &self.study)?, down },
+        };
+        let frequencies = FrequencySeries { from_hz, to_hz, step_hz };
+        let request = SweepRequest { frequencies, starts, samples, effort: effort(spent) };
+        let report = PythonObserver::run(py, callbacks, |observer| {
+            sweep(&self.study, &request, folders(&results, &out), threads(jobs), observer)
+        })?;
+        Ok(json(&report.map_err(|error| exception(py, error))?))
+    }
+
+    /// Lyapunov exponents over `(from_hz, to_hz, step_hz)`.
+    fn lyapunov(
+        &self,
+        py: Python<'_>,
+        asked: (f64, f64, Option<f64>),
+        motion: (&str, u64, u64, u64),
+        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<String> {
+        let (from_hz, to_hz, step_hz) = asked;
+        let (start, transient_periods, periods, sections_per_period) = motion;
+        let (results, out) = kept_in;
+        let request = ExponentsRequest {
+            frequencies: FrequencySeries { from_hz, to_hz, step_hz },
+            initial: initial(py, start, &self.study)?,
+            transient_periods,
+            periods,
+            sections_per_period,
+        };
+        let report = PythonObserver::run(py, callbacks, |observer| {
+            exponents(&self.study, &request, folders(&results, &out), observer)
+        })?;
+        Ok(json(&report.map_err(|error| exception(py, error))?))
+    }
+
+    /// Basins over a grid of two coordinates `(name, low, high)`.
+    fn basins(
+        &self,
+        py: Python<'_>,
+        frequency_hz: f64,
+        asked: ((String, f64, f64), (String, f64, f64), u32),
+        spent_on: (EffortNumbers, Option<u16>),
+        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        callbacks: (Callback, Callback),
+    ) -> PyResult<String> {
+        let (x, y, grid) = asked;
+        let (spent, jobs) = spent_on;
+        let (results, out) = kept_in;
+        let axis = |(coordinate, low, high)| BasinAxis { coordinate, low, high };
+        let request = BasinsRequest { frequency_hz, x: axis(x), y: axis(y), grid, effort: effort(spent) };
+        let report = PythonObserver::run(py, callbacks, |observer| {
+            basins(&self.study, &request, folders(&results, &out), threads(jobs), observer)
+        })?;
+        Ok(json(&report.map_err(|error| exception(py, error))?))
+    }
+}

@@ -1,0 +1,163 @@
+"""Numbers that are given, checked as the options of the command are, with the same words."""
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, SupportsFloat, SupportsIndex
+
+import numpy as np
+
+from ._errors import BadInput
+
+MOST_JOBS = 65535
+
+
+def number(name: str, value: Any) -> float:
+    """A finite number."""
+    found = _float(name, value, "must be a finite number")
+    if not math.isfinite(found):
+        raise BadInput(f"{name}: found {found}, must be a finite number")
+    return found
+
+
+def frequency(name: str, value: Any) -> float:
+    """A frequency of the excitation [Hz]."""
+    must = "must be a number of hertz from 1e-10 to 1e10"
+    found = _float(name, value, must)
+    if not 1e-10 <= found <= 1e10:
+        raise BadInput(f"{name}: found {found}, {must}")
+    return found
+
+
+def seconds(name: str, value: Any) -> float:
+    """A duration [s]."""
+    must = "must be a number of seconds from 1e-15 to 1e15"
+    found = _float(name, value, must)
+    if not 1e-15 <= found <= 1e15:
+        raise BadInput(f"{name}: found {found}, {must}")
+    return found
+
+
+def phase(name: str, value: Any) -> float:
+    """A phase [cycles]."""
+    must = "must be a number of cycles from 0 to 1"
+    found = _float(name, value, must)
+    if not 0.0 <= found <= 1.0:
+        raise BadInput(f"{name}: found {found}, {must}")
+    return found
+
+
+def resolution(value: Any) -> float:
+    """A resolution of figures [pixels per inch]."""
+    must = "must be 24 to 1200 pixels per inch"
+    found = _float("resolution", value, must)
+    if not 24.0 <= found <= 1200.0:
+        raise BadInput(f"resolution: found {found}, {must}")
+    return found
+
+
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """A whole number in a range."""
+    must = f"must be a whole number from {low} to {high}"
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, SupportsIndex):
+        raise BadInput(f"{name}: found {value!r}, {must}")
+    try:
+        found = value.__index__()
+    except TypeError:
+        raise BadInput(f"{name}: found {value!r}, {must}") from None
+    if not low <= found <= high:
+        raise BadInput(f"{name}: {found} is not in {low}..={high}")
+    return found
+
+
+def jobs(value: Any) -> int | None:
+    """A number of threads."""
+    return None if value is None else whole("jobs", value, 1, MOST_JOBS)
+
+
+def folder(name: str, value: Any) -> Path:
+    """A path."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise BadInput(f"{name}: found {value!r}, must be a path")
+    path = os.fspath(value)
+    if not isinstance(path, str) or "\0" in path or not path:
+        raise BadInput(f"{name}: found {path!r}, must be a path")
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        raise BadInput(f"{name}: found {path!r}, must be a path") from None
+    return Path(path)
+
+
+def optional_folder(name: str, value: Any) -> Path | None:
+    """A path, or none."""
+    return None if value is None else folder(name, value)
+
+
+def word(name: str, value: str) -> str:
+    """A text that is Unicode."""
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise BadInput(f"{name}: found {value!r}, must be Unicode") from None
+    return value
+
+
+def words(name: str, value: Any) -> list[str]:
+    """A word or several."""
+    if isinstance(value, str):
+        return [word(name, value)]
+    if isinstance(value, Sequence) and all(isinstance(one, str) for one in value):
+        return [word(name, one) for one in value]
+    raise BadInput(f"{name}: found {value!r}, must be a word or a list of words")
+
+
+def numbers(name: str, value: Any) -> list[float]:
+    """A frequency or several."""
+    if isinstance(value, SupportsFloat) or isinstance(value, str):
+        return [frequency(name, value)]
+    try:
+        entries = list(value)
+    except TypeError:
+        entries = [value]
+    return [frequency(name, entry) for entry in entries]
+
+
+def initial(value: Any) -> str:
+    """A state, in the words of `--initial`."""
+    if isinstance(value, str):
+        return word("initial", value)
+    if isinstance(value, Mapping):
+        return word(
+            "initial", ",".join(f"{key}={number('initial', entry)!r}" for key, entry in value.items())
+        )
+    array = vector("initial", value)
+    return ",".join(repr(float(entry)) for entry in array)
+
+
+def vector(name: str, value: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """A row of numbers."""
+    array = _array(name, value)
+    if array.ndim != 1:
+        raise BadInput(f"{name}: found an array of shape {array.shape}, must have one dimension")
+    return array
+
+
+def _array(name: str, value: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    try:
+        given = np.asarray(value)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"{name}: {error}") from error
+    if given.dtype.kind not in "iuf":
+        raise BadInput(f"{name}: found an array of {given.dtype}, must be real numbers")
+    return given.astype(np.float64)
+
+
+def _float(name: str, value: Any, must: str) -> float:
+    if isinstance(value, (bool, np.bool_, str, bytes)) or not isinstance(value, SupportsFloat):
+        raise BadInput(f"{name}: found {value!r}, {must}")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise BadInput(f"{name}: found {value!r}, {must}") from None

@@ -1,0 +1,208 @@
+"""Results folders."""
+
+import html
+import tempfile
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from . import _check, _export, _plot
+from ._native import NativeResults
+from ._orbits import MOST_SAMPLES, Orbits
+from ._progress import Progress, interruptible, watched
+from ._tables import Array, array
+
+if TYPE_CHECKING:
+    from ._study import Study
+
+AnyPath = str | PathLike[str]
+Branches = int | Sequence[int] | None
+"""Numbers of branches; `None` for all."""
+
+
+class Page:
+    """The page of a results folder; a notebook shows it in a frame."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def _repr_html_(self) -> str:
+        document = html.escape(self.path.read_text(encoding="utf-8"), quote=True)
+        return f'<iframe srcdoc="{document}" width="100%" height="720" style="border:0"></iframe>'
+
+    def __repr__(self) -> str:
+        return f"<Page {self.path}>"
+
+
+class Results:
+    """A results folder, open for reading. Shows itself in a notebook as its response diagram.
+
+    Tables are structured arrays with the columns of the tables of `hammerbeam export`; `hammerbeam.frame`
+    makes data frames of them. `report` is what the run that made it said, if it did.
+    """
+
+    def __init__(self, folder: AnyPath, *, report: Mapping[str, Any] | None = None) -> None:
+        self._native = NativeResults.open(_check.folder("folder", folder))
+        self.report = report
+
+    @property
+    def folder(self) -> Path:
+        """The folder."""
+        return Path(self._native.folder)
+
+    @property
+    def study(self) -> "Study":
+        """The study whose results these are."""
+        from ._study import Study
+
+        return Study(self._native.study)
+
+    def branches(self, branch: Branches = None) -> Array:
+        """One row per solution, end to end along each branch: the columns of `branches.csv`, with
+        `stability` in words beside `stable`."""
+        return self._table("branches", branch)
+
+    def events(self, branch: Branches = None) -> Array:
+        """One row per event: the columns of `events.csv`."""
+        return self._table("events", branch)
+
+    def ends(self, branch: Branches = None) -> Array:
+        """One row per end of a branch: why it ended, and its last state."""
+        return self._table("ends", branch)
+
+    def states(self, branch: Branches = None) -> Array:
+        """One row per solution: `state`, `[q; q']` at `phase_cycles`, and all `multipliers`, complex."""
+        return self._table("states", branch)
+
+    def varied(self) -> dict[str, Array]:
+        """`parameter_branches` and `curves`, as far as the study asks for them."""
+        return {packed[0]: array(packed) for packed in self._native.tables("varied", [])}
+
+    def motions(self) -> dict[str, Array]:
+        """Tables of motions, sweeps, exponents and basins in the folder, with the numbers of their
+        requests."""
+        return {packed[0]: array(packed) for packed in self._native.tables("motions", [])}
+
+    def orbits(
+        self,
+        frequency_hz: float | Sequence[float] | None = None,
+        *,
+        branch: Branches = None,
+        event: str | Sequence[str] | None = None,
+    ) -> Orbits:
+        """Orbits in which branches cross frequencies, and solutions with events such as `"fold"` or
+        `"grazing"`."""
+        frequencies = [] if frequency_hz is None else _check.numbers("frequency_hz", frequency_hz)
+        events = [] if event is None else _check.words("event", event)
+        return Orbits(self._native.orbits(_numbers(branch), frequencies, events))
+
+    def frame(self, branch: Branches = None) -> Any:
+        """The branches as a data frame of pandas."""
+        from ._tables import frame
+
+        return frame(self.branches(branch))
+
+    def plot(self, quantity: str = "displacement", ax: Any = None) -> Any:
+        """Draws the response diagram with matplotlib: `displacement`, `acceleration`, `force` or
+        `velocity`."""
+        return _plot.response(self.branches(), quantity, ax, self._native.study.title)
+
+    def draw(
+        self,
+        out: AnyPath | None = None,
+        *,
+        kinds: str | Sequence[str] = (),
+        formats: str | Sequence[str] = (),
+        resolution: float | None = None,
+        progress: Progress = None,
+    ) -> list[Path]:
+        """Draws figures with Hammerbeam itself, into the folder by default.
+
+        * `kinds`: such as `response`, `orbits`, `page`; all by default. `formats`: `svg`, `png`, `pdf`.
+        """
+        folder = self.folder if out is None else _check.folder("out", out)
+        pixels = None if resolution is None else _check.resolution(resolution)
+        asked = (_check.words("kinds", kinds), _check.words("formats", formats), pixels)
+        with interruptible("figures that were drawn are kept"), watched(progress) as callbacks:
+            names = self._native.draw(folder, asked, callbacks)
+        return [folder / name for name in names]
+
+    def svg(self, quantity: str = "displacement") -> str:
+        """The response diagram as drawn by Hammerbeam itself, as SVG."""
+        with tempfile.TemporaryDirectory(prefix="hammerbeam-") as folder:
+            files = self.draw(folder, kinds="response", formats="svg", progress=False)
+            wanted = [path for path in files if path.name == f"response_{quantity}.svg"]
+            return wanted[0].read_text(encoding="utf-8") if wanted else ""
+
+    def page(self) -> Page:
+        """The page, drawn if it is not there yet."""
+        path = self.folder / "page.html"
+        if not path.is_file():
+            self.draw(kinds="page", progress=False)
+        return Page(path)
+
+    def export(self, format: str = "csv", out: AnyPath | None = None, *, states: bool = False) -> list[Path]:
+        """Writes everything for other programs: `csv`, `json`, `npz`, `mat` (SciPy), `parquet` (PyArrow) or
+        `hdf5` (h5py), into `export` in the folder by default.
+
+        * `states`: also states and multipliers of every solution.
+        """
+        folder = self.folder / "export" if out is None else _check.folder("out", out)
+        if _export.checked(format) in _export.WRITERS:
+            names = ["branches", "events", "ends", *(["states"] if states else []), "varied", "motions"]
+            tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
+            return _export.write(tables, format, folder, "results")
+        return [Path(path) for path in self._native.export(format, folder, bool(states))]
+
+    def export_orbits(
+        self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
+    ) -> list[Path]:
+        """Writes orbits with their motion at all points, states and multipliers, in the formats of
+        `export`."""
+        folder = self.folder / "export" if out is None else _check.folder("out", out)
+        count = _check.whole("samples", samples, 1, MOST_SAMPLES)
+        if _export.checked(format) in _export.WRITERS:
+            tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
+            return _export.write(tables, format, folder, "orbits")
+        native = orbits._native
+        return [Path(path) for path in NativeResults.export_orbits(native, format, folder, count)]
+
+    def close(self) -> None:
+        """Lets the folder go; asked for anything afterwards it raises `ClosedResults`."""
+        self._native.close()
+
+    @property
+    def closed(self) -> bool:
+        """Whether it was closed."""
+        return self._native.closed_already
+
+    def __enter__(self) -> "Results":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _table(self, name: str, branch: Branches) -> Array:
+        [packed] = self._native.tables(name, _numbers(branch))
+        return array(packed)
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return f"<Results {self.folder}, closed>"
+        branches = self._native.branch_rows()
+        solutions = sum(rows for *_, rows in branches)
+        return f"<Results {self.folder}: {solutions} solutions on {len(branches)} branches>"
+
+    def _repr_svg_(self) -> str | None:
+        return None if self.closed else self.svg()
+
+
+def _numbers(branch: Branches) -> list[int]:
+    if branch is None:
+        return []
+    many = branch if isinstance(branch, Sequence) and not isinstance(branch, str) else [branch]
+    return [_check.whole("branch", one, 1, 2**32 - 1) for one in many]

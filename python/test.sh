@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# All tests of the Python package: builds the extension module, checks types and stubs, runs the tests, notebooks
+# and snippets of the documentation among them. With `wheel` as its argument it builds the wheel instead.
+#
+# The extension is built as part of the workspace, with the features of its tests: what `cargo test --workspace`
+# has compiled serves. Packages are installed once, into target/python-tools.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+target="${CARGO_TARGET_DIR:-target}"
+tools="$target/python-tools"
+
+skip() {
+    echo "skipped: $1"
+    [ "${HAMMERBEAM_REQUIRE_PYTHON:-0}" = 0 ]
+    exit
+}
+
+if ! command -v python3 > /dev/null || ! python3 -c "import sys; assert sys.version_info >= (3, 11)" 2> /dev/null; then
+    skip "the Python package needs Python 3.11 or later"
+fi
+if ! cmp -s python/requirements.txt "$tools/requirements.txt"; then
+    rm -rf "$tools"
+    python3 -m venv "$tools" || skip "Python has no venv here"
+    if ! "$tools/bin/pip" install --quiet --requirement python/requirements.txt; then
+        rm -rf "$tools"
+        skip "the tests need the packages of python/requirements.txt, and no package registry answers"
+    fi
+    cp python/requirements.txt "$tools/requirements.txt"
+fi
+if [ "${1:-}" = wheel ]; then
+    exec "$tools/bin/maturin" build --release --out "$target/wheels"
+fi
+
+cargo build --workspace --locked --examples --lib --bins
+library="$target/debug/libhammerbeam_native"
+case "$(uname)" in
+    Darwin) cp "$library.dylib" python/hammerbeam/_native.abi3.so ;;
+    *) cp "$library.so" python/hammerbeam/_native.abi3.so ;;
+esac
+
+export PYTHONPATH="$PWD/python" MPLBACKEND=agg JUPYTER_PLATFORM_DIRS=1
+"$tools/bin/mypy"
+"$tools/bin/python" -m mypy.stubtest hammerbeam._native --ignore-missing-stub
+exec "$tools/bin/python" -m pytest "$@"

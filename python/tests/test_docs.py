@@ -1,0 +1,74 @@
+"""The snippets of the documentation run, in their order."""
+
+import json
+import re
+import shutil
+import subprocess
+import warnings
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+PAGE = ROOT / "docs/tutorials/python.md"
+
+
+def snippets(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder in which the snippets have run."""
+    matplotlib = pytest.importorskip("matplotlib")
+    pytest.importorskip("pandas")
+    matplotlib.use("agg")
+    folder = tmp_path_factory.mktemp("tutorial")
+    (folder / "studies").symlink_to(ROOT / "studies")
+    return folder
+
+
+def test_the_tutorial_runs(
+    place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(place)
+    names: dict[str, object] = {}
+    found = snippets("python")
+    assert len(found) >= 6
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for number, snippet in enumerate(found):
+            exec(compile(snippet, f"{PAGE.name}, snippet {number + 1}", "exec"), names)
+    out = capsys.readouterr().out
+    assert "fold" in out and "<Orbit 0.25 Hz" in out
+    assert (place / "export/results.json").is_file()
+
+
+def test_each_diagram_from_files_takes_six_lines() -> None:
+    python = next(snippet for snippet in snippets("python") if "results.npz" in snippet)
+    [matlab] = snippets("matlab")
+    for text in (python, matlab):
+        assert len([line for line in text.splitlines() if line]) <= 6
+
+
+def test_octave_draws_the_diagram(place: Path) -> None:
+    octave = shutil.which("octave-cli") or shutil.which("octave")
+    if octave is None:
+        pytest.skip("Octave is not there (on Debian: apt-get install octave)")
+    if not (place / "export/results.json").is_file():
+        pytest.skip("the tutorial has not run")
+    [snippet] = snippets("matlab")
+    # What is drawn is printed: a machine without a screen may have no toolkit to draw with.
+    for name in ("plot", "hold", "xlabel", "ylabel"):
+        body = "printf('%d ', numel(varargin{2}));" if name == "plot" else ""
+        (place / f"{name}.m").write_text(f"function {name}(varargin)\n  {body}\nend\n")
+    script = place / "diagram.m"
+    script.write_text(snippet)
+    rows = json.loads((place / "export/results.json").read_text())["branches"]["branch"]
+    done = subprocess.run(
+        [octave, "--no-gui", "--quiet", script.name], cwd=place, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert [int(count) for count in done.stdout.split()] == [
+        rows.count(number) for number in sorted(set(rows))
+    ]

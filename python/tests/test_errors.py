@@ -1,0 +1,309 @@
+"""Bad input: exceptions with the words of the command, and nothing that aborts the interpreter."""
+
+import json
+import os
+import pickle
+import random
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import hammerbeam
+import numpy as np
+import pytest
+from conftest import ROOT, STUDIES, changed
+from hammerbeam import BadInput, HammerbeamError, Results, Study
+from test_study import OSCILLATOR, chain
+
+
+def command() -> Path | None:
+    """The command, if it is built."""
+    given = os.environ.get("HAMMERBEAM_COMMAND")
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    candidates = [Path(given)] if given else [target / "debug/hammerbeam", target / "release/hammerbeam"]
+    return next((path for path in candidates if path.is_file()), None)
+
+
+def test_faults_of_a_study_are_those_of_the_command(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(changed("duffing.toml", "mass_kg = 1.0", "mass_kg = -1.0"))
+    with pytest.raises(hammerbeam.StudyError) as raised:
+        Study.read(path)
+    error = raised.value
+    assert error.exit_code == 2 and error.name == "Invalid"
+    [problem] = error.problems
+    assert problem["key"] == "structure.mass[0].mass_kg" and problem["line"] == 13
+    if (program := command()) is None:
+        pytest.skip("the command is not built")
+    told = subprocess.run([program, "check", path, "--json"], capture_output=True, text=True)
+    assert told.returncode == error.exit_code
+    document = json.loads(told.stdout)["error"]
+    assert document["message"] == str(error) and document["problems"] == error.problems
+
+
+@pytest.mark.parametrize(
+    ("arguments", "call", "words"),
+    [
+        (
+            "orbit S --frequency 0.25 --period-multiple 65",
+            lambda s: s.orbits(0.25, 65),
+            "65 is not in 1..=64",
+        ),
+        (
+            "orbit S --frequency nan",
+            lambda s: s.orbits(float("nan")),
+            "must be a number of hertz from 1e-10 to 1e10",
+        ),
+        ("lyapunov S --frequency 0.25 --to 0.2", lambda s: s.lyapunov(0.25, 0.2), "0.2 Hz, which is below"),
+        (
+            "lyapunov S --frequency 0.25 --periods 3",
+            lambda s: s.lyapunov(0.25, periods=3),
+            "3 is not in 20..=100000000",
+        ),
+        (
+            "simulate S --frequency 0.25 --initial 1,2,3",
+            lambda s: s.simulate(0.25, initial=[1, 2, 3]),
+            "found 3 number(s)",
+        ),
+        (
+            "simulate S --frequency 0.25 --initial what",
+            lambda s: s.simulate(0.25, initial="what"),
+            'found "what"; allowed',
+        ),
+        (
+            "basins S --frequency 0.25 --x q1=-1..1 --y q7=-1..1",
+            lambda s: s.basins(0.25, ("q1", -1, 1), ("q7", -1, 1)),
+            "allowed: q1 to q1, v1 to v1",
+        ),
+    ],  # fmt: skip
+)
+def test_words_and_exit_codes_are_those_of_the_command(
+    duffing: Study, arguments: str, call: Callable[[Study], Any], words: str
+) -> None:
+    with pytest.raises(BadInput) as raised:
+        call(duffing)
+    assert words in str(raised.value)
+    if (program := command()) is None:
+        pytest.skip("the command is not built")
+    line = [str(STUDIES / "duffing.toml") if word == "S" else word for word in arguments.split()]
+    told = subprocess.run([program, *line], capture_output=True, text=True)
+    assert told.returncode == raised.value.exit_code == 2
+    assert words in " ".join(told.stderr.split())
+
+
+def test_an_unsymmetric_matrix_is_refused_with_file_and_line() -> None:
+    mass, stiffness = chain(4)
+    stiffness[0, 1] = 7.0
+    with pytest.raises(hammerbeam.StudyError, match="K.mtx") as raised:
+        Study.from_matrices(mass, stiffness, points={"tip": 3}, reduction={"method": "none"})
+    assert "symmetric" in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("mass", "stiffness", "words"),
+    [
+        (np.eye(3), np.eye(4), "row"),
+        (np.eye(3), np.ones((3, 2)), "square"),
+        (np.eye(3), np.ones(3), "square"),
+        (np.eye(3), "K", "square"),
+        (np.full((2, 2), np.nan), np.eye(2), "K.mtx|M.mtx"),
+        (np.eye(2) * 1j, np.eye(2), "real numbers"),
+        (np.eye(2), [[1, 2], [3]], "K"),
+        (np.zeros((0, 0)), np.zeros((0, 0)), "square"),
+    ],
+)
+def test_matrices_that_are_none(mass: Any, stiffness: Any, words: str) -> None:
+    with pytest.raises(HammerbeamError, match=words):
+        Study.from_matrices(mass, stiffness, points={"tip": 0}, reduction={"method": "none"})
+
+
+def test_a_closed_folder_raises_and_other_results_go_on(folder: Path) -> None:
+    results = Results(folder)
+    orbits = results.orbits(0.25)
+    results.close()
+    results.close()
+    for call in (results.branches, results.events, results.svg, results.export, lambda: results.orbits(0.25)):
+        with pytest.raises(hammerbeam.ClosedResults, match="closed"):
+            call()
+    assert results.closed and len(orbits[0].waveform(4)) == 4
+    with Results(folder) as other:
+        assert len(other.branches()) > 0
+
+
+def test_a_folder_without_results(tmp_path: Path) -> None:
+    with pytest.raises(hammerbeam.StoreError, match="there are no results") as raised:
+        Results(tmp_path)
+    assert raised.value.name == "NoResults" and raised.value.exit_code == 2
+
+
+def test_a_folder_of_another_study(folder: Path, oscillator: Study) -> None:
+    with pytest.raises(hammerbeam.StoreError, match="another study") as raised:
+        oscillator.run(folder, progress=False)
+    assert raised.value.name == "OtherStudy" and raised.value.numbers["differences"]
+
+
+def test_an_object_works_after_an_error(duffing: Study) -> None:
+    with pytest.raises(BadInput):
+        duffing.orbit("fast")  # type: ignore[arg-type]
+    assert len(duffing.orbits(0.25)) == 3
+
+
+def test_errors_carry_their_numbers(duffing: Study) -> None:
+    with pytest.raises(hammerbeam.FallingFrequencies) as raised:
+        duffing.lyapunov(0.3, 0.2)
+    assert raised.value.numbers == {"from_hz": 0.3, "to_hz": 0.2}
+    again = pickle.loads(pickle.dumps(raised.value))
+    assert again.numbers == raised.value.numbers and str(again) == str(raised.value)
+
+
+def test_a_warning_is_one() -> None:
+    tables: dict[str, Any] = {
+        **OSCILLATOR,
+        "structure": {
+            "kind": "lumped",
+            "mass": [{"name": "mass", "mass_kg": 1.0}],
+            "damper": [{"between": ["mass", "ground"], "damping_n_s_m": 0.1}],
+        },
+    }
+    tables["stop"] = [{"at": "mass", "law": "linear", "stiffness_n_m": 10.0, "gap_m": 0.1, "side": "above"}]
+    study = Study.from_dict(tables)
+    try:
+        with pytest.warns(hammerbeam.HammerbeamWarning):
+            study.orbits(0.15)
+    except HammerbeamError as error:
+        assert error.exit_code in (1, 2)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
+    script = f"""
+import hammerbeam, sys
+study = hammerbeam.Study.read({str(STUDIES / "beam-with-stop.toml")!r})
+print("started", flush=True)
+try:
+    study.run({str(tmp_path / "out")!r}, progress=False)
+except hammerbeam.Interrupted as error:
+    print(error)
+    sys.exit(error.exit_code)
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline() == "started\n"
+    for _ in range(300):
+        time.sleep(0.1)
+        if (tmp_path / "out/results.db").exists():
+            break
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 130 and "is kept in" in out
+    assert isinstance(Results(tmp_path / "out").branches(), np.ndarray)
+
+
+VALUES: list[Any] = [
+    None,
+    True,
+    -1,
+    0,
+    1,
+    2,
+    2**70,
+    -0.0,
+    0.25,
+    1e400,
+    -1e-300,
+    float("nan"),
+    "0.25",
+    "",
+    "\0",
+    "rest",
+    "\ud800",
+    b"x",
+    [],
+    [1.0],
+    [1.0, float("nan")],
+    (),
+    ("q1", -1.0, 1.0),
+    ("q1", 1.0, -1.0),
+    ("q1", "a", 1),
+    {},
+    {"a": 1},
+    {"mass.y": 1.0},
+    object(),
+    np.float64(0.25),
+    np.int32(3),
+    np.array(0.25),
+    np.zeros(3),
+    np.zeros((2, 2)),
+    np.array(["a"]),
+    1j,
+    print,
+    {1, 2},
+    range(3),
+    Path("nowhere"),
+    STUDIES,
+    np.array([1, "a"], dtype=object),
+]
+
+
+def test_thousands_of_bad_calls_raise_and_abort_nothing(
+    duffing: Study, results: Results, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    pick = random.Random(1)
+    fast: dict[str, Any] = {"progress": False}
+    calls: list[tuple[Callable[..., Any], int]] = [
+        (Study.read, 1), (Study.parse, 2), (Study.from_dict, 2),
+        (lambda m, k, c, p: Study.from_matrices(m, k, c, points=p), 4),
+        (lambda e, s, p: Study.from_dict({**OSCILLATOR, "excitation": e, "stop": s, "response": p}), 3),
+        (lambda f, m: duffing.orbits(f, m, **fast), 2),
+        (lambda f, p, i: duffing.simulate(f, periods=p, initial=i, samples_per_period=4, **fast), 3),
+        (lambda f, d, s: duffing.simulate(f, duration_s=d, sampling_hz=s, **fast), 3),
+        (lambda a, b, c, n: duffing.sweep(a, b, c, samples=n, patience_periods=5, **fast), 4),
+        (lambda a, b, c, p: duffing.lyapunov(a, b, c, periods=p, **fast), 4),
+        (lambda f, x, y, g: duffing.basins(f, x, y, g, patience_periods=3, **fast), 4),
+        (lambda b: results.branches(b), 1), (lambda b: results.states(b), 1),
+        (lambda f, b, e: results.orbits(f, branch=b, event=e), 3),
+        (lambda f, o: results.export(f, o), 2), (lambda n: results.orbits(0.25)[0].waveform(n), 1),
+        (lambda k, f, r: results.draw("drawn", kinds=k, formats=f, resolution=r, **fast), 3), (Results, 1),
+        (lambda o, j: duffing.run(o, j, figures=False, **fast), 2),
+    ]  # fmt: skip
+    allowed = (HammerbeamError, TypeError, KeyError, IndexError, AttributeError, ValueError, OSError)
+    seen: dict[str, int] = {}
+    count = int(os.environ.get("HAMMERBEAM_FUZZ", "3000"))
+    for _ in range(count):
+        call, size = pick.choice(calls)
+        arguments = [pick.choice(VALUES) for _ in range(size)]
+        if call is calls[-1][0] and isinstance(arguments[0], Path):
+            arguments[0] = "\0"
+        try:
+            call(*arguments)
+            name = "no error"
+        except allowed as error:
+            name = type(error).__name__
+            if isinstance(error, HammerbeamError):
+                assert error.exit_code in (1, 2) and str(error)
+            else:
+                raise AssertionError(f"{arguments!r}: {error!r}") from error
+        seen[name] = seen.get(name, 0) + 1
+    assert seen["BadInput"] > count / 2, seen
+    assert len(duffing.orbits(0.25)) == 3 and len(results.branches()) > 100
+
+
+def test_progress_from_another_thread_is_not_interrupted(duffing: Study, tmp_path: Path) -> None:
+    errors: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            duffing.run(tmp_path / "out", jobs=1, progress=False, figures=False)
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert not errors

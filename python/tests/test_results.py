@@ -1,0 +1,157 @@
+"""Results folders: tables, orbits, figures, files for other programs."""
+
+import csv
+import json
+from pathlib import Path
+
+import hammerbeam
+import numpy as np
+import pytest
+from hammerbeam import Results
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_branches_are_those_of_the_csv(results: Results, tmp_path: Path) -> None:
+    files = results.export("csv", tmp_path, states=True)
+    assert {path.name for path in files} >= {"branches.csv", "events.csv", "ends.csv", "states.csv"}
+    rows, table = rows_of(tmp_path / "branches.csv"), results.branches()
+    assert len(rows) == len(table) > 100
+    for name in ("branch", "frequency_hz", "max_abs_displacement_m", "leading_multiplier_re", "residual"):
+        np.testing.assert_array_equal(table[name], [float(row[name]) for row in rows])
+    assert list(table["event"]) == [row["event"] for row in rows]
+    assert list(table["stable"]) == [row["stable"] == "true" for row in rows]
+    events, expected = results.events(), rows_of(tmp_path / "events.csv")
+    assert list(events["event"]) == [row["event"] for row in expected]
+    np.testing.assert_array_equal(events["frequency_hz"], [float(row["frequency_hz"]) for row in expected])
+    states, expected = results.states(), rows_of(tmp_path / "states.csv")
+    np.testing.assert_array_equal(
+        states["state"], [[float(x) for x in row["state"].split()] for row in expected]
+    )
+    assert [row["message"] for row in rows_of(tmp_path / "ends.csv")] == list(results.ends()["message"])
+
+
+def test_the_folds_are_where_the_multiplier_is_one(results: Results) -> None:
+    folds = results.events()
+    folds = folds[folds["event"] == "fold"]
+    assert len(folds) == 2
+    # x'' + 0.1 x' + x + x^3 = 0.3 cos(W t): three solutions coexist at 0.25 Hz, one at 0.2 Hz.
+    assert 0.2 < folds["frequency_hz"].min() < 0.25 < folds["frequency_hz"].max()
+    np.testing.assert_allclose(folds["multiplier_re"], 1.0, atol=1e-5)
+
+
+def test_a_branch_by_its_number(results: Results) -> None:
+    assert set(results.branches(1)["branch"]) == {1}
+    assert len(results.branches([1])) == len(results.branches(1))
+    assert len(results.branches(99)) == 0
+
+
+def test_orbits_by_frequency_branch_and_event(results: Results) -> None:
+    crossing = results.orbits(0.25)
+    assert len(crossing) == 3 and {orbit.branch for orbit in crossing} == {1}
+    folds = results.orbits(event="fold")
+    assert len(folds) == 2 and all("fold" in orbit.event for orbit in folds)
+    assert len(results.orbits(0.25, branch=99)) == 0
+    for orbit in crossing:
+        waveform = orbit.waveform(128)
+        largest = abs(waveform["mass_displacement_m"]).max()
+        assert largest <= orbit.max_abs_displacement_m * (1 + 1e-12)
+        assert largest > 0.999 * orbit.max_abs_displacement_m
+        # The product of all multipliers is that of the damping alone.
+        np.testing.assert_allclose(np.prod(orbit.multipliers).real, np.exp(-0.1 / 0.25), rtol=1e-7)
+
+
+def test_frames_have_a_column_for_each_number(results: Results) -> None:
+    pytest.importorskip("pandas")
+    frame = results.frame()
+    assert len(frame) == len(results.branches()) and frame["stable"].dtype == bool
+    assert {"state_1", "state_2", "multipliers_1"} <= set(hammerbeam.frame(results.states()).columns)
+
+
+def test_npz_and_json_hold_the_tables(results: Results, tmp_path: Path) -> None:
+    [path] = results.export("npz", tmp_path, states=True)
+    with np.load(path) as found:
+        np.testing.assert_array_equal(found["branches"], results.branches())
+        np.testing.assert_array_equal(found["states"]["multipliers"], results.states()["multipliers"])
+        assert set(found.files) == {"branches", "events", "ends", "states"}
+    [path] = results.export("json", tmp_path)
+    document = json.loads(path.read_text())
+    assert document["branches"]["frequency_hz"] == results.branches()["frequency_hz"].tolist()
+    assert document["branches"]["event"] == results.branches()["event"].tolist()
+
+
+def test_mat_holds_a_struct_for_each_table(results: Results, tmp_path: Path) -> None:
+    scipy_io = pytest.importorskip("scipy.io")
+    [path] = results.export("mat", tmp_path, states=True)
+    found = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False)
+    np.testing.assert_array_equal(found["branches"].frequency_hz, results.branches()["frequency_hz"])
+    np.testing.assert_array_equal(found["states"].multipliers, results.states()["multipliers"])
+    assert list(found["ends"].side) == list(results.ends()["side"])
+
+
+def test_parquet_holds_a_file_for_each_table(results: Results, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    results.export("parquet", tmp_path, states=True)
+    table = parquet.read_table(tmp_path / "branches.parquet")
+    assert table["frequency_hz"].to_pylist() == results.branches()["frequency_hz"].tolist()
+    assert table["event"].to_pylist() == results.branches()["event"].tolist()
+    states = parquet.read_table(tmp_path / "states.parquet")
+    assert states["state"].to_pylist() == results.states()["state"].tolist()
+
+
+def test_hdf5_holds_a_group_for_each_table(results: Results, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    [path] = results.export("hdf5", tmp_path)
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["branches/frequency_hz"][:], results.branches()["frequency_hz"])
+        assert file["branches/event"].asstr()[:].tolist() == results.branches()["event"].tolist()
+
+
+@pytest.mark.parametrize("format", ["csv", "json", "npz", "mat", "parquet", "hdf5"])
+def test_orbits_are_written_in_every_format(results: Results, tmp_path: Path, format: str) -> None:
+    pytest.importorskip({"mat": "scipy", "parquet": "pyarrow", "hdf5": "h5py"}.get(format, "numpy"))
+    files = results.export_orbits(results.orbits(0.25), format, tmp_path, samples=16)
+    assert files and all(path.is_file() for path in files)
+    if format == "npz":
+        with np.load(files[0]) as found:
+            assert len(found["waveforms"]) == 3 * 16 and found["orbits"]["multipliers"].shape == (3, 2)
+
+
+def test_figures_and_the_page(results: Results) -> None:
+    svg = results._repr_svg_()
+    assert svg is not None and svg.startswith("<") and "</svg>" in svg
+    assert "<iframe" in results.page()._repr_html_()
+
+
+def test_plots(results: Results) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    axes = results.plot()
+    assert axes.get_xlabel() == "Frequency (Hz)" and len(axes.lines) > 2
+    assert results.orbits(0.25)[0].plot().get_ylabel() == "Displacement of mass (m)"
+
+
+def test_what_run_reported_is_there(folder: Path) -> None:
+    study = Results(folder).study
+    again = study.run(folder, progress=False, figures=False)
+    assert again.report is not None and again.report["branches"][0]["folds"] == 2
+
+
+def test_a_million_rows_come_into_numpy_fast() -> None:
+    import time
+
+    from hammerbeam._tables import array
+
+    rows = np.zeros(1_000_000, dtype=[("branch", "<i8"), ("frequency_hz", "<f8"), ("event", "<U4")])
+    fields: list[tuple[str, str, int | None]] = [
+        ("branch", "<i8", None),
+        ("frequency_hz", "<f8", None),
+        ("event", "<U4", None),
+    ]
+    data = bytearray(rows.tobytes())
+    started = time.perf_counter()
+    table = array(("branches", fields, len(rows), data))
+    assert time.perf_counter() - started < 0.2 and len(table) == len(rows)
