@@ -2,16 +2,20 @@
 //!
 //! | room | what it knows |
 //! |---|---|
+//! | [`row`], [`columns`] | one row of a branch, over the frequency or any other parameter; the one list of columns from which store, tables and reference follow |
+//! | [`end`], [`end_text`] | how a side of a branch ended; that in a sentence |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; motions in time, sweeps, exponents and basins by request |
 //! | [`export`] | what is stored as CSV |
-//! | [`summary`] | a branch in few numbers: its range, its peaks |
-//! | [`reason`] | why a branch ended, in words |
+//! | [`summary`] | a branch in few numbers: its range, its events, its peaks |
 //! | [`whole_file`] | files that appear whole or not at all |
 //!
 //! How a result is computed is not known here: whoever computes hands over rows, and reads them again.
 
+pub mod columns;
+pub mod end;
+pub mod end_text;
 pub mod export;
-pub mod reason;
+pub mod row;
 pub mod store;
 pub mod summary;
 pub mod whole_file;

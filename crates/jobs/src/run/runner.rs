@@ -9,14 +9,14 @@ use std::{
     time::Instant,
 };
 
-use hammerbeam_results::store::{Continuation, MOST_STARTS, Memory, Store, StoreError};
+use hammerbeam_results::store::{MOST_STARTS, Store, StoreError};
 
 use super::{
     Plan, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
     schedule::next_task,
-    worker::{self, Report, Stretch, Task},
+    worker::{self, Report, Task, Walked},
 };
 use crate::{
     Observer, Progress,
@@ -179,7 +179,7 @@ impl<'work> Run<'work> {
                 self.agenda.jobs[job as usize].record.message = message;
                 self.agenda.add_starts(job, self.store)?;
             }
-            Report::Walked(stretch) => self.keep(&stretch)?,
+            Report::Walked(walked) => self.keep(&walked)?,
             Report::Left => self.busy -= 1,
             Report::Lost => return Err(RunError::Thread),
             Report::Failed { key, message } => return Err(RunError::Walk { start: key, message }),
@@ -188,28 +188,23 @@ impl<'work> Run<'work> {
     }
 
     /// Commits a stretch of a walk, unless the walk is not wanted any more.
-    fn keep(&mut self, stretch: &Stretch) -> Result<(), RunError> {
+    fn keep(&mut self, walked: &Walked) -> Result<(), RunError> {
+        let Walked { key, side, stretch, cancelled } = walked;
         self.busy -= usize::from(stretch.last);
-        let Some(start) = self.agenda.start_mut(stretch.key) else { return Ok(()) };
-        let running = &start.walk(stretch.side).running;
-        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, &stretch.cancelled)) {
+        let Some(start) = self.agenda.start_mut(*key) else { return Ok(()) };
+        let running = &start.walk(*side).running;
+        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, cancelled)) {
             return Ok(());
         }
         let (branch, period_multiple) = (start.branch, start.period_multiple);
-        let memory = Memory { checkpoint: &stretch.checkpoint, journal: &stretch.journal };
-        let continuation = match &stretch.reason {
-            None => Continuation::GoesOn(memory),
-            Some(reason) if reason.is_budget() => Continuation::Paused(reason, memory),
-            Some(reason) => Continuation::Ended(reason),
-        };
-        self.store.append(stretch.key, stretch.side, &stretch.rows, continuation)?;
-        self.agenda.add_rows(stretch.key, stretch.side, &stretch.rows, stretch.reason.as_ref());
+        self.store.append(*key, *side, &stretch.rows, stretch.continuation())?;
+        self.agenda.add_rows(*key, *side, &stretch.rows, stretch.end.as_ref());
         if stretch.last {
-            self.agenda.rest(stretch.key, stretch.side);
+            self.agenda.rest(*key, *side);
         }
         self.new_solutions += stretch.rows.len() as u64;
-        if let (Some(branch), Some(reason)) = (branch, &stretch.reason) {
-            self.observer.walk_ended(branch, stretch.side, reason);
+        if let (Some(branch), Some(end)) = (branch, &stretch.end) {
+            self.observer.walk_ended(branch, *side, end);
         }
         if let Some(newest) = stretch.rows.last() {
             self.tell(newest.solution.frequency_hz, period_multiple);

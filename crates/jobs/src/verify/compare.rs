@@ -1,8 +1,8 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
 use hammerbeam_motion::{Law, LocalElement, System, general::ElementMaxima};
-use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_results::store::Row;
+use hammerbeam_orbit::{BranchEventKind, PeriodicSolution};
+use hammerbeam_results::row::Row;
 
 use super::{
     Quantity,
@@ -172,7 +172,11 @@ pub(super) fn compare(
     let turned = found.kinks.iter().filter(|(_, penetration)| penetration.abs() <= margin).count();
     list.push(contacts(row, found, grazing + turned + cut.len()));
     // At a damper multipliers jump on the row of the grazing.
-    let damped_row = if row.events.grazing { damped.min(nearest_kink(system, found)) } else { f64::INFINITY };
+    let damped_row = if row.events.has(BranchEventKind::Grazing) {
+        damped.min(nearest_kink(system, found))
+    } else {
+        f64::INFINITY
+    };
     let jump = rigid.min(damped).min(damped_row);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
@@ -319,11 +323,12 @@ fn events(
             list.push(plain(Quantity::Events, 0.0, distance, distance));
         }
     };
-    claim(row.events.fold && !jumps, nearest(&|m| (m - 1.0).norm()));
-    claim(row.events.flip && !jumps, nearest(&|m| (m + 1.0).norm()));
+    let has = |kind| row.events.has(kind);
+    claim(has(BranchEventKind::Fold) && !jumps, nearest(&|m| (m - 1.0).norm()));
+    claim(has(BranchEventKind::Flip) && !jumps, nearest(&|m| (m + 1.0).norm()));
     let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(row.events.neimark_sacker && !jumps, nearest(&circle));
-    claim(row.events.grazing, touch / measures.contact[0]);
+    claim(has(BranchEventKind::NeimarkSacker) && !jumps, nearest(&circle));
+    claim(has(BranchEventKind::Grazing), touch / measures.contact[0]);
     list
 }
 

@@ -67,10 +67,7 @@ use std::sync::atomic::AtomicBool;
 
 use hammerbeam_motion::general::GeneralSettings;
 use hammerbeam_orbit::{PeriodicSolution, Side};
-use hammerbeam_results::{
-    Store, StoreError,
-    store::{BranchRecord, Row},
-};
+use hammerbeam_results::{Store, StoreError, row::Row, store::BranchRecord};
 use hammerbeam_study::Model;
 
 use crate::{CountedProgress, Observer, PooledOrder};

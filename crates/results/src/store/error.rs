@@ -9,6 +9,9 @@ use rusqlite::ErrorCode;
 
 use crate::whole_file::is_wrong_place;
 
+/// Name of the database in a results folder.
+pub const DATABASE: &str = "results.db";
+
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -18,7 +21,7 @@ pub enum StoreError {
     #[error("there are no results in {}", folder.display())]
     NoResults { folder: PathBuf },
     /// `results.db` is something else.
-    #[error("{} was not written by hammerbeam", folder.join(super::DATABASE).display())]
+    #[error("{} was not written by hammerbeam", folder.join(DATABASE).display())]
     NotResults { folder: PathBuf },
     /// The folder holds the results of another study.
     #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
