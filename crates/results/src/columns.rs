@@ -1,7 +1,8 @@
 //! The columns of all tables of branches: the one list from which the store, CSV and the reference follow.
 //!
 //! A number of a [`Row`] is named, described and read here, so the table of solutions in the database
-//! ([`Column::STORED`]), the CSV files ([`export`](crate::export)) and `docs/reference/results-tables.md` agree.
+//! ([`TableColumn::STORED`]), the CSV files ([`export`](crate::export)) and
+//! `docs/reference/results-tables.md` agree.
 
 use hammerbeam_orbit::{EventSet, Stability};
 
@@ -10,7 +11,7 @@ use crate::row::Row;
 /// A column of a table of branches, events, ends or states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each has its meaning in words")]
-pub enum Column {
+pub enum TableColumn {
     Of,
     Piece,
     Branch,
@@ -60,7 +61,7 @@ pub enum RowValue {
     Events(EventSet),
 }
 
-impl Column {
+impl TableColumn {
     /// Those of a row that are stored, in the order of the database.
     pub const STORED: [Self; 14] = [
         Self::Parameter,
@@ -120,8 +121,8 @@ impl Column {
             }
             Self::Stable => (
                 "stable",
-                "`true`: all multipliers inside the unit circle; `false`: one outside; `marginal`: one on it, \
-                 as closely as it is known, and none outside",
+                "`true`: all multipliers inside the unit circle; `false`: one outside; `marginal`: one on \
+                 it, as closely as it is known, and none outside",
             ),
             Self::Event => (
                 "event",
@@ -168,50 +169,52 @@ impl Column {
 impl Row {
     /// What the row has in a column; `None` where the column is not one of a row.
     #[must_use]
-    pub fn value(&self, column: Column) -> Option<RowValue> {
+    pub fn value(&self, column: TableColumn) -> Option<RowValue> {
         let maxima = &self.maxima;
         let number = match column {
-            Column::Contacts => return Some(RowValue::Count(maxima.contacts)),
-            Column::Stable => return Some(RowValue::Stability(self.stability)),
-            Column::Event => return Some(RowValue::Events(self.events)),
-            Column::Parameter => self.parameter,
-            Column::Frequency => self.frequency_hz,
-            Column::Displacement => maxima.displacement,
-            Column::Acceleration => maxima.acceleration,
-            Column::ContactForce => maxima.contact_force,
-            Column::ImpactVelocity => maxima.impact_velocity,
-            Column::Impulse => maxima.impulse,
-            Column::LeadingMultiplierRe => self.leading_multiplier[0],
-            Column::LeadingMultiplierIm => self.leading_multiplier[1],
-            Column::Residual => self.residual,
-            Column::ErrorEstimate => self.error_estimate,
+            TableColumn::Contacts => return Some(RowValue::Count(maxima.contacts)),
+            TableColumn::Stable => return Some(RowValue::Stability(self.stability)),
+            TableColumn::Event => return Some(RowValue::Events(self.events)),
+            TableColumn::Parameter => self.parameter,
+            TableColumn::Frequency => self.frequency_hz,
+            TableColumn::Displacement => maxima.displacement,
+            TableColumn::Acceleration => maxima.acceleration,
+            TableColumn::ContactForce => maxima.contact_force,
+            TableColumn::ImpactVelocity => maxima.impact_velocity,
+            TableColumn::Impulse => maxima.impulse,
+            TableColumn::LeadingMultiplierRe => self.leading_multiplier[0],
+            TableColumn::LeadingMultiplierIm => self.leading_multiplier[1],
+            TableColumn::Residual => self.residual,
+            TableColumn::ErrorEstimate => self.error_estimate,
             _ => return None,
         };
         Some(RowValue::Number(number))
     }
 
     /// Takes a value into a column of a row; whether it is one of its kind.
-    pub(crate) fn set(&mut self, column: Column, value: RowValue) -> bool {
+    pub(crate) fn set(&mut self, column: TableColumn, value: RowValue) -> bool {
         let maxima = &mut self.maxima;
         let number = match (column, value) {
-            (Column::Contacts, RowValue::Count(count)) => return put(&mut maxima.contacts, count),
-            (Column::Stable, RowValue::Stability(stability)) => return put(&mut self.stability, stability),
-            (Column::Event, RowValue::Events(events)) => return put(&mut self.events, events),
+            (TableColumn::Contacts, RowValue::Count(count)) => return put(&mut maxima.contacts, count),
+            (TableColumn::Stable, RowValue::Stability(stability)) => {
+                return put(&mut self.stability, stability);
+            }
+            (TableColumn::Event, RowValue::Events(events)) => return put(&mut self.events, events),
             (_, RowValue::Number(number)) => number,
             _ => return false,
         };
         let place = match column {
-            Column::Parameter => &mut self.parameter,
-            Column::Frequency => &mut self.frequency_hz,
-            Column::Displacement => &mut maxima.displacement,
-            Column::Acceleration => &mut maxima.acceleration,
-            Column::ContactForce => &mut maxima.contact_force,
-            Column::ImpactVelocity => &mut maxima.impact_velocity,
-            Column::Impulse => &mut maxima.impulse,
-            Column::LeadingMultiplierRe => &mut self.leading_multiplier[0],
-            Column::LeadingMultiplierIm => &mut self.leading_multiplier[1],
-            Column::Residual => &mut self.residual,
-            Column::ErrorEstimate => &mut self.error_estimate,
+            TableColumn::Parameter => &mut self.parameter,
+            TableColumn::Frequency => &mut self.frequency_hz,
+            TableColumn::Displacement => &mut maxima.displacement,
+            TableColumn::Acceleration => &mut maxima.acceleration,
+            TableColumn::ContactForce => &mut maxima.contact_force,
+            TableColumn::ImpactVelocity => &mut maxima.impact_velocity,
+            TableColumn::Impulse => &mut maxima.impulse,
+            TableColumn::LeadingMultiplierRe => &mut self.leading_multiplier[0],
+            TableColumn::LeadingMultiplierIm => &mut self.leading_multiplier[1],
+            TableColumn::Residual => &mut self.residual,
+            TableColumn::ErrorEstimate => &mut self.error_estimate,
             _ => return false,
         };
         put(place, number)
@@ -232,8 +235,8 @@ mod tests {
     fn a_row_comes_back_from_its_stored_columns() {
         let mut row = Row { stability: Stability::Marginal, ..Row::default() };
         let values: Vec<RowValue> =
-            Column::STORED.into_iter().map(|column| row.value(column).unwrap()).collect();
-        for (index, (column, value)) in Column::STORED.into_iter().zip(values).enumerate() {
+            TableColumn::STORED.into_iter().map(|column| row.value(column).unwrap()).collect();
+        for (index, (column, value)) in TableColumn::STORED.into_iter().zip(values).enumerate() {
             let other = match value {
                 RowValue::Number(_) => RowValue::Number(index as f64 + 1.0),
                 RowValue::Count(_) => RowValue::Count(index as u32 + 1),
@@ -244,10 +247,13 @@ mod tests {
             assert_eq!(row.value(column), Some(other), "{column:?}");
         }
         let mut back = Row::default();
-        for column in Column::STORED {
+        for column in TableColumn::STORED {
             assert!(back.set(column, row.value(column).unwrap()));
         }
         assert_eq!(back, row);
-        assert!(!back.set(Column::Contacts, RowValue::Number(1.0)) && row.value(Column::Message).is_none());
+        assert!(
+            !back.set(TableColumn::Contacts, RowValue::Number(1.0))
+                && row.value(TableColumn::Message).is_none()
+        );
     }
 }

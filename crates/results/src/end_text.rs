@@ -1,8 +1,8 @@
 //! How a side of a branch or a curve ended, in a sentence that speaks of the structure: what happened to its
 //! motion, and what can be done where it ends early.
 //!
-//! Made where it is shown, never stored and never read back. `docs/reference/ends.md` has the sentences beside
-//! the words for programs ([`BranchEnd::word`]).
+//! Made where it is shown, never stored and never read back. `docs/reference/ends.md` has the sentences
+//! beside the words for programs ([`BranchEnd::word`]).
 
 use hammerbeam_orbit::{BranchEventKind, CurveEnd, ResonantMode, StopReason};
 use hammerbeam_study::file::CurveOf;
@@ -11,7 +11,7 @@ use crate::end::BranchEnd;
 
 /// What a branch runs along, as its sentences speak of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Along<'a> {
+pub enum BranchOver<'a> {
     /// The frequency.
     Frequency,
     /// Another parameter, by its name.
@@ -23,7 +23,7 @@ pub enum Along<'a> {
 /// What is shown of a side that is not finished.
 pub const NOT_FINISHED: &str = "not finished: the same run goes on from here";
 
-impl Along<'_> {
+impl BranchOver<'_> {
     /// What ends at the end of the range.
     fn range(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ impl Along<'_> {
 
 /// The end in a sentence.
 #[must_use]
-pub fn sentence(end: &BranchEnd, along: Along<'_>) -> String {
+pub fn sentence(end: &BranchEnd, along: BranchOver<'_>) -> String {
     match end {
         BranchEnd::Walk(reason) => of_walk(reason, along),
         BranchEnd::Curve(end) => of_curve(end, along),
@@ -80,20 +80,20 @@ pub fn sentence(end: &BranchEnd, along: Along<'_>) -> String {
     }
 }
 
-/// Along the frequency.
+/// BranchOver the frequency.
 impl std::fmt::Display for BranchEnd {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.pad(&sentence(self, Along::Frequency))
+        formatter.pad(&sentence(self, BranchOver::Frequency))
     }
 }
 
-fn of_walk(reason: &StopReason, along: Along<'_>) -> String {
+fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
     let (at, look) = (|value: f64| along.place(value), along.look());
     match reason {
         StopReason::RangeEnd { frequency_hz } => {
             // The end of the range is what the study says, with all its digits.
             let place = match along {
-                Along::Frequency => format!("{frequency_hz} Hz"),
+                BranchOver::Frequency => format!("{frequency_hz} Hz"),
                 along => along.place(*frequency_hz),
             };
             format!("end of {} at {place}", along.range())
@@ -143,7 +143,7 @@ fn of_walk(reason: &StopReason, along: Along<'_>) -> String {
     }
 }
 
-fn of_curve(end: &CurveEnd, along: Along<'_>) -> String {
+fn of_curve(end: &CurveEnd, along: BranchOver<'_>) -> String {
     let at = |value: f64| along.place(value);
     match end {
         CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
@@ -183,11 +183,11 @@ fn of_curve(end: &CurveEnd, along: Along<'_>) -> String {
 }
 
 /// The resonant grazing at which a curve ends that meets a grazing; `None` for a curve of grazings.
-fn resonant_grazing(along: Along<'_>) -> Option<BranchEventKind> {
+fn resonant_grazing(along: BranchOver<'_>) -> Option<BranchEventKind> {
     match along {
-        Along::Curve(_, CurveOf::Fold) => Some(BranchEventKind::GrazingFold),
-        Along::Curve(_, CurveOf::Flip) => Some(BranchEventKind::GrazingFlip),
-        Along::Curve(_, CurveOf::NeimarkSacker) => Some(BranchEventKind::GrazingNeimarkSacker),
+        BranchOver::Curve(_, CurveOf::Fold) => Some(BranchEventKind::GrazingFold),
+        BranchOver::Curve(_, CurveOf::Flip) => Some(BranchEventKind::GrazingFlip),
+        BranchOver::Curve(_, CurveOf::NeimarkSacker) => Some(BranchEventKind::GrazingNeimarkSacker),
         _ => None,
     }
 }
@@ -252,8 +252,8 @@ mod tests {
     fn sentences_name_their_place_and_speak_of_the_motion() {
         for end in every_end() {
             let along = match end {
-                BranchEnd::Curve(_) => Along::Curve("gap_m", CurveOf::Grazing),
-                _ => Along::Parameter("gap_m"),
+                BranchEnd::Curve(_) => BranchOver::Curve("gap_m", CurveOf::Grazing),
+                _ => BranchOver::Parameter("gap_m"),
             };
             let text = sentence(&end, along);
             assert_eq!(text.matches("12.5").count(), usize::from(end.place().is_some()), "{text}");

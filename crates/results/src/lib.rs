@@ -2,9 +2,10 @@
 //!
 //! | room | what it knows |
 //! |---|---|
-//! | [`row`], [`columns`] | one row of a branch, over the frequency or any other parameter; the one list of columns from which store, tables and reference follow |
+//! | [`row`] | one row of a branch, over the frequency or any other parameter |
+//! | [`columns`] | the one list of columns, from which store, tables and reference follow |
 //! | [`end`], [`end_text`] | how a side of a branch ended; that in a sentence |
-//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; motions in time, sweeps, exponents and basins by request |
+//! | [`store`] | the results folder: walks with their checkpoints, motions by request, in one database |
 //! | [`export`] | what is stored as CSV |
 //! | [`summary`] | a branch in few numbers: its range, its events, its peaks |
 //! | [`whole_file`] | files that appear whole or not at all |

@@ -12,7 +12,7 @@ use hammerbeam_results::{
     store::{JobRecord, StartRecord, Store, StoreError},
 };
 
-use super::{Plan, Solver, follow_ups};
+use super::{plan::Plan, solver::Solver};
 
 /// Distance from the unit circle up to which a multiplier is on it, at a located event.
 const ON_CIRCLE: f64 = 1e-3;
@@ -146,9 +146,7 @@ impl Agenda {
             store.take_back_to(key)?;
         }
         store.add_met(&plan.met)?;
-        let mut agenda = Self::read(store)?;
-        agenda.add_what_is_wanted_now(store, plan)?;
-        Ok(agenda)
+        Self::read(store)
     }
 
     /// What the store holds.
@@ -172,18 +170,6 @@ impl Agenda {
             agenda.jobs[record.job() as usize].starts.push(start);
         }
         Ok(agenda)
-    }
-
-    /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are
-    /// left out.
-    fn add_what_is_wanted_now(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
-        let finished = self.jobs.iter().filter(|job| job.record.outcome.is_some());
-        let jobs: Vec<_> = finished
-            .flat_map(|job| job.starts.iter().map(|start| (start, job.record.depth)))
-            .flat_map(|(start, depth)| follow_ups::of_branch(start, depth, plan))
-            .collect();
-        store.add_jobs(&jobs)?;
-        self.add_new_jobs(store)
     }
 
     /// Adds what the store has more of.

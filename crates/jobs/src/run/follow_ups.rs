@@ -4,10 +4,25 @@
 use hammerbeam_orbit::Side;
 use hammerbeam_results::{
     end::BranchEnd,
-    store::{JobKind, solution_key},
+    store::{JobKind, Store, StoreError, solution_key},
 };
 
-use super::{Plan, agenda::Start};
+use super::{
+    agenda::{Agenda, Start},
+    plan::Plan,
+};
+
+/// Adds the jobs of finished branches that a greater depth asks for; those that are there already are left
+/// out.
+pub(super) fn add_wanted(agenda: &mut Agenda, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
+    let finished = agenda.jobs.iter().filter(|job| job.record.outcome.is_some());
+    let jobs: Vec<_> = finished
+        .flat_map(|job| job.starts.iter().map(|start| (start, job.record.depth)))
+        .flat_map(|(start, depth)| of_branch(start, depth, plan))
+        .collect();
+    store.add_jobs(&jobs)?;
+    agenda.add_new_jobs(store)
+}
 
 /// Jobs at the flips and branch points of a branch, end to end along it.
 pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {

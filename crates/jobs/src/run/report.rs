@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use hammerbeam_orbit::{BranchEventKind, Side, Stability};
 use hammerbeam_results::{
-    end_text::{Along, NOT_FINISHED, sentence},
+    end_text::{BranchOver, NOT_FINISHED, sentence},
     store::{JobRecord, PieceRecord, WalkRecord},
     summary::{BranchSummary, Peak, PieceSummary},
 };
@@ -177,7 +177,7 @@ impl From<&WalkRecord> for WalkDocument {
             solutions: walk.solutions,
             stop_reason: end.map(|end| end.word()),
             stop_frequency_hz: end.and_then(|end| end.place()),
-            stop_message: end.map(|end| sentence(end, Along::Frequency)),
+            stop_message: end.map(|end| sentence(end, BranchOver::Frequency)),
         }
     }
 }

@@ -15,6 +15,7 @@ use super::{
     Plan, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
+    follow_ups,
     schedule::next_task,
     worker::{self, Report, Task, Walked},
 };
@@ -64,7 +65,8 @@ pub fn run(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, RunError> {
-    let agenda = Agenda::load(store, solver, plan)?;
+    let mut agenda = Agenda::load(store, solver, plan)?;
+    follow_ups::add_wanted(&mut agenda, store, plan)?;
     let threads = threads.max(1);
     let stop = AtomicBool::new(false);
     let stop = &stop;

@@ -2,7 +2,7 @@ use std::{path::Path, sync::atomic::Ordering};
 
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_results::{
-    columns::Column,
+    columns::TableColumn,
     end::BranchEnd,
     export::{BranchTable, export_csv},
     store::{JobKind, Store, StoreError},
@@ -58,7 +58,7 @@ fn undisturbed(study: &StudyFile) -> (TempDir, String) {
 fn rows_run_end_to_end_along_the_branch() {
     let (_folder, text) = undisturbed(&study_with(""));
     let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    let columns: Vec<&str> = BranchTable::ALL[0].columns().map(Column::name).collect();
+    let columns: Vec<&str> = BranchTable::ALL[0].columns().map(TableColumn::name).collect();
     assert_eq!(lines[0], columns);
     assert_eq!((lines[1][2], lines[1][11]), ("10.0", "start"));
     let last = lines.last().unwrap();

@@ -1,7 +1,7 @@
 //! The tables of branches and curves: which there are, and which of the columns each has.
 
-use crate::columns::Column;
-use Column as C;
+use crate::columns::TableColumn;
+use TableColumn as C;
 
 /// What the branches of a table run along.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,12 +36,12 @@ pub struct BranchTable {
     pub over: TableOver,
     /// What has a line in it.
     pub lines: TableLines,
-    /// Its columns; of curves with [`Column::Of`] in front.
-    columns: &'static [Column],
+    /// Its columns; of curves with [`TableColumn::Of`] in front.
+    columns: &'static [TableColumn],
 }
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
-const BRANCHES: [Column; 15] = [
+const BRANCHES: [TableColumn; 15] = [
     C::Branch,
     C::PeriodMultiple,
     C::Frequency,
@@ -59,7 +59,7 @@ const BRANCHES: [Column; 15] = [
     C::ErrorEstimate,
 ];
 
-const PARAMETER_BRANCHES: [Column; 18] = [
+const PARAMETER_BRANCHES: [TableColumn; 18] = [
     C::Piece,
     C::Branch,
     C::PeriodMultiple,
@@ -80,7 +80,7 @@ const PARAMETER_BRANCHES: [Column; 18] = [
     C::Event,
 ];
 
-const EVENTS: [Column; 13] = [
+const EVENTS: [TableColumn; 13] = [
     C::Branch,
     C::PeriodMultiple,
     C::RowNumber,
@@ -96,7 +96,7 @@ const EVENTS: [Column; 13] = [
     C::Multipliers,
 ];
 
-const PARAMETER_EVENTS: [Column; 16] = [
+const PARAMETER_EVENTS: [TableColumn; 16] = [
     C::Piece,
     C::Branch,
     C::PeriodMultiple,
@@ -115,10 +115,10 @@ const PARAMETER_EVENTS: [Column; 16] = [
     C::Multipliers,
 ];
 
-const ENDS: [Column; 8] =
+const ENDS: [TableColumn; 8] =
     [C::Branch, C::PeriodMultiple, C::Side, C::End, C::Frequency, C::Message, C::Phase, C::State];
 
-const PARAMETER_ENDS: [Column; 10] = [
+const PARAMETER_ENDS: [TableColumn; 10] = [
     C::Piece,
     C::Branch,
     C::PeriodMultiple,
@@ -131,10 +131,10 @@ const PARAMETER_ENDS: [Column; 10] = [
     C::State,
 ];
 
-const STATES: [Column; 7] =
+const STATES: [TableColumn; 7] =
     [C::Branch, C::PeriodMultiple, C::RowNumber, C::Frequency, C::Phase, C::State, C::Multipliers];
 
-const PARAMETER_STATES: [Column; 10] = [
+const PARAMETER_STATES: [TableColumn; 10] = [
     C::Piece,
     C::Branch,
     C::PeriodMultiple,
@@ -163,13 +163,18 @@ impl BranchTable {
         Self::new("curve_states.csv", TableOver::Curves, TableLines::States, &PARAMETER_STATES),
     ];
 
-    const fn new(name: &'static str, over: TableOver, lines: TableLines, columns: &'static [Column]) -> Self {
+    const fn new(
+        name: &'static str,
+        over: TableOver,
+        lines: TableLines,
+        columns: &'static [TableColumn],
+    ) -> Self {
         Self { name, over, lines, columns }
     }
 
     /// Its columns, in their order.
-    pub fn columns(&self) -> impl Iterator<Item = Column> + use<> {
-        let front = (self.over == TableOver::Curves).then_some(Column::Of);
+    pub fn columns(&self) -> impl Iterator<Item = TableColumn> + use<> {
+        let front = (self.over == TableOver::Curves).then_some(TableColumn::Of);
         front.into_iter().chain(self.columns.iter().copied())
     }
 }

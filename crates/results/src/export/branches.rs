@@ -13,8 +13,8 @@ use super::{
     table::{quoted, write_whole},
 };
 use crate::{
-    columns::{Column, RowValue},
-    end_text::{Along, NOT_FINISHED, sentence},
+    columns::{RowValue, TableColumn},
+    end_text::{BranchOver, NOT_FINISHED, sentence},
     row::Row,
     store::{BranchRecord, PieceRecord, Store, StoreError, solution_key},
     whole_file::WriteError,
@@ -69,7 +69,7 @@ impl Branches {
         }
         let lines = write_whole(&path, |writer| {
             let failed = |source| ExportError::from(WriteError { path: path.clone(), source });
-            let names: Vec<&str> = table.columns().map(Column::name).collect();
+            let names: Vec<&str> = table.columns().map(TableColumn::name).collect();
             writeln!(writer, "{}", names.join(",")).map_err(failed)?;
             let mut lines = 0;
             for branch in &branches {
@@ -194,7 +194,7 @@ impl Line<'_> {
         writeln!(writer, "{}", cells.join(","))
     }
 
-    fn cell(&self, column: Column) -> String {
+    fn cell(&self, column: TableColumn) -> String {
         let of_row = self.row.value(column).map(|value| match value {
             RowValue::Number(number) => format!("{number:?}"),
             RowValue::Count(count) => count.to_string(),
@@ -208,52 +208,52 @@ impl Line<'_> {
             .unwrap_or_default()
     }
 
-    fn of_branch(&self, column: Column) -> Option<String> {
+    fn of_branch(&self, column: TableColumn) -> Option<String> {
         let OwnedBranch { piece, branch } = self.of;
         let end = branch.walk(self.side).end.as_ref();
         Some(match column {
-            Column::Branch => branch.id.to_string(),
-            Column::PeriodMultiple => branch.period_multiple.to_string(),
-            Column::Of => (*piece)?.kind.name().to_owned(),
-            Column::Piece => (*piece)?.place.to_string(),
-            Column::ParameterName => quoted(&(*piece)?.parameter),
-            Column::Side => if self.side == Side::Down { "down" } else { "up" }.to_owned(),
-            Column::End => end.map_or("not-finished", |end| end.word()).to_owned(),
-            Column::Message => {
-                let along = piece.map_or(Along::Frequency, PieceRecord::along);
+            TableColumn::Branch => branch.id.to_string(),
+            TableColumn::PeriodMultiple => branch.period_multiple.to_string(),
+            TableColumn::Of => (*piece)?.kind.name().to_owned(),
+            TableColumn::Piece => (*piece)?.place.to_string(),
+            TableColumn::ParameterName => quoted(&(*piece)?.parameter),
+            TableColumn::Side => if self.side == Side::Down { "down" } else { "up" }.to_owned(),
+            TableColumn::End => end.map_or("not-finished", |end| end.word()).to_owned(),
+            TableColumn::Message => {
+                let along = piece.map_or(BranchOver::Frequency, PieceRecord::along);
                 quoted(&end.map_or_else(|| NOT_FINISHED.to_owned(), |end| sentence(end, along)))
             }
-            Column::RowNumber => self.number.to_string(),
+            TableColumn::RowNumber => self.number.to_string(),
             _ => return None,
         })
     }
 
-    fn of_point(&self, column: Column) -> Option<String> {
+    fn of_point(&self, column: TableColumn) -> Option<String> {
         let point = self.point.as_ref()?;
         match column {
-            Column::Phase => Some(format!("{:?}", point.phase)),
-            Column::State => Some(numbers(&point.state)),
-            Column::Multipliers => Some(complex_numbers(&point.multipliers)),
+            TableColumn::Phase => Some(format!("{:?}", point.phase)),
+            TableColumn::State => Some(numbers(&point.state)),
+            TableColumn::Multipliers => Some(complex_numbers(&point.multipliers)),
             _ => None,
         }
     }
 
-    fn of_event(&self, column: Column) -> Option<String> {
+    fn of_event(&self, column: TableColumn) -> Option<String> {
         let event = self.event.as_ref()?;
         match column {
-            Column::Status => Some(
+            TableColumn::Status => Some(
                 match event.status {
                     EventStatus::Located => "located",
                     EventStatus::Bracketed => "bracketed",
                 }
                 .to_owned(),
             ),
-            Column::UncertaintyHz | Column::Uncertainty => Some(format!("{:?}", event.uncertainty)),
-            Column::MultiplierRe => event.multiplier.map(|[re, _]| format!("{re:?}")),
-            Column::MultiplierIm => event.multiplier.map(|[_, im]| format!("{im:?}")),
-            Column::ContactChange => Some(changes(&event.contacts)),
-            Column::Direction => Some(numbers(&event.direction)),
-            Column::SymmetryBreaking => Some(event.breaks_symmetry.to_string()),
+            TableColumn::UncertaintyHz | TableColumn::Uncertainty => Some(format!("{:?}", event.uncertainty)),
+            TableColumn::MultiplierRe => event.multiplier.map(|[re, _]| format!("{re:?}")),
+            TableColumn::MultiplierIm => event.multiplier.map(|[_, im]| format!("{im:?}")),
+            TableColumn::ContactChange => Some(changes(&event.contacts)),
+            TableColumn::Direction => Some(numbers(&event.direction)),
+            TableColumn::SymmetryBreaking => Some(event.breaks_symmetry.to_string()),
             _ => None,
         }
     }

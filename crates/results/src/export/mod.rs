@@ -45,8 +45,8 @@ pub struct Exported {
     pub motion_paths: Vec<PathBuf>,
 }
 
-/// Writes the tables of branches, events and ends, over the frequency and, where the study asks for them, over
-/// other parameters and along curves, and those of motions, into a folder.
+/// Writes the tables of branches, events and ends, over the frequency and, where the study asks for them,
+/// over other parameters and along curves, and those of motions, into a folder.
 ///
 /// Numbers are the shortest that read back to the same double. The files appear complete or not at all.
 ///

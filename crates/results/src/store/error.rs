@@ -24,7 +24,11 @@ pub enum StoreError {
     #[error("{} was not written by hammerbeam", folder.join(DATABASE).display())]
     NotResults { folder: PathBuf },
     /// The folder holds the results of another study.
-    #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
+    #[error(
+        "{} holds the results of another study; it differs in\n{}",
+        folder.display(),
+        indented(differences)
+    )]
     OtherStudy { folder: PathBuf, differences: Vec<String> },
     /// The folder was written by a program that stores or computes differently.
     #[error(
@@ -49,7 +53,8 @@ pub enum StoreError {
     MissingSolutions { branch: String, side: &'static str, first: u32, last: u32 },
     /// Periods of a motion are not there, or there are some that were not counted.
     #[error(
-        "the motion of request {request} is damaged: {done} periods are done, in results.db {found} follow one another; the same command into a new folder computes them again"
+        "the motion of request {request} is damaged: {done} periods are done, in results.db {found} follow \
+         one another; the same command into a new folder computes them again"
     )]
     DamagedMotion { request: i64, found: u64, done: u64 },
     /// Something stored has a name that this program does not know.
@@ -63,17 +68,24 @@ pub enum StoreError {
     Folder { folder: PathBuf, source: io::Error },
     /// Something else than rows of solutions is not as it was written.
     #[error(
-        "results.db is damaged: {what}; put back a copy of it, or let a run of the study into a new folder compute everything again"
+        "results.db is damaged: {what}; put back a copy of it, or let a run of the study into a new folder \
+         compute everything again"
     )]
     DamagedFile { what: String },
     /// What is stored of a solution is not what was written.
     #[error("it is not as it was stored; a run of the study into a new folder computes it again")]
     OtherThanStored,
     /// Another run has begun to write, though this one held the lock: someone has removed it.
-    #[error("another run has begun to write to {}; what this one had stored is kept, nothing more was added", folder.display())]
+    #[error(
+        "another run has begun to write to {}; what this one had stored is kept, nothing more was added",
+        folder.display()
+    )]
     TakenOver { folder: PathBuf },
     /// The database is not where it was.
-    #[error("{} was removed or replaced while it was written; what was stored in it is gone with it", database.display())]
+    #[error(
+        "{} was removed or replaced while it was written; what was stored in it is gone with it",
+        database.display()
+    )]
     Gone { database: PathBuf },
     /// The database refuses.
     #[error("results database: {}", in_words(.0))]

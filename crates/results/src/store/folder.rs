@@ -47,9 +47,8 @@ impl Store {
     /// Opens the results folder of a study for a run, and makes it if it is not there.
     ///
     /// # Errors
-    /// [`StoreError`]: the folder belongs to another study or version, another run is writing it, a file of it
-    /// is a link, or the disk refuses.
-    /// Nothing is written then.
+    /// [`StoreError`]: the folder belongs to another study or version, another run is writing it, a file of
+    /// it is a link, or the disk refuses. Nothing is written then.
     pub fn open_for_run(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
         let database = folder.join(DATABASE);
         refuse_links(&database)?;

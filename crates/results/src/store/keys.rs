@@ -1,8 +1,8 @@
 //! Numbers of starts, walks and solutions.
 //!
-//! A start has two walks, one for each side; a walk has the 2^32 keys of its solutions, in their order. Starts
-//! of the diagram have the numbers `job * MOST_STARTS + n`; those of pieces (`[[vary]]`, `[[curve]]`) lie
-//! beyond all of them.
+//! A start has two walks, one for each side; a walk has the 2^32 keys of its solutions, in their order.
+//! Starts of the diagram have the numbers `job * MOST_STARTS + n`; those of pieces (`[[vary]]`, `[[curve]]`)
+//! lie beyond all of them.
 
 use hammerbeam_orbit::Side;
 

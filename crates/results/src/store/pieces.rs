@@ -14,7 +14,7 @@ use super::{
     read::BranchRecord,
     starts::{NewStart, StartRecord, delete_start},
 };
-use crate::{end_text::Along, row::SolvedRow};
+use crate::{end_text::BranchOver, row::SolvedRow};
 
 /// What a piece is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,10 +90,10 @@ impl PieceKind {
 impl PieceRecord {
     /// What its branches run along.
     #[must_use]
-    pub fn along(&self) -> Along<'_> {
+    pub fn along(&self) -> BranchOver<'_> {
         match self.kind {
-            PieceKind::Vary => Along::Parameter(&self.parameter),
-            PieceKind::Curve(of) => Along::Curve(&self.parameter, of),
+            PieceKind::Vary => BranchOver::Parameter(&self.parameter),
+            PieceKind::Curve(of) => BranchOver::Curve(&self.parameter, of),
         }
     }
 }

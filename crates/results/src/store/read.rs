@@ -10,13 +10,13 @@ use super::{
     values::{END_COLUMNS, read_end, read_row, row_columns},
 };
 use crate::{
-    columns::Column,
+    columns::TableColumn,
     end::BranchEnd,
     row::{Row, SolvedRow},
 };
 
 /// Number of the columns of a row.
-const OF_ROW: usize = Column::STORED.len();
+const OF_ROW: usize = TableColumn::STORED.len();
 
 /// A branch of the results, over the frequency or another parameter, or a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -216,7 +216,8 @@ impl Store {
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             let walk = walk_id(branch.start, side);
             let select = format!(
-                "SELECT multiplier_count, multipliers, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
+                "SELECT multiplier_count, multipliers, id FROM solution
+                WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
             );
             let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
             let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
@@ -296,7 +297,8 @@ impl Store {
         let columns = row_columns();
         let select = format!(
             "SELECT {columns}, segments, state_length, multiplier_count, multipliers, nodes,
-            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles, on_circle FROM solution WHERE id = ?1"
+            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles, on_circle
+            FROM solution WHERE id = ?1"
         );
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, start_of_key(key)])?;

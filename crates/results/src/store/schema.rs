@@ -9,7 +9,7 @@ use hammerbeam_study::{
 use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
 
 use super::{StoreError, checksum};
-use crate::columns::Column;
+use crate::columns::TableColumn;
 
 /// Version of the tables.
 pub const SCHEMA_VERSION: u32 = 9;
@@ -24,7 +24,8 @@ const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
-    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
+    kind TEXT NOT NULL CHECK (kind IN
+        ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,
@@ -276,14 +277,14 @@ pub(super) fn writer(connection: &Connection) -> Result<u64, StoreError> {
 
 /// Makes all tables; that of solutions has the stored columns of rows.
 pub(super) fn create_tables(connection: &Connection) -> Result<(), StoreError> {
-    let column = |column: Column| {
+    let column = |column: TableColumn| {
         let kind = match column {
-            Column::Contacts | Column::Event | Column::Stable => "INTEGER",
+            TableColumn::Contacts | TableColumn::Event | TableColumn::Stable => "INTEGER",
             _ => "REAL",
         };
         format!("{} {kind} NOT NULL", column.name())
     };
-    let columns: Vec<String> = Column::STORED.into_iter().map(column).collect();
+    let columns: Vec<String> = TableColumn::STORED.into_iter().map(column).collect();
     let columns = columns.join(", ");
     let solutions = format!("CREATE TABLE solution (id INTEGER PRIMARY KEY, {columns}, {BEHIND_ROWS});");
     Ok(checksum::create(connection, &[TABLES, &solutions, TABLES_OF_MOTIONS].concat())?)

@@ -55,7 +55,8 @@ impl NewStart<'_> {
             return Ok(());
         }
         let insert = format!(
-            "INSERT INTO walk (id, start, side, solutions, {END_COLUMNS}) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)"
+            "INSERT INTO walk (id, start, side, solutions, {END_COLUMNS})
+            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)"
         );
         for (side, solutions) in [(Side::Up, 1), (Side::Down, 0)] {
             let of_walk = [

@@ -80,7 +80,8 @@ fn a_solution_that_is_gone_is_told_by_its_place() {
     let key = begin(&mut store);
     assert_eq!(store.walked(key, Side::Up).unwrap().len(), 1);
     store.connection.execute("DELETE FROM solution", []).unwrap();
-    let sentence = "solution 0 on the up side of branch 1 is missing from results.db; a run of the study into a new folder computes it again";
+    let sentence = "solution 0 on the up side of branch 1 is missing from results.db; \
+        a run of the study into a new folder computes it again";
     for error in [store.walked(key, Side::Up).unwrap_err(), store.solution(key, Side::Up, 0).unwrap_err()] {
         assert_eq!(error.to_string(), sentence);
         assert!(error.is_of_solutions() && !error.is_bad_input());

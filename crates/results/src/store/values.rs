@@ -5,14 +5,14 @@ use rusqlite::{Row as SqlRow, types::Value};
 
 use super::{StoreError, blob, stability};
 use crate::{
-    columns::{Column, RowValue},
+    columns::{RowValue, TableColumn},
     end::{BranchEnd, StoredEnd},
     row::Row,
 };
 
 /// Names of the stored columns of a row, separated by commas.
 pub(super) fn row_columns() -> String {
-    Column::STORED.map(Column::name).join(", ")
+    TableColumn::STORED.map(TableColumn::name).join(", ")
 }
 
 /// What a row has in them.
@@ -23,17 +23,17 @@ pub(super) fn values_of_row(row: &Row) -> Vec<Value> {
         RowValue::Stability(known) => Some(Value::Integer(stability::number(known))),
         RowValue::Events(events) => Some(Value::Integer(events.bits().into())),
     };
-    Column::STORED.into_iter().filter_map(value).collect()
+    TableColumn::STORED.into_iter().filter_map(value).collect()
 }
 
 /// The row of the first columns of a selection.
 pub(super) fn read_row(found: &SqlRow<'_>) -> Result<Row, StoreError> {
     let mut row = Row::default();
-    for (place, column) in Column::STORED.into_iter().enumerate() {
+    for (place, column) in TableColumn::STORED.into_iter().enumerate() {
         let value = match column {
-            Column::Contacts => RowValue::Count(found.get(place)?),
-            Column::Stable => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),
-            Column::Event => {
+            TableColumn::Contacts => RowValue::Count(found.get(place)?),
+            TableColumn::Stable => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),
+            TableColumn::Event => {
                 let bits: u32 = found.get(place)?;
                 let unknown = || StoreError::Unknown { what: "event", found: bits.to_string() };
                 RowValue::Events(EventSet::of_bits(bits).ok_or_else(unknown)?)
