@@ -67,7 +67,7 @@ pub const LONG_LINES: &[(&str, usize, &str)] = &[
     ("crates/drawing", 1, UNBROKEN),
     ("crates/figure", 240, UNBROKEN),
     ("crates/hammerbeam", 1, UNBROKEN),
-    ("crates/jobs", 44, UNBROKEN),
+    ("crates/jobs", 42, UNBROKEN),
     ("crates/matrices", 5, UNBROKEN),
     ("crates/motion", 28, UNBROKEN),
     ("crates/orbit", 3, UNBROKEN),

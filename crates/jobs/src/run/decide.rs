@@ -60,8 +60,8 @@ impl Decisions<'_> {
 
     fn job(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {
         let record = agenda.jobs[index].record.clone();
-        let begun = agenda.jobs[index].starts.iter().any(|start| start.branch.is_some());
-        if Plan::only_if_not_covered(&record) && !begun && agenda.is_covered(record.frequency_hz) {
+        let has_branch = agenda.jobs[index].starts.iter().any(|start| start.branch.is_some());
+        if Plan::only_if_not_covered(&record) && !has_branch && agenda.is_covered(record.frequency_hz) {
             while let Some(start) = agenda.jobs[index].starts.first() {
                 let key = start.key;
                 self.drop_start(agenda, index, key)?;

@@ -3,7 +3,7 @@
 //! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the
 //! solution lie, within a margin, are candidates. Then the states decide: the state between the rows,
 //! interpolated to the frequency of the solution, is compared with the states of the solution at the
-//! beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the
+//! starts of all its excitation periods, and the orbit that Newton's method finds from there must be the
 //! solution itself.
 //!
 //! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point

@@ -27,7 +27,7 @@ use crate::{
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunOutcome {
-    /// Everything the study asks for was looked for; what stopped early is told by its reason.
+    /// Everything the study asks for was looked for; what stopped early has its end.
     Done,
     /// The time budget is used up; the same run goes on when it is started again.
     OutOfTime {
@@ -82,7 +82,7 @@ pub fn run(
             busy: 0,
             new_solutions: 0,
             fraction: 0.0,
-            begun: Instant::now(),
+            started: Instant::now(),
         };
         let outcome = run.work(&Desk { pool, sender, stop }, &reports);
         // Threads that still walk, for nothing any more, see that nobody reads their reports.
@@ -111,7 +111,7 @@ struct Run<'a> {
     busy: usize,
     new_solutions: u64,
     fraction: f64,
-    begun: Instant,
+    started: Instant,
 }
 
 impl<'work> Run<'work> {
@@ -127,7 +127,7 @@ impl<'work> Run<'work> {
                 interrupted = true;
                 desk.stop.store(true, Ordering::Relaxed);
             }
-            let out_of_time = self.plan.time.is_some_and(|time| self.begun.elapsed() >= time);
+            let out_of_time = self.plan.time.is_some_and(|time| self.started.elapsed() >= time);
             if !interrupted && !out_of_time {
                 self.hand_out(desk)?;
             }
@@ -139,7 +139,7 @@ impl<'work> Run<'work> {
                 };
             }
             match reports.recv_timeout(PATIENCE) {
-                Ok(report) => self.hear(report)?,
+                Ok(report) => self.take(report)?,
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return Err(RunError::Thread),
             }
@@ -165,7 +165,7 @@ impl<'work> Run<'work> {
         Ok(())
     }
 
-    fn hear(&mut self, report: Report) -> Result<(), RunError> {
+    fn take(&mut self, report: Report) -> Result<(), RunError> {
         match report {
             Report::Evaluated { job, starts } => {
                 self.busy -= 1;
@@ -209,12 +209,12 @@ impl<'work> Run<'work> {
             self.observer.walk_ended(branch, *side, end);
         }
         if let Some(newest) = stretch.rows.last() {
-            self.tell(newest.solution.frequency_hz, period_multiple);
+            self.report_progress(newest.solution.frequency_hz, period_multiple);
         }
         Ok(())
     }
 
-    fn tell(&mut self, frequency_hz: f64, period_multiple: u32) {
+    fn report_progress(&mut self, frequency_hz: f64, period_multiple: u32) {
         self.fraction = self.fraction.max(self.estimate());
         let open = |start: &super::agenda::Start| {
             usize::from(start.up.running.is_some()) + usize::from(start.down.running.is_some())
@@ -230,7 +230,7 @@ impl<'work> Run<'work> {
         });
     }
 
-    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range
+    /// Part of the work that is done, as far as that is known: finished jobs, and how much of the range
     /// the branches reach that are walked.
     fn estimate(&self) -> f64 {
         let jobs = self.agenda.jobs.len().max(1) as f64;

@@ -65,7 +65,7 @@ pub(super) enum Report {
     Evaluated { job: u32, starts: Result<Surveyed, String> },
     /// More of a walk.
     Walked(Walked),
-    /// The task was given up as it was told; there is nothing more of it.
+    /// The task was given up as it was cancelled; there is nothing more of it.
     Left,
     /// A stored walk cannot be taken up.
     Failed { key: u32, message: String },
@@ -125,7 +125,7 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
             solver.probe(*frequency_hz, multiples, &mut || stop.load(Ordering::Relaxed))
         }
         Question::Leave(crossing) => {
-            // Only a branch that can be begun is one.
+            // Only a branch that can be followed is one.
             solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
             Ok(complete(vec![solver.root(crossing)?]))
         }

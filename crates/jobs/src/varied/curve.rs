@@ -35,7 +35,8 @@ pub(super) fn start(
     if is_corner && curve.of != CurveOf::Grazing {
         let (of, hz) = (curve.of.name(), solution.frequency_hz);
         return Ok(Err(format!(
-            "the {of} nearest to it, at {hz} Hz, is a corner of the branch at a grazing, where multipliers jump: ask for the curve of the grazing"
+            "the {of} nearest to it, at {hz} Hz, is a corner of the branch at a grazing, where multipliers \
+             jump: ask for the curve of the grazing"
         )));
     }
     Ok(Ok((solution, event)))
@@ -209,8 +210,8 @@ fn nearest_event(
     Ok(Some((store.solution_of_key(key)?, event)))
 }
 
-/// Of events that cannot be told from the nearest one by their places, as at a corner that several rows mark,
-/// the one that is known best.
+/// Of events that cannot be distinguished from the nearest one by their places, as at a corner that several
+/// rows mark, the one that is known best.
 ///
 /// * `found`: frequencies [Hz] and keys.
 fn best_known(

@@ -2,6 +2,9 @@
 //!
 //! First its starts are searched. Then one start after the other is looked at: one that lies on a branch that
 //! was followed before is dropped, any other one is followed to the down side, then to the up side.
+//!
+//! The walk to the up side puts the start as it has it in the place of the one that was found. Only then the
+//! branch has a number: rows of numbered branches never change.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
 use hammerbeam_results::store::{
@@ -27,7 +30,7 @@ pub(super) struct PieceWork<'a> {
 #[derive(Debug)]
 pub(super) enum PieceTask {
     Search,
-    Walk(PieceWalk),
+    Walk(Box<PieceWalk>),
 }
 
 /// A side that is walked, from its start or from where it was left.
@@ -64,14 +67,15 @@ impl PieceWork<'_> {
                         store.drop_start(start.key)?;
                         return self.next_task(store);
                     }
-                    Ok(false) => _ = store.accept_start(start.key)?,
+                    Ok(false) => {}
                     Err(message) => return self.finish(store, Some(&message)),
                 }
             }
             let share = [index as f64, 1.0].map(|part| part / starts.len() as f64);
             if let Some(walk) = open_side(store, start.key, share)? {
-                return Ok(Some(PieceTask::Walk(walk)));
+                return Ok(Some(PieceTask::Walk(Box::new(walk))));
             }
+            number_branch(store, start)?;
         }
         self.finish(store, None)
     }
@@ -103,6 +107,9 @@ impl PieceWork<'_> {
                 let (rows, continuation) = (&stretch.rows, stretch.continuation());
                 if from_start {
                     store.begin_walk(start, side, rows, continuation)?;
+                    if side == Side::Up {
+                        self.number(store, start)?;
+                    }
                 } else {
                     store.append(start, side, rows, continuation)?;
                 }
@@ -123,6 +130,12 @@ impl PieceWork<'_> {
             Some(Failed::Message(message)) => self.finish(store, Some(&message)).map(|_| ()),
             Some(Failed::Interrupted) | None => Ok(()),
         }
+    }
+
+    /// Numbers the branch of a start, by its key.
+    fn number(&self, store: &mut Store, key: u32) -> Result<(), StoreError> {
+        let starts = store.starts_of_piece(self.record.key)?;
+        starts.iter().filter(|start| start.key == key).try_for_each(|start| number_branch(store, start))
     }
 
     /// Whether a start lies on a branch that was followed from an earlier one, or why that is not known.
@@ -163,6 +176,14 @@ impl PieceWork<'_> {
     }
 }
 
+/// Numbers a branch that has no number yet.
+fn number_branch(store: &mut Store, start: &StartRecord) -> Result<(), StoreError> {
+    match start.branch {
+        Some(_) => Ok(()),
+        None => store.accept_start(start.key).map(|_| ()),
+    }
+}
+
 /// The side of a start that is to be walked next, if one is; the up side of a closed branch is not.
 fn open_side(store: &mut Store, start: u32, share: [f64; 2]) -> Result<Option<PieceWalk>, StoreError> {
     for side in [Side::Down, Side::Up] {
@@ -199,13 +220,13 @@ fn follow(solver: &dyn PieceSolver, walk: &PieceWalk, watch: &Watch<'_>) {
     let mut watched =
         WatchedWalk { walk: opened, watch, way, second_side: side == Side::Up, share: walk.share };
     let limits = WalkLimits { stored: walk.stored, budget: u64::MAX, share: None };
-    let (mut from_start, mut is_told) = (walk.memory.is_none(), false);
+    let (mut from_start, mut is_reported) = (walk.memory.is_none(), false);
     walk_on(&mut watched, limits, &|| watch.interrupted(), &mut |stretch| {
-        is_told = stretch.last;
+        is_reported = stretch.last;
         let from_start = std::mem::take(&mut from_start);
         watch.report(PieceNews::Walked { start, side, stretch, from_start })
     });
-    if !is_told {
+    if !is_reported {
         watch.report(PieceNews::Left);
     }
 }

@@ -55,7 +55,7 @@
 //! | `settings.rs`, `quantity.rs` | what is asked for, what is compared |
 //! | `stored.rs`, `sample.rs` | all stored rows, each with its system and what it claims; which of them |
 //! | `recompute.rs`, `spectrum.rs` | the motion over the orbit; multipliers and their conditions |
-//! | `compare.rs`, `unknown.rs` | the table above, and what cannot be told from nothing |
+//! | `compare.rs`, `unknown.rs` | the table above, and what cannot be distinguished from nothing |
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
 mod compare;
@@ -98,8 +98,8 @@ fn motion_tolerance(tolerance: f64) -> f64 {
 /// Solutions that are in memory at once.
 const BATCH: usize = 1024;
 
-/// Computes stored solutions again and compares: of branches over the frequency, over other parameters, and of
-/// curves, each with the system that it is of.
+/// Computes stored solutions again and compares: of branches over the frequency, over other parameters, and
+/// of curves, each with the system that it is of.
 ///
 /// # Returns
 /// `None` if the observer said stop.

@@ -75,7 +75,7 @@ pub enum StoreError {
     /// What is stored of a solution is not what was written.
     #[error("it is not as it was stored; a run of the study into a new folder computes it again")]
     OtherThanStored,
-    /// Another run has begun to write, though this one held the lock: someone has removed it.
+    /// Another run has started to write, though this one held the lock: someone has removed it.
     #[error(
         "another run has begun to write to {}; what this one had stored is kept, nothing more was added",
         folder.display()
@@ -102,7 +102,7 @@ impl From<rusqlite::Error> for StoreError {
 }
 
 impl StoreError {
-    /// What stands in the way is told in words where it is a file.
+    /// What stands in the way is named where it is a file.
     pub(super) fn folder(folder: &Path, source: io::Error) -> Self {
         let source = if folder.is_file() {
             io::Error::new(io::ErrorKind::NotADirectory, "it is a file, not a folder")

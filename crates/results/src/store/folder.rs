@@ -171,10 +171,10 @@ impl Store {
     pub fn finish(self) -> Result<(), StoreError> {
         if let Some(writing) = &self.writing {
             writing.place.check()?;
-            let begun = Instant::now();
+            let started = Instant::now();
             while let Err(error) = self.connection.pragma_update(None, "journal_mode", "DELETE") {
                 match error.sqlite_error_code() {
-                    Some(rusqlite::ErrorCode::DatabaseBusy) if begun.elapsed() < READER => {
+                    Some(rusqlite::ErrorCode::DatabaseBusy) if started.elapsed() < READER => {
                         thread::sleep(Duration::from_millis(50));
                     }
                     Some(rusqlite::ErrorCode::DatabaseBusy) => break,

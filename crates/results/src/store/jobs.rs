@@ -159,7 +159,7 @@ impl Store {
     }
 
     /// Takes everything back that was decided after a start: its job is looked at again, later ones are as if
-    /// they had never been begun, and those that came of later branches go.
+    /// they had never been started, and those that came of later branches go.
     ///
     /// # Errors
     /// The database refuses.

@@ -37,7 +37,7 @@ pub struct SimulatedChunk {
 pub struct SimulatedContact {
     /// Number of the local element.
     pub element: usize,
-    /// The touch; `None` if it was closed when the motion was begun to be written down.
+    /// The touch; `None` if it was closed when the first period was written down.
     pub touch: Option<SimulatedTouch>,
     /// When it opened [s]; `None` if it was still closed.
     pub end_s: Option<f64>,

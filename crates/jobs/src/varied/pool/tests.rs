@@ -162,14 +162,14 @@ fn pieces_are_stored_however_they_end_for_any_number_of_threads() {
 }
 
 #[derive(Default)]
-struct Listener {
+struct RecordingObserver {
     seen: Vec<(f64, u64)>,
     /// Asks to stop at this row.
     stops_at: Option<usize>,
     stops: bool,
 }
 
-impl Observer for Listener {
+impl Observer for RecordingObserver {
     fn varied(&mut self, progress: &VariedProgress<'_>) {
         assert!((0.0..=1.0).contains(&progress.fraction), "{progress:?}");
         self.seen.push((progress.fraction, progress.new_solutions));
@@ -185,10 +185,10 @@ impl Observer for Listener {
 fn progress_grows_with_every_row() {
     let pieces = [0, 1].map(|_| FakePiece { starts: 1, ..FakePiece::default() });
     let (_folder, mut store) = store_for(&pieces);
-    let mut listener = Listener::default();
-    assert!(compute(&mut store, &pieces, 2, &mut listener));
-    assert_eq!(listener.seen.len(), 2 * (2 * ROWS as usize + 1));
-    assert!(listener.seen.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 < pair[1].1));
+    let mut recorder = RecordingObserver::default();
+    assert!(compute(&mut store, &pieces, 2, &mut recorder));
+    assert_eq!(recorder.seen.len(), 2 * (2 * ROWS as usize + 1));
+    assert!(recorder.seen.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 < pair[1].1));
 }
 
 /// A piece whose search is interrupted is searched again by the next run.
@@ -196,8 +196,8 @@ fn progress_grows_with_every_row() {
 fn an_interruption_reaches_every_thread() {
     let pieces = [0, 1].map(|_| FakePiece { waits: true, ..FakePiece::default() });
     let (_folder, mut store) = store_for(&pieces);
-    let mut listener = Listener { stops: true, ..Listener::default() };
-    assert!(!compute(&mut store, &pieces, 2, &mut listener));
+    let mut recorder = RecordingObserver { stops: true, ..RecordingObserver::default() };
+    assert!(!compute(&mut store, &pieces, 2, &mut recorder));
     assert!(store.pieces().expect("no refusal").is_empty());
 }
 
@@ -223,9 +223,9 @@ fn a_branch_goes_on_in_its_middle() {
     let memory = hammerbeam_results::store::Memory { checkpoint: &checkpoint, journal: &[] };
     let goes_on = hammerbeam_results::store::Continuation::GoesOn(memory);
     store.append(first, Side::Down, &rows, goes_on).expect("no refusal");
-    let mut listener = Listener::default();
-    assert!(compute(&mut store, &pieces, 1, &mut listener));
+    let mut recorder = RecordingObserver::default();
+    assert!(compute(&mut store, &pieces, 1, &mut recorder));
     assert_eq!(stored(&store), expected);
     assert_eq!(pieces[0].resumed.load(Ordering::Relaxed), 1);
-    assert_eq!(listener.seen.len(), 2 * (2 * ROWS as usize + 1) - 2, "two rows were there");
+    assert_eq!(recorder.seen.len(), 2 * (2 * ROWS as usize + 1) - 2, "two rows were there");
 }
