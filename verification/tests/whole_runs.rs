@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
 use crate::common::extensive;
-use hammerbeam_orbit::OrbitSettings;
+use hammerbeam_orbit::{BranchEventKind, OrbitSettings};
 use hammerbeam_verification::{
     attractors::{Effort, Random, Simulator, attractors, distance},
     results::Results,
@@ -41,8 +41,8 @@ fn run(text: &str) -> Results {
     Results::of_run(text, tempfile::tempdir().unwrap().path(), 2).unwrap()
 }
 
-fn frequencies(results: &Results, branch: usize, event: fn(&hammerbeam_orbit::Events) -> bool) -> Vec<f64> {
-    let rows = results.branches()[branch].rows.iter().filter(|placed| event(&placed.row.events));
+fn frequencies(results: &Results, branch: usize, event: BranchEventKind) -> Vec<f64> {
+    let rows = results.branches()[branch].rows.iter().filter(|placed| placed.row.events.has(event));
     let mut found: Vec<f64> = rows.map(|placed| placed.row.frequency_hz).collect();
     found.sort_by(f64::total_cmp);
     found
@@ -61,9 +61,9 @@ fn an_isola_is_found_closed_and_only_once() {
     assert_eq!(results.branches().len(), 1);
     let record = &results.branches()[0].record;
     for walk in [&record.up, &record.down] {
-        assert!(walk.reason.as_ref().unwrap().is_closed(), "{:?}", walk.reason);
+        assert!(walk.end.as_ref().unwrap().is_closed(), "{:?}", walk.end);
     }
-    let folds = frequencies(&results, 0, |events| events.fold);
+    let folds = frequencies(&results, 0, BranchEventKind::Fold);
     assert_eq!(folds.len(), 2, "a loop turns twice: {folds:?}");
     let mut random = Random::new(3);
     for _ in 0..30 {
@@ -80,7 +80,7 @@ fn an_isola_is_found_closed_and_only_once() {
 #[test]
 fn simulation_finds_period_three_within_the_isola_only() {
     let results = isola();
-    let folds = frequencies(&results, 0, |events| events.fold);
+    let folds = frequencies(&results, 0, BranchEventKind::Fold);
     let mut random = Random::new(5);
     let effort = Effort { states: 40, longest: 3, patience: 600 };
     for share in [-0.05, 0.15, 0.5, 1.05] {
@@ -108,9 +108,9 @@ fn a_pair_of_mirror_images_is_one_closed_branch_met_from_either_end() {
     let search = if extensive() { "" } else { "[search]\nfrequencies = 8\ntrials = 0" };
     let results = run(&study(0.2, 15.0, [0.095, 0.16], &format!("{more}{search}")));
     let closed: Vec<usize> = (0..results.branches().len())
-        .filter(|&k| results.branches()[k].record.up.reason.as_ref().unwrap().is_closed())
+        .filter(|&k| results.branches()[k].record.up.end.as_ref().unwrap().is_closed())
         .collect();
-    let holding = |k: usize| frequencies(&results, k, |events| events.branch_point);
+    let holding = |k: usize| frequencies(&results, k, BranchEventKind::BranchPoint);
     let [pair] = closed[..] else { panic!("{closed:?}") };
     let ends = holding(pair);
     assert_eq!(ends.len(), 2, "{ends:?}");

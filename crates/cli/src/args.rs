@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
-use hammerbeam_results::columns::TableFormat;
+use hammerbeam_results::arrays::TableFormat;
 use hammerbeam_study::{Setting, StudyError, StudyFile, file::DrawnOrbit};
 
 use crate::{

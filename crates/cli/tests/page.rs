@@ -124,7 +124,7 @@ fn multipliers(workshop: &Workshop) -> Value {
 /// A walk that has not ended is told on the page.
 fn while_a_run_writes(workshop: &Workshop) {
     let database = crate::common::database(workshop.path("results/results.db"));
-    database.execute("UPDATE walk SET stop_kind = NULL WHERE id = (SELECT min(id) FROM walk)", []).unwrap();
+    database.execute("UPDATE walk SET end_kind = NULL WHERE id = (SELECT min(id) FROM walk)", []).unwrap();
     database.close().unwrap();
     assert_success(&workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "unfinished"]));
     let html = fs::read_to_string(workshop.path("unfinished/page.html")).unwrap();

@@ -142,7 +142,7 @@ fn maxima_that_were_changed_are_found() {
 
 #[test]
 fn a_fold_that_is_none_is_found() {
-    assert_found("events = 1", middle(), "events");
+    assert_found("event = 1", middle(), "events");
 }
 
 /// A weight on a damped stop that it leaves for an instant: the touch is as weak as the flight is low, the
@@ -278,4 +278,27 @@ fn bad_input_is_exit_code_2() {
     assert_bad_input(&results().hammerbeam(&["verify", "results", "--tolerance", "0"]), &["--tolerance"]);
     assert_bad_input(&results().hammerbeam(&["verify", "results", "--sample", "0"]), &["--sample"]);
     assert_bad_input(&results().hammerbeam(&["verify", "results", "--bogus"]), &["--bogus"]);
+}
+
+/// A row of a branch over a parameter that was tampered with is found, and named by its piece.
+#[test]
+fn a_changed_row_of_a_branch_over_a_parameter_is_found() {
+    let workshop =
+        Workshop::with(&crate::common::mass_against_a_stop("law = \"linear\"\nstiffness_n_m = 5000.0"));
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let verify = ["verify", "results", "--all", "--json"];
+    let agree = document(&workshop.hammerbeam(&verify));
+    assert_eq!(agree["agree"], true, "{agree}");
+    let database = crate::common::database(workshop.path("results/results.db"));
+    let last = "(SELECT max(id) FROM solution)";
+    let change = format!("UPDATE solution SET contacts = contacts + 1 WHERE id = {last}");
+    assert_eq!(database.execute(&change, []).unwrap(), 1);
+    drop(database);
+    let output = workshop.hammerbeam(&verify);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let document = document(&output);
+    assert_eq!(document["stored"], agree["stored"]);
+    let found = &document["disagreements"][0];
+    assert_eq!((&found["quantity"], &found["piece"]), (&"contacts".into(), &1.into()));
+    assert!(found["parameter"].as_f64().is_some_and(|gap| (0.015..=0.022).contains(&gap)), "{found}");
 }

@@ -48,13 +48,14 @@ use hammerbeam_figure::{
     Bifurcation, BifurcationCurve, BifurcationCurvePoint, CurveDiagram, ResponseCurve, ResponseDiagram,
     ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
 };
-use hammerbeam_orbit::Stability;
+use hammerbeam_orbit::{BranchEventKind, EventSet, Stability};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{PieceRecord, Row},
+    row::Row,
+    store::{PieceKind, PieceRecord},
 };
 use hammerbeam_structure::ModeTables;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::{Model, StudyFile, file::CurveOf};
 
 pub use compare::draw_compared;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, draw_into};
@@ -208,7 +209,8 @@ fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
 
 /// Draws the curves of bifurcations, one figure for each parameter that they are over.
 fn draw_curves(store: &Store, drawn: &mut impl Album) -> Result<(), DrawingError> {
-    let pieces: Vec<PieceRecord> = store.pieces()?.into_iter().filter(|piece| piece.is_curve).collect();
+    let pieces: Vec<PieceRecord> =
+        store.pieces()?.into_iter().filter(|piece| piece.kind.is_curve()).collect();
     let mut parameters: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
     parameters.sort_unstable();
     parameters.dedup();
@@ -229,19 +231,18 @@ fn draw_curves(store: &Store, drawn: &mut impl Album) -> Result<(), DrawingError
 fn curves_of(store: &Store, piece: &PieceRecord) -> Result<Vec<BifurcationCurve>, StoreError> {
     let mut curves = Vec::new();
     for branch in &piece.branches {
-        let bifurcation = match branch.kind.as_str() {
-            "flip" => Bifurcation::Flip,
-            "neimark-sacker" => Bifurcation::NeimarkSacker,
-            "grazing" => Bifurcation::Grazing,
-            _ => Bifurcation::Fold,
+        let bifurcation = match piece.kind {
+            PieceKind::Curve(CurveOf::Flip) => Bifurcation::Flip,
+            PieceKind::Curve(CurveOf::NeimarkSacker) => Bifurcation::NeimarkSacker,
+            PieceKind::Curve(CurveOf::Grazing) => Bifurcation::Grazing,
+            PieceKind::Curve(CurveOf::Fold) | PieceKind::Vary => Bifurcation::Fold,
         };
         let mut points = Vec::new();
-        store.each_varied_row::<StoreError>((piece.id, branch.branch), |row| {
-            let name = codimension_two(&row.event);
+        store.each_row::<StoreError>(branch, |row| {
             points.push(BifurcationCurvePoint {
                 parameter: row.parameter,
                 frequency_hz: row.frequency_hz,
-                name,
+                name: codimension_two(row.events),
             });
             Ok(())
         })?;
@@ -251,24 +252,28 @@ fn curves_of(store: &Store, piece: &PieceRecord) -> Result<Vec<BifurcationCurve>
 }
 
 /// Names of the points of codimension two among the events of a row.
-fn codimension_two(events: &str) -> String {
-    let name = |event: &str| match event {
-        "cusp" => Some("cusp".to_owned()),
-        "fold-flip" => Some("fold–flip".to_owned()),
-        "fold-neimark-sacker" => Some("fold–Neimark-Sacker".to_owned()),
-        "flip-neimark-sacker" => Some("flip–Neimark-Sacker".to_owned()),
-        "double-neimark-sacker" => Some("double Neimark-Sacker".to_owned()),
-        "degenerate-flip" => Some("degenerate flip".to_owned()),
-        "degenerate-branch-point" => Some("degenerate branch point".to_owned()),
-        "degenerate-neimark-sacker" => Some("degenerate Neimark-Sacker".to_owned()),
-        "grazing-fold" => Some("grazing–fold".to_owned()),
-        "grazing-flip" => Some("grazing–flip".to_owned()),
-        "grazing-neimark-sacker" => Some("grazing–Neimark-Sacker".to_owned()),
-        "double-grazing" => Some("double grazing".to_owned()),
-        "degenerate-grazing" => Some("degenerate grazing".to_owned()),
-        event => event.strip_prefix("resonance-").map(str::to_owned),
+fn codimension_two(events: EventSet) -> String {
+    let name = |kind: BranchEventKind| match kind {
+        BranchEventKind::Cusp => Some("cusp"),
+        BranchEventKind::FoldFlip => Some("fold–flip"),
+        BranchEventKind::FoldNeimarkSacker => Some("fold–Neimark-Sacker"),
+        BranchEventKind::FlipNeimarkSacker => Some("flip–Neimark-Sacker"),
+        BranchEventKind::DoubleNeimarkSacker => Some("double Neimark-Sacker"),
+        BranchEventKind::DegenerateFlip => Some("degenerate flip"),
+        BranchEventKind::DegenerateBranchPoint => Some("degenerate branch point"),
+        BranchEventKind::DegenerateNeimarkSacker => Some("degenerate Neimark-Sacker"),
+        BranchEventKind::GrazingFold => Some("grazing–fold"),
+        BranchEventKind::GrazingFlip => Some("grazing–flip"),
+        BranchEventKind::GrazingNeimarkSacker => Some("grazing–Neimark-Sacker"),
+        BranchEventKind::DoubleGrazing => Some("double grazing"),
+        BranchEventKind::DegenerateGrazing => Some("degenerate grazing"),
+        BranchEventKind::Resonance11 => Some("1:1"),
+        BranchEventKind::Resonance12 => Some("1:2"),
+        BranchEventKind::Resonance13 => Some("1:3"),
+        BranchEventKind::Resonance14 => Some("1:4"),
+        _ => None,
     };
-    events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
+    events.kinds().filter_map(name).collect::<Vec<_>>().join(", ")
 }
 
 fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {
@@ -291,19 +296,21 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, Stor
     })
 }
 
+/// A row as a point of a response diagram, over what varies.
 fn point(row: &Row) -> ResponsePoint {
+    let has = |kind| row.events.has(kind);
     ResponsePoint {
-        frequency_hz: row.frequency_hz,
+        frequency_hz: row.parameter,
         displacement_m: row.maxima.displacement,
         acceleration_m_s2: row.maxima.acceleration,
         contact_force_n: row.maxima.contact_force,
         impact_velocity_m_s: row.maxima.impact_velocity,
         stable: row.stability.may_be_stable(),
         marginal: row.stability == Stability::Marginal,
-        fold: row.events.fold,
-        grazing: row.events.grazing,
-        flip: row.events.flip,
-        neimark_sacker: row.events.neimark_sacker,
-        branch_point: row.events.branch_point,
+        fold: has(BranchEventKind::Fold),
+        grazing: has(BranchEventKind::Grazing),
+        flip: has(BranchEventKind::Flip),
+        neimark_sacker: has(BranchEventKind::NeimarkSacker),
+        branch_point: has(BranchEventKind::BranchPoint),
     }
 }

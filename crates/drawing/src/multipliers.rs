@@ -2,10 +2,7 @@
 
 use hammerbeam_figure::{MultiplierDiagram, Multipliers};
 use hammerbeam_orbit::Stability;
-use hammerbeam_results::{
-    Store, StoreError,
-    store::{BranchRecord, Row},
-};
+use hammerbeam_results::{Store, StoreError, row::Row, store::BranchRecord};
 
 use super::{Album, Drawn, unless_damaged};
 use crate::DrawingError;
@@ -40,14 +37,7 @@ fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, S
         Ok(())
     })?;
     let step = rows.len().div_ceil(DRAWN).max(1);
-    let is_drawn = |place: usize, row: &Row| {
-        let events = &row.events;
-        place.is_multiple_of(step)
-            || events.fold
-            || events.flip
-            || events.neimark_sacker
-            || events.branch_point
-    };
+    let is_drawn = |place: usize, row: &Row| place.is_multiple_of(step) || row.events.is_bifurcation();
     let (mut rows, mut drawn) = (rows.iter().enumerate(), Vec::new());
     store.each_multipliers::<StoreError>(branch, |found| {
         let multipliers = found?;

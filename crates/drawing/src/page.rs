@@ -9,10 +9,11 @@ mod shape;
 mod varied;
 
 use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
-use hammerbeam_orbit::{Side, Stability};
+use hammerbeam_orbit::{BranchEventKind, Stability};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{BranchRecord, RequestKind, Row, WalkRecord},
+    row::Row,
+    store::{BranchRecord, PlacedRow, RequestKind, WalkRecord},
 };
 use hammerbeam_study::{Model, StudyFile};
 
@@ -33,8 +34,8 @@ pub fn draw(
     if records.is_empty() && !has_more(store)? {
         return Ok(());
     }
-    let stored: Vec<Vec<Placed>> =
-        records.iter().map(|record| places(store, record)).collect::<Result<_, _>>()?;
+    let stored: Vec<Vec<PlacedRow>> =
+        records.iter().map(|record| store.placed_rows(record)).collect::<Result<_, _>>()?;
     let [low, high] = file.study.excitation.range_hz();
     let mut page = Page {
         title: store.about("title")?,
@@ -98,32 +99,13 @@ fn multipliers(
     Ok(multipliers)
 }
 
-/// A row with the place of its solution in the store.
-pub(super) struct Placed {
-    side: Side,
-    number: u32,
-    row: Row,
-}
-
-/// Rows of a branch, end to end.
-fn places(store: &Store, record: &BranchRecord) -> Result<Vec<Placed>, StoreError> {
-    let of = |side: Side| -> Result<Vec<Placed>, StoreError> {
-        let rows = store.walked(record.start, side)?.into_iter().enumerate();
-        Ok(rows.map(|(number, row)| Placed { side, number: number as u32, row }).collect())
-    };
-    let mut places = of(Side::Down)?;
-    places.reverse();
-    places.extend(of(Side::Up)?);
-    Ok(places)
-}
-
 /// Energies of all solutions whose orbits start at phase 0; those of damaged ones stay unknown.
 ///
 /// `½ Σ (q'_k² + ω_k² q_k²)` over the modes `k`, which have a mass of one: kinetic energy and that of the
 /// structure's springs, without the stops [J].
 fn energies(
     store: &Store,
-    (records, stored): (&[BranchRecord], &[Vec<Placed>]),
+    (records, stored): (&[BranchRecord], &[Vec<PlacedRow>]),
     rates: &[f64],
     branches: &mut [PageBranch],
 ) -> Result<(), StoreError> {
@@ -148,10 +130,9 @@ fn energy(state: &[f64], rates: &[f64]) -> f64 {
     0.5 * modes.map(|((q, v), rate)| v * v + (rate * q).powi(2)).sum::<f64>()
 }
 
-fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
-    let end = |walk: &WalkRecord| {
-        walk.reason.as_ref().map_or_else(|| "not finished".to_owned(), |reason| reason.message.clone())
-    };
+fn branch(record: &BranchRecord, places: &[PlacedRow]) -> PageBranch {
+    let end =
+        |walk: &WalkRecord| walk.end.as_ref().map_or_else(|| "not finished".to_owned(), ToString::to_string);
     PageBranch {
         id: record.id,
         period_multiple: record.period_multiple,
@@ -162,9 +143,10 @@ fn branch(record: &BranchRecord, places: &[Placed]) -> PageBranch {
 }
 
 fn solution(row: &Row) -> PageSolution {
+    let has = |kind| row.events.has(kind);
     PageSolution {
         frequency_hz: row.frequency_hz,
-        parameter: row.frequency_hz,
+        parameter: row.parameter,
         energy_j: f64::NAN,
         displacement_m: row.maxima.displacement,
         acceleration_m_s2: row.maxima.acceleration,
@@ -174,18 +156,18 @@ fn solution(row: &Row) -> PageSolution {
         leading_multiplier: row.leading_multiplier,
         stable: row.stability.may_be_stable(),
         marginal: row.stability == Stability::Marginal,
-        fold: row.events.fold,
-        flip: row.events.flip,
-        neimark_sacker: row.events.neimark_sacker,
-        branch_point: row.events.branch_point,
-        grazing: row.events.grazing,
+        fold: has(BranchEventKind::Fold),
+        flip: has(BranchEventKind::Flip),
+        neimark_sacker: has(BranchEventKind::NeimarkSacker),
+        branch_point: has(BranchEventKind::BranchPoint),
+        grazing: has(BranchEventKind::Grazing),
     }
 }
 
 /// What is not finished, in words; empty if everything is.
 fn notice(store: &Store, records: &[BranchRecord]) -> Result<String, StoreError> {
     let walks = records.iter().flat_map(|record| [&record.up, &record.down]);
-    let open = walks.filter(|walk| walk.reason.is_none()).count();
+    let open = walks.filter(|walk| walk.end.is_none()).count();
     let left = store.jobs()?.iter().filter(|job| job.outcome.is_none()).count();
     if open == 0 && left == 0 {
         return Ok(String::new());

@@ -13,7 +13,7 @@
 //! | Lyapunov exponents | [`Study::exponents`] |
 //! | basins of attraction | [`Study::basins`] |
 //! | stored orbits by branch, frequency or event; the motion of an orbit | [`chosen_orbits`], [`orbit_waveform`] |
-//! | everything in a results folder as columns of numbers, NPZ, JSON | [`results::columns`] |
+//! | everything in a results folder as columns of numbers, NPZ, JSON | [`results::arrays`] |
 //! | figures of a results folder, and its page | [`drawing`] |
 //!
 //! Each of these has a function in the module of its name that takes a results folder, a number of threads

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitError, PeriodicSolution, Side, StopReason};
-use hammerbeam_results::store::StoredReason;
+use hammerbeam_results::end::BranchEnd;
 
 use crate::{PreparedStudy, orbit_solver::settings};
 
@@ -37,11 +37,11 @@ impl PreparedStudy {
 }
 
 impl BranchRows {
-    /// Why the branch ended, once all rows are taken: [`StoredReason`] is its text, and shows whether it
-    /// ended where it should.
+    /// How the branch ended, once all rows are taken: [`BranchEnd`] displays it in a sentence, and shows
+    /// whether it ended where it should.
     #[must_use]
-    pub fn end(&self) -> Option<StoredReason> {
-        self.end.as_ref().map(StoredReason::of)
+    pub fn end(&self) -> Option<BranchEnd> {
+        self.end.clone().map(BranchEnd::from)
     }
 
     /// More rows, or the end.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_orbit::{Events, PeriodicSolution};
-use hammerbeam_results::columns::{ColumnTable, ColumnValues};
+use hammerbeam_results::arrays::{ArrayTable, ArrayValues};
 use hammerbeam_study::Model;
 
 use crate::{JobError, OrbitWaveform, PreparedStudy, StoredBranches, orbit_waveform};
@@ -89,7 +89,7 @@ pub fn orbit_tables(
     model: &Model,
     orbits: &[ChosenOrbit],
     samples: usize,
-) -> Result<[ColumnTable; 2], JobError> {
+) -> Result<[ArrayTable; 2], JobError> {
     let waveforms = orbits
         .iter()
         .map(|orbit| orbit_waveform(model, &orbit.solution, samples))
@@ -99,24 +99,24 @@ pub fn orbit_tables(
 
 /// Orbits in one row each, the table `orbits`.
 #[must_use]
-pub fn orbit_table(orbits: &[ChosenOrbit]) -> ColumnTable {
+pub fn orbit_table(orbits: &[ChosenOrbit]) -> ArrayTable {
     let number = |of: fn(&PeriodicSolution) -> f64| {
-        ColumnValues::Numbers(orbits.iter().map(|orbit| of(&orbit.solution)).collect())
+        ArrayValues::Numbers(orbits.iter().map(|orbit| of(&orbit.solution)).collect())
     };
     let whole = |of: fn(&ChosenOrbit) -> u32| {
-        ColumnValues::Whole(orbits.iter().map(|orbit| of(orbit).into()).collect())
+        ArrayValues::Whole(orbits.iter().map(|orbit| of(orbit).into()).collect())
     };
     let states: Vec<Vec<f64>> = orbits.iter().map(|orbit| orbit.solution.nodes[0].clone()).collect();
     let multipliers: Vec<Vec<[f64; 2]>> =
         orbits.iter().map(|orbit| orbit.solution.floquet_multipliers.clone()).collect();
     let stability = orbits.iter().map(|orbit| orbit.solution.stability().word().into());
     let columns = [
-        ("orbit", ColumnValues::Whole((1..=orbits.len() as i64).collect())),
+        ("orbit", ArrayValues::Whole((1..=orbits.len() as i64).collect())),
         (
             "branch",
-            ColumnValues::Whole(orbits.iter().map(|orbit| orbit.branch.map_or(-1, i64::from)).collect()),
+            ArrayValues::Whole(orbits.iter().map(|orbit| orbit.branch.map_or(-1, i64::from)).collect()),
         ),
-        ("event", ColumnValues::Words(orbits.iter().map(|orbit| orbit.event.clone().into()).collect())),
+        ("event", ArrayValues::Words(orbits.iter().map(|orbit| orbit.event.clone().into()).collect())),
         ("period_multiple", whole(|orbit| orbit.solution.period_multiple)),
         ("frequency_hz", number(|orbit| orbit.frequency_hz)),
         ("max_abs_displacement_m", number(|orbit| orbit.maxima.displacement)),
@@ -125,25 +125,25 @@ pub fn orbit_table(orbits: &[ChosenOrbit]) -> ColumnTable {
         ("max_impact_velocity_m_s", number(|orbit| orbit.maxima.impact_velocity)),
         ("impulse_n_s", number(|orbit| orbit.maxima.impulse)),
         ("contacts", whole(|orbit| orbit.solution.maxima.contacts)),
-        ("stable", ColumnValues::Flags(orbits.iter().map(|orbit| orbit.solution.stable()).collect())),
-        ("stability", ColumnValues::Words(stability.collect())),
+        ("stable", ArrayValues::Flags(orbits.iter().map(|orbit| orbit.solution.stable()).collect())),
+        ("stability", ArrayValues::Words(stability.collect())),
         ("residual", number(|orbit| orbit.residual)),
         ("error_estimate", number(|orbit| orbit.error_estimate)),
         ("phase_cycles", number(|orbit| orbit.phase)),
-        ("state", ColumnValues::vectors(&states)),
-        ("multipliers", ColumnValues::complex(&multipliers)),
+        ("state", ArrayValues::vectors(&states)),
+        ("multipliers", ArrayValues::complex(&multipliers)),
     ];
-    ColumnTable::new("orbits", columns.map(|(name, values)| (name.to_owned(), values)).into())
+    ArrayTable::new("orbits", columns.map(|(name, values)| (name.to_owned(), values)).into())
 }
 
-fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ColumnTable {
+fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ArrayTable {
     let joined = |of: &dyn Fn(&OrbitWaveform) -> &[f64]| {
-        ColumnValues::Numbers(waveforms.iter().flat_map(|waveform| of(waveform)).copied().collect())
+        ArrayValues::Numbers(waveforms.iter().flat_map(|waveform| of(waveform)).copied().collect())
     };
     let numbers =
         waveforms.iter().zip(1..).flat_map(|(waveform, k)| std::iter::repeat_n(k, waveform.time.len()));
-    let mut columns: Vec<(String, ColumnValues)> = vec![
-        ("orbit".to_owned(), ColumnValues::Whole(numbers.collect())),
+    let mut columns: Vec<(String, ArrayValues)> = vec![
+        ("orbit".to_owned(), ArrayValues::Whole(numbers.collect())),
         ("time_s".to_owned(), joined(&|waveform| &waveform.time)),
         ("phase_cycles".to_owned(), joined(&|waveform| &waveform.phase_cycles)),
     ];
@@ -160,6 +160,6 @@ fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ColumnTable {
         columns.push((format!("{}_force_n", element.name), joined(&|waveform| &waveform.forces[k].1)));
     }
     let states: Vec<Vec<f64>> = waveforms.iter().flat_map(|waveform| waveform.states.clone()).collect();
-    columns.push(("state".to_owned(), ColumnValues::vectors(&states)));
-    ColumnTable::new("waveforms", columns)
+    columns.push(("state".to_owned(), ArrayValues::vectors(&states)));
+    ArrayTable::new("waveforms", columns)
 }

@@ -11,7 +11,7 @@ use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, states_at_phase};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{BranchRecord, Row},
+    store::{BranchRecord, PlacedRow},
 };
 use hammerbeam_study::{Model, StudyFile, identity::differences};
 
@@ -34,17 +34,6 @@ pub struct StoredBranch {
     pub rows: Vec<PlacedRow>,
 }
 
-/// A row with its place in the store.
-#[derive(Debug, Clone, Copy)]
-pub struct PlacedRow {
-    /// Its side,
-    pub side: Side,
-    /// and its number there.
-    pub number: u32,
-    /// What its tables show.
-    pub row: Row,
-}
-
 impl StoredBranches {
     /// Reads the branches of a results folder.
     ///
@@ -57,7 +46,7 @@ impl StoredBranches {
             return Err(StoreError::OtherStudy { folder: folder.to_owned(), differences });
         }
         let branches = store.branches()?.into_iter().map(|record| {
-            let rows = rows_of(&store, &record)?;
+            let rows = store.placed_rows(&record)?;
             Ok(StoredBranch { record, rows })
         });
         let branches = branches.collect::<Result<_, StoreError>>()?;
@@ -246,15 +235,4 @@ pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolut
     let settings = OrbitSettings::default();
     let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
     Some(walk.ok()?.start_row().ok()?.solution)
-}
-
-fn rows_of(store: &Store, record: &BranchRecord) -> Result<Vec<PlacedRow>, StoreError> {
-    let of = |side: Side| -> Result<Vec<PlacedRow>, StoreError> {
-        let rows = store.walked(record.start, side)?.into_iter().enumerate();
-        Ok(rows.map(|(number, row)| PlacedRow { side, number: number as u32, row }).collect())
-    };
-    let mut rows = of(Side::Down)?;
-    rows.reverse();
-    rows.extend(of(Side::Up)?);
-    Ok(rows)
 }

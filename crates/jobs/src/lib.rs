@@ -11,7 +11,8 @@
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
-//! | `branch` | one side of a branch, row by row |
+//! | `walk` | one side of a branch or curve in stretches that are committed together, and taken up again |
+//! | `branch` | the same row by row, for whoever follows a branch by hand |
 //! | [`orbits`] | all periodic solutions at one frequency |
 //! | [`chosen_orbits`], `orbit_waveform` | stored orbits by branch, frequency or event; the motion of an orbit over its period |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
@@ -55,9 +56,10 @@ pub mod sweep;
 pub mod update;
 pub mod varied;
 pub mod verify;
+mod walk;
 
 pub use branch::BranchRows;
-pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
+pub use crossings::{MirrorImage, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
 pub use failure_kind::FailureKind;
 pub use initial::{InitialState, InitialStateError};

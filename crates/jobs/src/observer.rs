@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use hammerbeam_orbit::Side;
-use hammerbeam_results::store::{JobRecord, StoredReason};
+use hammerbeam_results::{end::BranchEnd, store::JobRecord};
 
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +69,7 @@ pub trait Observer {
     /// There is a new solution of a varied branch or a curve.
     fn varied(&mut self, _progress: &VariedProgress<'_>) {}
     /// One side of a branch of a run ended.
-    fn walk_ended(&mut self, _branch: u32, _side: Side, _reason: &StoredReason) {}
+    fn walk_ended(&mut self, _branch: u32, _side: Side, _end: &BranchEnd) {}
     /// More of what is counted is done.
     fn counted(&mut self, _progress: &CountedProgress<'_>) {}
     /// Something that a user should know although the job goes on: a warning, or the stage that starts now.

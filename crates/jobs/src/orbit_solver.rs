@@ -3,10 +3,11 @@
 mod places;
 
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings,
-    PeriodicSolution, ProbeStarts, Response, Segments, Side, StopReason, SurveyEffort, find_orbits,
-    find_start_unless, harmonic_trials, probe, reach_orbit, settled_orbit, survey,
+    BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
+    ProbeStarts, Response, Segments, Side, SurveyEffort, find_orbits, find_start_unless, harmonic_trials,
+    probe, reach_orbit, settled_orbit, survey,
 };
+use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
     Model,
     file::{self, Study},
@@ -267,12 +268,15 @@ impl Match for Matcher<'_> {
 }
 
 impl Walk for BranchWalk {
-    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
-        self.step(rows).map_err(|error| error.to_string())
+    fn step(&mut self, rows: &mut Vec<SolvedRow>) -> Result<Option<BranchEnd>, String> {
+        let mut found = Vec::new();
+        let reason = self.step(&mut found).map_err(|error| error.to_string());
+        rows.extend(found.into_iter().map(SolvedRow::from));
+        Ok(reason?.map(BranchEnd::from))
     }
 
-    fn checkpoint(&self) -> Vec<u8> {
-        self.checkpoint()
+    fn checkpoint(&self) -> Option<Vec<u8>> {
+        Some(self.checkpoint())
     }
 
     fn take_journal(&mut self) -> Vec<u8> {

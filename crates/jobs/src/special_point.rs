@@ -12,16 +12,17 @@ use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, ExactSettings},
 };
-use hammerbeam_orbit::{Side, states_at_phase};
+use hammerbeam_orbit::{BranchEventKind, states_at_phase};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{BranchRecord, Row},
+    row::Row,
+    store::BranchRecord,
 };
 
 use crate::settled::SettledState;
 
 /// Distances from the point along its branch at which orbits are tried [solutions].
-const DISTANCES: [i64; 9] = [0, 1, -1, 4, -4, 16, -16, 64, -64];
+const DISTANCES: [isize; 9] = [0, 1, -1, 4, -4, 16, -16, 64, -64];
 
 /// What is near a special point.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,13 +48,12 @@ pub fn near_point(store: &Store, system: &System, number: u32) -> Result<NearPoi
         Ok(found) => found,
         Err(count) => return Ok(NearPoint::Missing { count }),
     };
-    let (down, count) = (branch.down.solutions, branch.down.solutions + branch.up.solutions);
+    let places: Vec<_> = branch.places().collect();
     let mut states = Vec::new();
     for distance in DISTANCES {
-        let Some(place) = place.checked_add_signed(distance).filter(|place| *place < count) else { continue };
-        let (side, of_side) =
-            if place < down { (Side::Down, down - 1 - place) } else { (Side::Up, place - down) };
-        let orbit = store.solution(branch.start, side, of_side as u32)?;
+        let near = place.checked_add_signed(distance).and_then(|place| places.get(place));
+        let Some((side, of_side)) = near.copied() else { continue };
+        let orbit = store.solution(branch.start, side, of_side)?;
         // One that cannot be computed again is no place to begin at.
         let Ok(mut integrator) = ExactIntegrator::new(system.clone(), ExactSettings::default()) else {
             continue;
@@ -68,7 +68,7 @@ pub fn near_point(store: &Store, system: &System, number: u32) -> Result<NearPoi
 
 /// The branch of a special point and the number of its solution, from the lower end on; without such a point
 /// how many there are.
-fn find(store: &Store, number: u32) -> Result<Result<(BranchRecord, u64), u32>, StoreError> {
+fn find(store: &Store, number: u32) -> Result<Result<(BranchRecord, usize), u32>, StoreError> {
     let mut count = 0;
     for branch in store.branches()? {
         let (mut place, mut found) = (0, None);
@@ -90,6 +90,12 @@ fn find(store: &Store, number: u32) -> Result<Result<(BranchRecord, u64), u32>, 
 }
 
 fn is_special(row: &Row) -> bool {
-    let events = &row.events;
-    events.fold || events.flip || events.neimark_sacker || events.branch_point || events.grazing
+    let kinds = [
+        BranchEventKind::Fold,
+        BranchEventKind::Flip,
+        BranchEventKind::NeimarkSacker,
+        BranchEventKind::BranchPoint,
+        BranchEventKind::Grazing,
+    ];
+    kinds.into_iter().any(|kind| row.events.has(kind))
 }

@@ -5,3 +5,4 @@ mod comparison;
 mod comparison_minima;
 mod update;
 mod update_data;
+mod varied;

@@ -40,7 +40,7 @@
 //! - `arrival.rs`: whether a motion has come to a stable orbit that is known
 //! - `curve/`: curves of folds, flips, Neimark-Sacker points and grazing in two parameters
 //! - `free.rs`: free motion of an undamped system: the amplitude is given, the frequency unknown
-//! - `settings.rs`, `solution.rs`, `error.rs`: what goes in and what comes out
+//! - `settings.rs`, `solution.rs`, `event_kind.rs`, `error.rs`: what goes in and what comes out
 //!
 //! # Stability
 //! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of
@@ -103,6 +103,7 @@ mod curve;
 mod cut;
 mod eigenvalues;
 mod error;
+mod event_kind;
 mod find;
 mod free;
 mod linear_contact;
@@ -137,6 +138,7 @@ pub use continuation_parameter::ContinuationParameter;
 pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
 pub use eigenvalues::{NoEigenvalues, eigenvalues};
 pub use error::OrbitError;
+pub use event_kind::{BranchEventKind, EventSet};
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
 pub use hammerbeam_path::PathError;

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::exact::Maxima;
 
-use crate::{LocatedEvent, Stability};
+use crate::{BranchEventKind, EventSet, LocatedEvent, Stability};
 
 /// A converged periodic solution.
 ///
@@ -120,16 +120,21 @@ impl Events {
     /// The names of the events joined by `+`, empty if there are none.
     #[must_use]
     pub fn label(self) -> String {
-        let named = [
-            (self.fold, "fold"),
-            (self.flip, "flip"),
-            (self.neimark_sacker, "neimark-sacker"),
-            (self.branch_point, "branch-point"),
-            (self.grazing, "grazing"),
-            (self.start, "start"),
-            (self.end, "end"),
-        ];
-        named.iter().filter(|(set, _)| *set).map(|(_, name)| *name).collect::<Vec<_>>().join("+")
+        EventSet::from(self).label()
+    }
+}
+
+impl From<Events> for EventSet {
+    fn from(events: Events) -> Self {
+        Self::of([
+            (events.fold, BranchEventKind::Fold),
+            (events.flip, BranchEventKind::Flip),
+            (events.neimark_sacker, BranchEventKind::NeimarkSacker),
+            (events.branch_point, BranchEventKind::BranchPoint),
+            (events.grazing, BranchEventKind::Grazing),
+            (events.start, BranchEventKind::Start),
+            (events.end, BranchEventKind::End),
+        ])
     }
 }
 

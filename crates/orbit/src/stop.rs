@@ -89,6 +89,39 @@ pub enum StopReason {
     },
 }
 
+impl StopReason {
+    /// Where, in the unit of what varies; `None` where the reason has no place.
+    #[must_use]
+    pub fn place(&self) -> Option<f64> {
+        let mut reason = self.clone();
+        reason.place_mut().copied()
+    }
+
+    /// The same reason with its place in another unit.
+    #[must_use]
+    pub fn in_unit(mut self, unit: impl Fn(f64) -> f64) -> Self {
+        if let Some(place) = self.place_mut() {
+            *place = unit(*place);
+        }
+        self
+    }
+
+    fn place_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            Self::RangeEnd { frequency_hz }
+            | Self::ShorterPeriod { frequency_hz, .. }
+            | Self::StepTooShort { frequency_hz, .. }
+            | Self::RunsBack { frequency_hz, .. }
+            | Self::ContactSplits { frequency_hz, .. }
+            | Self::Crawls { frequency_hz, .. }
+            | Self::Unbounded { frequency_hz, .. }
+            | Self::TooLaborious { frequency_hz, .. }
+            | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
+            Self::Closed | Self::Budget { .. } => None,
+        }
+    }
+}
+
 /// A mode without damping, or with next to none, at whose resonance a branch goes to infinity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResonantMode {

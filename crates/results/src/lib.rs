@@ -2,18 +2,24 @@
 //!
 //! | room | what it knows |
 //! |---|---|
-//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; motions in time, sweeps, exponents and basins by request |
-//! | [`columns`] | what is stored as columns of numbers: records in NumPy's layout, NPZ, JSON |
+//! | [`row`] | one row of a branch, over the frequency or any other parameter |
+//! | [`columns`] | the one list of columns, from which store, tables and reference follow |
+//! | [`end`], [`end_text`] | how a side of a branch ended; that in a sentence |
+//! | [`store`] | the results folder: walks with their checkpoints, motions by request, in one database |
 //! | [`export`] | what is stored as CSV |
-//! | [`summary`] | a branch in few numbers: its range, its peaks |
-//! | [`reason`] | why a branch ended, in words |
+//! | [`arrays`] | what is stored as columns of numbers: records in NumPy's layout, NPZ, JSON |
+//! | [`summary`] | a branch in few numbers: its range, its events, its peaks |
 //! | [`whole_file`] | files that appear whole or not at all |
 //!
 //! How a result is computed is not known here: whoever computes hands over rows, and reads them again.
 
+pub mod arrays;
 pub mod columns;
+pub mod end;
+pub mod end_text;
 pub mod export;
-pub mod reason;
+mod lines;
+pub mod row;
 pub mod store;
 pub mod summary;
 pub mod whole_file;

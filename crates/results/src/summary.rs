@@ -1,10 +1,13 @@
 //! What a results folder holds, branch by branch, in few numbers.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
-use hammerbeam_orbit::Stability;
+use hammerbeam_orbit::{BranchEventKind, EventSet, Stability};
 
-use crate::store::{BranchRecord, JobKind, Row, Store, StoreError, start_of_key};
+use crate::{
+    row::Row,
+    store::{BranchRecord, JobKind, PieceRecord, Store, StoreError, start_of_key},
+};
 
 /// A branch in few numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,23 +20,48 @@ pub struct BranchSummary {
     pub stable: u64,
     /// Number of those of which that is not known, see [`Stability::Marginal`].
     pub marginal: u64,
-    /// Lowest and highest frequency [Hz].
-    pub range_hz: [f64; 2],
-    /// Number of cyclic folds.
-    pub folds: u64,
-    /// Number of flips.
-    pub flips: u64,
-    /// Those at which the study does not ask for the branch of doubled period; 0 as long as the branch is not
+    /// Lowest and highest value of what varies, in the unit of its name; the frequency [Hz] where it is that.
+    pub range: [f64; 2],
+    /// What happens on it, and how often.
+    pub events: EventCounts,
+    /// Flips at which the study does not ask for the branch of doubled period; 0 as long as the branch is not
     /// finished.
     pub flips_not_followed: u64,
-    /// Number of Neimark-Sacker points.
-    pub neimark_sackers: u64,
-    /// Number of branch points.
-    pub branch_points: u64,
-    /// Number of grazings.
-    pub grazings: u64,
     /// Peaks of the maximum displacement along the branch.
     pub peaks: Vec<Peak>,
+}
+
+/// How often each kind of event happens.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct EventCounts(BTreeMap<BranchEventKind, u64>);
+
+impl EventCounts {
+    /// How often this happens.
+    #[must_use]
+    pub fn of(&self, kind: BranchEventKind) -> u64 {
+        self.0.get(&kind).copied().unwrap_or(0)
+    }
+
+    /// What happens, by its name in tables, in the order of the names.
+    #[must_use]
+    pub fn by_name(&self) -> BTreeMap<&'static str, u64> {
+        let mut names = BTreeMap::new();
+        self.0.iter().for_each(|(kind, count)| *names.entry(kind.name()).or_default() += count);
+        names
+    }
+
+    fn add(&mut self, events: EventSet) {
+        events.kinds().for_each(|kind| *self.0.entry(kind).or_default() += 1);
+    }
+}
+
+/// A piece of the study with its branches in few numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PieceSummary {
+    /// The piece.
+    pub record: PieceRecord,
+    /// Its branches.
+    pub branches: Vec<BranchSummary>,
 }
 
 /// A peak of the maximum displacement along a branch: the highest solution between a rise and a fall, or all
@@ -43,8 +71,7 @@ pub struct Peak {
     /// Where the first of the highest solutions is, in the order of the branch [Hz].
     pub frequency_hz: f64,
     /// Lowest and highest frequency of the highest solutions, which are equal; the same twice where there is
-    /// but
-    /// one [Hz].
+    /// but one [Hz].
     pub equal_hz: [f64; 2],
     /// Number of the highest solutions.
     pub equal: u64,
@@ -60,7 +87,20 @@ const PROMINENCE: f64 = 0.05;
 /// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
 const EQUAL: f64 = 1e-10;
 
-/// The branches of a results folder in few numbers.
+/// Branches over other parameters, and curves, in few numbers.
+///
+/// # Errors
+/// The store refuses.
+pub fn summarise_pieces(store: &Store) -> Result<Vec<PieceSummary>, StoreError> {
+    let _snapshot = store.snapshot()?;
+    let summarised = store.pieces()?.into_iter().map(|record| {
+        let branches = record.branches.iter().map(|branch| summarise_branch(store, branch.clone()));
+        Ok(PieceSummary { branches: branches.collect::<Result<_, StoreError>>()?, record })
+    });
+    summarised.collect()
+}
+
+/// The branches over the frequency of a results folder in few numbers.
 ///
 /// # Errors
 /// The store refuses.
@@ -71,14 +111,15 @@ pub fn summarise(store: &Store) -> Result<Vec<BranchSummary>, StoreError> {
     let followed: Vec<u32> = doublings.filter_map(|job| job.source).map(start_of_key).collect();
     // What the flips of a branch lead to is known once its job is finished.
     let finished: HashSet<u32> = jobs.iter().filter(|job| job.outcome.is_some()).map(|job| job.id).collect();
-    let starts = store.starts()?.into_iter().filter(|start| finished.contains(&start.job));
+    let starts = store.starts()?.into_iter().filter(|start| finished.contains(&start.job()));
     let concluded: HashSet<u32> = starts.map(|start| start.key).collect();
     let summarised = store.branches()?.into_iter().map(|branch| {
         let mut summary = summarise_branch(store, branch)?;
         let start = summary.record.start;
         if concluded.contains(&start) {
             let followed = followed.iter().filter(|&&of| of == start).count() as u64;
-            summary.flips_not_followed = summary.flips.saturating_sub(followed);
+            let flips = summary.events.of(BranchEventKind::Flip);
+            summary.flips_not_followed = flips.saturating_sub(followed);
         }
         Ok(summary)
     });
@@ -90,13 +131,9 @@ fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary
         solutions: 0,
         stable: 0,
         marginal: 0,
-        range_hz: [f64::INFINITY, f64::NEG_INFINITY],
-        folds: 0,
-        flips: 0,
+        range: [f64::INFINITY, f64::NEG_INFINITY],
+        events: EventCounts::default(),
         flips_not_followed: 0,
-        neimark_sackers: 0,
-        branch_points: 0,
-        grazings: 0,
         peaks: Vec::new(),
         record: record.clone(),
     };
@@ -115,13 +152,9 @@ impl BranchSummary {
         self.solutions += 1;
         self.stable += u64::from(row.stability == Stability::Stable);
         self.marginal += u64::from(row.stability == Stability::Marginal);
-        self.range_hz[0] = self.range_hz[0].min(row.frequency_hz);
-        self.range_hz[1] = self.range_hz[1].max(row.frequency_hz);
-        self.folds += u64::from(row.events.fold);
-        self.flips += u64::from(row.events.flip);
-        self.neimark_sackers += u64::from(row.events.neimark_sacker);
-        self.branch_points += u64::from(row.events.branch_point);
-        self.grazings += u64::from(row.events.grazing);
+        let [low, high] = self.range;
+        self.range = [low.min(row.parameter), high.max(row.parameter)];
+        self.events.add(row.events);
     }
 }
 
@@ -192,19 +225,17 @@ impl Peak {
 
 #[cfg(test)]
 mod tests {
-    use hammerbeam_orbit::{Events, OrbitMaxima};
+    use hammerbeam_orbit::OrbitMaxima;
 
     use super::*;
 
     fn row(frequency_hz: f64, displacement: f64) -> Row {
         Row {
+            parameter: frequency_hz,
             frequency_hz,
             maxima: OrbitMaxima { displacement, ..OrbitMaxima::default() },
-            events: Events::default(),
             stability: Stability::Stable,
-            leading_multiplier: [0.0, 0.0],
-            residual: 0.0,
-            error_estimate: 0.0,
+            ..Row::default()
         }
     }
 

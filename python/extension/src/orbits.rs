@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hammerbeam::{
     Error, Study,
     chosen_orbits::{ChosenOrbit, orbit_table, orbit_tables},
-    results::columns::ColumnTable,
+    results::arrays::ArrayTable,
 };
 use pyo3::{exceptions::PyIndexError, prelude::*};
 
@@ -28,7 +28,7 @@ impl NativeOrbits {
     }
 
     /// All of them as tables.
-    pub fn tables(&self, samples: usize) -> Result<[ColumnTable; 2], Error> {
+    pub fn tables(&self, samples: usize) -> Result<[ArrayTable; 2], Error> {
         orbit_tables(&self.study.model, &self.orbits, samples)
     }
 }

@@ -10,10 +10,11 @@ use hammerbeam::{
     chosen_orbits::{OrbitChoice, chosen_orbits, event_names},
     drawing::{DrawSettings, DrawingError, FigureFormat, FigureKind, FigureSelection, draw, draw_into},
     results::{
-        columns::{
-            ColumnTable, TableFormat, branch_table, end_table, event_table, export_all, motion_tables,
-            request_tables, state_table, varied_tables, write_tables,
+        arrays::{
+            ArrayTable, TableFormat, branch_array, export_all, motion_tables, piece_arrays, request_tables,
+            write_tables,
         },
+        export::TableLines,
         store::StoreError,
     },
 };
@@ -39,13 +40,13 @@ pub struct NativeResults {
 }
 
 /// Which tables are meant.
-fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<ColumnTable>>, StoreError> {
+fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<ArrayTable>>, StoreError> {
     let tables = match name {
-        "branches" => vec![branch_table(store, branches)?],
-        "events" => vec![event_table(store, branches)?],
-        "ends" => vec![end_table(store, branches)?],
-        "states" => vec![state_table(store, branches)?],
-        "varied" => varied_tables(store)?,
+        "branches" => branch_array(store, TableLines::Rows, branches)?,
+        "events" => branch_array(store, TableLines::Events, branches)?,
+        "ends" => branch_array(store, TableLines::Ends, branches)?,
+        "states" => branch_array(store, TableLines::States, branches)?,
+        "varied" => piece_arrays(store, &[TableLines::Rows])?,
         "motions" => motion_tables(store)?,
         _ => return Ok(None),
     };

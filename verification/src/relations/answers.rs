@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use hammerbeam_jobs::{
-    Observer, Progress, Quiet,
+    Observer, PreparedStudy, Progress, Quiet,
     verify::{VerifySettings, verify},
 };
 use hammerbeam_orbit::PeriodicSolution;
@@ -201,11 +201,11 @@ fn of_orbit(orbit: &PeriodicSolution, units: Units) -> OrbitAnswer {
 fn verified(results: &Results, folder: &Path, limits: &Limits) -> Result<(u64, Vec<String>), Failure> {
     let store = Store::open(folder)?;
     let settings = VerifySettings { sample: limits.verified, ..VerifySettings::default() };
-    let verification = verify(&store, &results.model, &settings, &mut Quiet)?;
+    let verification = verify(&store, &PreparedStudy::of_store(&store)?, &settings, &mut Quiet)?;
     let verification = verification.expect("nothing stops the verification");
     let in_words = verification.disagreements.iter().map(|found| {
-        let at = part(results.range_hz, found.frequency_hz);
-        let (name, branch) = (found.quantity.name(), found.branch);
+        let at = part(results.range_hz, found.place.frequency_hz);
+        let (name, branch) = (found.quantity.name(), found.place.branch);
         format!(
             "{name} of branch {branch} at {at:.9} of the range: {:.3e}, allowed {:.3e}",
             found.difference, found.bound

@@ -8,7 +8,7 @@ use hammerbeam_jobs::{
 };
 use hammerbeam_results::{
     Store,
-    columns::{TableFormat, all_tables, write_tables},
+    arrays::{TableFormat, all_tables, write_tables},
     export_csv, export_states,
     whole_file::subfolder,
 };

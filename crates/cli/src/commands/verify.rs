@@ -3,11 +3,12 @@
 use std::time::{Duration, Instant};
 
 use hammerbeam_jobs::{
-    Observer,
-    verify::{Disagreement, Quantity, Verification, VerifyReport, VerifySettings, Worst, verify},
+    Observer, PreparedStudy,
+    verify::{
+        Disagreement, Quantity, Verification, VerifiedPlace, VerifyReport, VerifySettings, Worst, verify,
+    },
 };
 use hammerbeam_results::Store;
-use hammerbeam_study::{Model, StudyFile};
 
 use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
@@ -16,8 +17,7 @@ const SHOWN: usize = 50;
 
 pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
-    let file = StudyFile::parse("study.toml", store.about("study")?)?;
-    let model = Model::build(&file)?;
+    let study = PreparedStudy::of_store(&store)?;
     let settings = VerifySettings {
         sample: (!options.all).then_some(options.sample),
         seed: options.seed,
@@ -26,7 +26,7 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     };
     let mut watch = Watch::new(Interrupt::listen(output)?);
     let begun = Instant::now();
-    let verified = verify(&store, &model, &settings, &mut watch);
+    let verified = verify(&store, &study, &settings, &mut watch);
     watch.finishing();
     let Some(verification) = verified? else {
         return Err(Failure::Interrupted("interrupted; nothing was changed".to_owned()));
@@ -72,9 +72,7 @@ fn text(verification: &Verification, folder: &str, elapsed: Duration) -> String 
 }
 
 fn row(worst: &Worst) -> String {
-    let place = worst
-        .place
-        .map_or(String::new(), |(branch, frequency_hz)| format!("branch {branch}, {frequency_hz:.6} Hz"));
+    let place = worst.place.map_or(String::new(), |place| place_text(place, 6));
     format!(
         "{:<26} {:>9.1e} {:>9.1e}  {place:<28} {:>8} {:>8}",
         worst.quantity.name(),
@@ -85,8 +83,17 @@ fn row(worst: &Worst) -> String {
     )
 }
 
+/// Where a solution is, with so many decimals of its frequency.
+fn place_text(place: VerifiedPlace, decimals: usize) -> String {
+    let VerifiedPlace { piece, branch, frequency_hz } = place;
+    let (of_piece, at) = piece.map_or((String::new(), String::new()), |(piece, parameter)| {
+        (format!(" of piece {piece}"), format!(", {parameter}"))
+    });
+    format!("branch {branch}{of_piece}, {frequency_hz:.decimals$} Hz{at}")
+}
+
 fn line(found: &Disagreement) -> String {
-    let place = format!("branch {}, {:.9} Hz: {}", found.branch, found.frequency_hz, found.quantity.name());
+    let place = format!("{}: {}", place_text(found.place, 9), found.quantity.name());
     match (&found.message, found.quantity) {
         (Some(message), _) => format!("{place}: {message}"),
         (None, Quantity::Residual | Quantity::Events) => {

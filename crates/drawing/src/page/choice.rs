@@ -4,7 +4,7 @@
 //! every 2^k-th solution of all branches end to end, with smaller and smaller k, so that wherever the page is
 //! full the orbits are spread evenly along the branches; among them, one to three, the other bifurcations.
 
-use super::Placed;
+use hammerbeam_results::store::PlacedRow;
 
 /// Most of the orbits that a page carries,
 const MOST: usize = 6000;
@@ -16,15 +16,14 @@ const FEW: usize = 100;
 const SPREAD: usize = 3;
 
 /// Numbers of solutions, counted over all branches end to end, in the order in which their orbits are wanted.
-pub fn order(branches: &[Vec<Placed>]) -> Vec<u32> {
+pub fn order(branches: &[Vec<PlacedRow>]) -> Vec<u32> {
     let count: usize = branches.iter().map(Vec::len).sum();
     let mut first_of_all = Vec::new();
     let mut others = Vec::new();
     let mut first = 0;
     for branch in branches {
         for (place, placed) in branch.iter().enumerate() {
-            let events = &placed.row.events;
-            let is_bifurcation = events.fold || events.flip || events.neimark_sacker || events.branch_point;
+            let is_bifurcation = placed.row.events.is_bifurcation();
             let is_stable =
                 |place: usize| branch.get(place).is_some_and(|placed| placed.row.stability.may_be_stable());
             let beside_stable = is_stable(place) || is_stable(place.wrapping_sub(1)) || is_stable(place + 1);
@@ -75,23 +74,19 @@ impl Wanted {
 
 #[cfg(test)]
 mod tests {
-    use hammerbeam_orbit::{Events, OrbitMaxima, Side, Stability};
-    use hammerbeam_results::store::Row;
+    use hammerbeam_orbit::{BranchEventKind, EventSet, Side, Stability};
+    use hammerbeam_results::row::Row;
 
     use super::*;
 
     /// A branch that is stable in its first half, with flips at these places.
-    fn branch(count: usize, flips: &[usize]) -> Vec<Placed> {
+    fn branch(count: usize, flips: &[usize]) -> Vec<PlacedRow> {
         let row = |place: usize| Row {
-            frequency_hz: 20.0,
-            maxima: OrbitMaxima::default(),
-            events: Events { flip: flips.contains(&place), ..Events::default() },
+            events: EventSet::of([(flips.contains(&place), BranchEventKind::Flip)]),
             stability: if place < count / 2 { Stability::Stable } else { Stability::Unstable },
-            leading_multiplier: [0.5, 0.0],
-            residual: 0.0,
-            error_estimate: 0.0,
+            ..Row::default()
         };
-        (0..count).map(|place| Placed { side: Side::Up, number: place as u32, row: row(place) }).collect()
+        (0..count).map(|place| PlacedRow { side: Side::Up, number: place as u32, row: row(place) }).collect()
     }
 
     #[test]

@@ -19,13 +19,16 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
 use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_results::{Store, StoreError, store::BranchRecord};
+use hammerbeam_results::{
+    Store, StoreError,
+    store::{BranchRecord, PlacedRow},
+};
 use hammerbeam_study::Model;
 
 use samples::{Course, Impulse, Instant};
 use spectrum::spectrum;
 
-use super::{Album, Drawn, Placed, choice};
+use super::{Album, Drawn, choice};
 
 /// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do
 /// not depend on the number of threads.
@@ -50,7 +53,7 @@ const VISIBLE: f64 = 2e-3;
 pub fn carried(
     store: &Store,
     model: &Model,
-    (records, stored): (&[BranchRecord], &[Vec<Placed>]),
+    (records, stored): (&[BranchRecord], &[Vec<PlacedRow>]),
     (most, drawn): (usize, &mut Drawn<'_>),
 ) -> Result<OrbitRecords, StoreError> {
     let order = choice::order(stored);
@@ -91,7 +94,7 @@ pub fn carried(
 fn solution(
     store: &Store,
     records: &[BranchRecord],
-    stored: &[Vec<Placed>],
+    stored: &[Vec<PlacedRow>],
     number: u32,
 ) -> Result<PeriodicSolution, StoreError> {
     let mut place = number as usize;

@@ -1,12 +1,12 @@
 //! Branches over another parameter than the frequency, behind those over the frequency.
 
-use hammerbeam_figure::{Page, PageBranch, PageParameter, PageSolution};
-use hammerbeam_orbit::Stability;
+use hammerbeam_figure::{Page, PageBranch, PageParameter};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{PieceRecord, StoredVariedRow},
+    store::{BranchRecord, PieceRecord},
 };
 
+use super::solution;
 use crate::parameter::axis_label;
 
 /// Adds the branches of every `[[vary]]` of the study, with their leading multipliers.
@@ -14,7 +14,7 @@ use crate::parameter::axis_label;
 /// Their numbers go on from those of the branches over the frequency.
 pub fn add(store: &Store, page: &mut Page) -> Result<(), StoreError> {
     let mut id = page.branches.iter().map(|branch| branch.id).max().unwrap_or(0);
-    for piece in store.pieces()?.into_iter().filter(|piece| !piece.is_curve) {
+    for piece in store.pieces()?.into_iter().filter(|piece| !piece.kind.is_curve()) {
         let over = page.parameters.len() as u32 + 1;
         let mut branches = branches(store, &piece)?;
         branches.retain(|branch| !branch.solutions.is_empty());
@@ -35,37 +35,15 @@ pub fn add(store: &Store, page: &mut Page) -> Result<(), StoreError> {
 }
 
 fn branches(store: &Store, piece: &PieceRecord) -> Result<Vec<PageBranch>, StoreError> {
-    let branch = |branch: u32, period_multiple: u32| {
+    let branch = |record: &BranchRecord| {
         let mut solutions = Vec::new();
-        store.each_varied_row::<StoreError>((piece.id, branch), |row| {
+        store.each_row::<StoreError>(record, |row| {
             solutions.push(solution(&row));
             Ok(())
         })?;
-        Ok(PageBranch { period_multiple, solutions, ..PageBranch::default() })
+        Ok(PageBranch { period_multiple: record.period_multiple, solutions, ..PageBranch::default() })
     };
-    piece.branches.iter().map(|record| branch(record.branch, record.period_multiple)).collect()
-}
-
-fn solution(row: &StoredVariedRow) -> PageSolution {
-    let has = |event: &str| row.event.split('+').any(|word| word == event);
-    PageSolution {
-        frequency_hz: row.frequency_hz,
-        parameter: row.parameter,
-        displacement_m: row.numbers[0],
-        acceleration_m_s2: row.numbers[1],
-        force_n: row.numbers[2],
-        impact_velocity_m_s: row.numbers[3],
-        energy_j: f64::NAN,
-        contacts: row.contacts,
-        leading_multiplier: [row.numbers[5], row.numbers[6]],
-        stable: row.stability.may_be_stable(),
-        marginal: row.stability == Stability::Marginal,
-        fold: has("fold"),
-        flip: has("flip"),
-        neimark_sacker: has("neimark-sacker"),
-        branch_point: has("branch-point"),
-        grazing: has("grazing"),
-    }
+    piece.branches.iter().map(branch).collect()
 }
 
 /// What a parameter is, and its unit.

@@ -5,7 +5,8 @@
 //! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no
 //! feature narrower than the branch itself.
 
-use hammerbeam_results::StoreError;
+use hammerbeam_orbit::BranchEventKind;
+use hammerbeam_results::{StoreError, store::PlacedRow};
 use hammerbeam_signal::{MeasuredQuantity, SignalError};
 use hammerbeam_study::Model;
 
@@ -13,7 +14,7 @@ use super::{
     BranchCurve, CurvePoint, Curves,
     course::{Course, LEFT, NoneSampled, course, largest, largest_behind, sampled},
 };
-use crate::{StoredBranch, StoredBranches, crossings::PlacedRow};
+use crate::{StoredBranch, StoredBranches};
 
 /// A low-pass filter of an instrument: Butterworth, analogue.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,7 +169,7 @@ pub(crate) fn thinned(branch: &StoredBranch, spacing_hz: f64) -> Vec<(usize, &Pl
             (row.frequency_hz - last.row.frequency_hz).abs() >= spacing_hz
                 || (ratio.ln().abs() > CHANGE)
                 || row.stability != last.row.stability
-                || row.events.fold
+                || row.events.has(BranchEventKind::Fold)
         };
         if index + 1 == count || kept.last().is_none_or(|(_, last)| far(last)) {
             kept.push((index, placed));

@@ -5,10 +5,14 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use hammerbeam_orbit::{BranchRow, Side};
-use hammerbeam_results::store::{JobRecord, Row, StartRecord, Store, StoreError, StoredReason};
+use hammerbeam_orbit::{BranchEventKind, Side};
+use hammerbeam_results::{
+    end::BranchEnd,
+    row::{Row, SolvedRow},
+    store::{JobRecord, StartRecord, Store, StoreError},
+};
 
-use super::{Plan, Solver, follow_ups};
+use super::{plan::Plan, solver::Solver};
 
 /// Distance from the unit circle up to which a multiplier is on it, at a located event.
 const ON_CIRCLE: f64 = 1e-3;
@@ -31,24 +35,9 @@ impl Sketch {
             frequency_hz: row.frequency_hz,
             displacement: row.maxima.displacement,
             acceleration: row.maxima.acceleration,
-            flip: row.events.flip,
+            flip: row.events.has(BranchEventKind::Flip),
             else_stable: is_on_circle(row.leading_multiplier),
-            branch_point: row.events.branch_point,
-        }
-    }
-
-    fn of_branch_row(row: &BranchRow) -> Self {
-        Self {
-            frequency_hz: row.solution.frequency_hz,
-            displacement: row.solution.maxima.displacement,
-            acceleration: row.solution.maxima.acceleration,
-            flip: row.events.flip,
-            else_stable: row
-                .solution
-                .floquet_multipliers
-                .first()
-                .is_some_and(|leading| is_on_circle(*leading)),
-            branch_point: row.events.branch_point,
+            branch_point: row.events.has(BranchEventKind::BranchPoint),
         }
     }
 }
@@ -63,7 +52,7 @@ fn is_on_circle([re, im]: [f64; 2]) -> bool {
 #[derive(Debug, Default)]
 pub(super) struct WalkState {
     pub rows: Vec<Sketch>,
-    pub reason: Option<StoredReason>,
+    pub end: Option<BranchEnd>,
     /// A thread is at it; setting the flag tells it to leave.
     pub running: Option<Arc<AtomicBool>>,
     /// Of so many rows it is known whether they lie on a branch that was lost there.
@@ -73,12 +62,12 @@ pub(super) struct WalkState {
 impl WalkState {
     /// Whether nothing is left to walk with this budget.
     pub fn is_finished(&self, plan: &Plan) -> bool {
-        let enough = |reason: &StoredReason| !reason.is_budget() || self.rows.len() as u64 >= plan.budget;
-        self.reason.as_ref().is_some_and(enough)
+        let enough = |end: &BranchEnd| !end.is_budget() || self.rows.len() as u64 >= plan.budget;
+        self.end.as_ref().is_some_and(enough)
     }
 
     pub fn is_closed(&self) -> bool {
-        self.reason.as_ref().is_some_and(StoredReason::is_closed)
+        self.end.as_ref().is_some_and(BranchEnd::is_closed)
     }
 
     /// Tells the thread that is at it to leave.
@@ -119,7 +108,7 @@ impl Start {
 
     /// Whether a side that was left at its budget has more of it now.
     pub fn goes_on(&self, plan: &Plan) -> bool {
-        [&self.up, &self.down].iter().any(|walk| walk.reason.is_some() && !walk.is_finished(plan))
+        [&self.up, &self.down].iter().any(|walk| walk.end.is_some() && !walk.is_finished(plan))
     }
 
     /// Whether both sides are followed as far as they are to be.
@@ -157,9 +146,7 @@ impl Agenda {
             store.take_back_to(key)?;
         }
         store.add_met(&plan.met)?;
-        let mut agenda = Self::read(store)?;
-        agenda.add_what_is_wanted_now(store, plan)?;
-        Ok(agenda)
+        Self::read(store)
     }
 
     /// What the store holds.
@@ -168,9 +155,9 @@ impl Agenda {
         agenda.add_new_jobs(store)?;
         for record in store.starts()? {
             let walk = |side| -> Result<WalkState, StoreError> {
-                let reason = store.walk(record.key, side)?.reason;
+                let end = store.walk(record.key, side)?.end;
                 let rows = store.walked(record.key, side)?.iter().map(Sketch::of_row).collect();
-                Ok(WalkState { rows, reason, ..WalkState::default() })
+                Ok(WalkState { rows, end, ..WalkState::default() })
             };
             let start = Start {
                 key: record.key,
@@ -180,21 +167,9 @@ impl Agenda {
                 up: walk(Side::Up)?,
                 down: walk(Side::Down)?,
             };
-            agenda.jobs[record.job as usize].starts.push(start);
+            agenda.jobs[record.job() as usize].starts.push(start);
         }
         Ok(agenda)
-    }
-
-    /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are
-    /// left out.
-    fn add_what_is_wanted_now(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
-        let finished = self.jobs.iter().filter(|job| job.record.outcome.is_some());
-        let jobs: Vec<_> = finished
-            .flat_map(|job| job.starts.iter().map(|start| (start, job.record.depth)))
-            .flat_map(|(start, depth)| follow_ups::of_branch(start, depth, plan))
-            .collect();
-        store.add_jobs(&jobs)?;
-        self.add_new_jobs(store)
     }
 
     /// Adds what the store has more of.
@@ -211,17 +186,17 @@ impl Agenda {
         job.record.evaluated = true;
         job.running = false;
         let known: Vec<u32> = job.starts.iter().map(|start| start.key).collect();
-        let is_new = |record: &&StartRecord| record.job == job.record.id && !known.contains(&record.key);
+        let is_new = |record: &&StartRecord| record.job() == job.record.id && !known.contains(&record.key);
         for record in store.starts()?.iter().filter(is_new) {
             let rows = store.walked(record.key, Side::Up)?.iter().map(Sketch::of_row).collect();
-            let down = store.walk(record.key, Side::Down)?.reason;
+            let down = store.walk(record.key, Side::Down)?.end;
             job.starts.push(Start {
                 key: record.key,
                 period_multiple: record.period_multiple,
                 branch: None,
                 doubtful: false,
                 up: WalkState { rows, ..WalkState::default() },
-                down: WalkState { reason: down, ..WalkState::default() },
+                down: WalkState { end: down, ..WalkState::default() },
             });
         }
         Ok(())
@@ -240,11 +215,11 @@ impl Agenda {
     }
 
     /// Notes new rows of a walk.
-    pub fn add_rows(&mut self, key: u32, side: Side, rows: &[BranchRow], reason: Option<&StoredReason>) {
+    pub fn add_rows(&mut self, key: u32, side: Side, rows: &[SolvedRow], end: Option<&BranchEnd>) {
         if let Some(start) = self.start_mut(key) {
             let walk = start.walk_mut(side);
-            walk.rows.extend(rows.iter().map(Sketch::of_branch_row));
-            walk.reason = reason.cloned();
+            walk.rows.extend(rows.iter().map(|row| Sketch::of_row(&row.into())));
+            walk.end = end.cloned();
         }
     }
 

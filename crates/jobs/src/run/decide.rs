@@ -1,7 +1,10 @@
 //! Decisions, in the order of the agenda and as far as the work for them is done.
 
 use hammerbeam_orbit::Side;
-use hammerbeam_results::store::{Store, StoreError, StoredReason};
+use hammerbeam_results::{
+    end::BranchEnd,
+    store::{Store, StoreError},
+};
 
 use super::{Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
 use crate::Observer;
@@ -57,8 +60,8 @@ impl Decisions<'_> {
 
     fn job(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {
         let record = agenda.jobs[index].record.clone();
-        let begun = agenda.jobs[index].starts.iter().any(|start| start.branch.is_some());
-        if Plan::only_if_not_covered(&record) && !begun && agenda.is_covered(record.frequency_hz) {
+        let has_branch = agenda.jobs[index].starts.iter().any(|start| start.branch.is_some());
+        if Plan::only_if_not_covered(&record) && !has_branch && agenda.is_covered(record.frequency_hz) {
             while let Some(start) = agenda.jobs[index].starts.first() {
                 let key = start.key;
                 self.drop_start(agenda, index, key)?;
@@ -131,18 +134,18 @@ impl Decisions<'_> {
         for side in [Side::Up, Side::Down] {
             let end = joins::cut(self.store, self.solver, agenda, (index, place, side))?;
             let branch = agenda.jobs[index].starts[place].branch;
-            if let (Some(branch), Some(reason)) = (branch, end) {
-                self.observer.walk_ended(branch, side, &reason);
+            if let (Some(branch), Some(end)) = (branch, end) {
+                self.observer.walk_ended(branch, side, &end);
             }
         }
         let start = &mut agenda.jobs[index].starts[place];
-        if let Some(reason) = start.up.reason.clone().filter(StoredReason::is_closed)
+        if let Some(end) = start.up.end.clone().filter(BranchEnd::is_closed)
             && !(start.down.is_closed() && start.down.rows.is_empty())
         {
             start.down.cancel();
             start.down.rows.clear();
-            start.down.reason = Some(reason.clone());
-            self.store.cut_walk(start.key, Side::Down, 0, &reason)?;
+            start.down.end = Some(end.clone());
+            self.store.cut_walk(start.key, Side::Down, 0, &end)?;
         }
         Ok(start.is_finished(self.plan))
     }

@@ -2,7 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use hammerbeam_orbit::{BranchRow, Crossing, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{
+    BranchEventKind, Crossing, EventSet, OrbitMaxima, PeriodicSolution, Side, StopReason,
+};
+use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 
 use super::{Match, Origin, Solver, Surveyed, Walk};
 
@@ -167,7 +170,7 @@ impl FakeWalk<'_> {
 }
 
 impl Walk for FakeWalk<'_> {
-    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
+    fn step(&mut self, rows: &mut Vec<SolvedRow>) -> Result<Option<BranchEnd>, String> {
         assert!(!(self.solver.panics && self.multiple == 2), "a panic that was asked for");
         self.steps += self.direction;
         self.walked += 1;
@@ -176,23 +179,25 @@ impl Walk for FakeWalk<'_> {
         let frequency_hz = solution.frequency_hz;
         let fold = self.multiple == 1 && self.steps % 209 == 0;
         let flip = self.multiple == 1 && self.solver.flips.is_some_and(|steps| self.steps % steps == 0);
-        rows.push(BranchRow {
+        rows.push(SolvedRow {
             solution,
-            parameter: None,
-            events: Events { fold, flip, ..Events::default() },
+            parameter: frequency_hz,
+            events: EventSet::of([(fold, BranchEventKind::Fold), (flip, BranchEventKind::Flip)]),
             located: None,
         });
         let [low, high] = self.solver.range_hz;
         if self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
             let doubt = "lost where it was to be".to_owned();
-            return Ok(Some(StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: 1.0, doubt }));
+            let reason = StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: 1.0, doubt };
+            return Ok(Some(reason.into()));
         }
-        Ok((frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz }))
+        let is_end = frequency_hz <= low || frequency_hz >= high;
+        Ok(is_end.then_some(StopReason::RangeEnd { frequency_hz }.into()))
     }
 
-    fn checkpoint(&self) -> Vec<u8> {
+    fn checkpoint(&self) -> Option<Vec<u8>> {
         let numbers = [i64::from(self.multiple), self.steps, self.direction, self.walked];
-        numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+        Some(numbers.iter().flat_map(|number| number.to_le_bytes()).collect())
     }
 
     fn take_journal(&mut self) -> Vec<u8> {

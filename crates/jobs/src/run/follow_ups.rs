@@ -2,9 +2,27 @@
 //! frequency at which it goes to infinity.
 
 use hammerbeam_orbit::Side;
-use hammerbeam_results::store::{JobKind, solution_key};
+use hammerbeam_results::{
+    end::BranchEnd,
+    store::{JobKind, Store, StoreError, solution_key},
+};
 
-use super::{Plan, agenda::Start};
+use super::{
+    agenda::{Agenda, Start},
+    plan::Plan,
+};
+
+/// Adds the jobs of finished branches that a greater depth asks for; those that are there already are left
+/// out.
+pub(super) fn add_wanted(agenda: &mut Agenda, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
+    let finished = agenda.jobs.iter().filter(|job| job.record.outcome.is_some());
+    let jobs: Vec<_> = finished
+        .flat_map(|job| job.starts.iter().map(|start| (start, job.record.depth)))
+        .flat_map(|(start, depth)| of_branch(start, depth, plan))
+        .collect();
+    store.add_jobs(&jobs)?;
+    agenda.add_new_jobs(store)
+}
 
 /// Jobs at the flips and branch points of a branch, end to end along it.
 pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
@@ -22,7 +40,7 @@ const BEYOND: f64 = 1e-3;
 /// A search for the harmonic branch on the other side of a frequency at which a side goes to infinity.
 fn beyond_infinity(start: &Start, side: Side, plan: &Plan) -> Option<(JobKind, f64, Option<i64>, u32)> {
     let walk = start.walk(side);
-    let ends = walk.reason.as_ref().is_some_and(|reason| reason.is_unbounded());
+    let ends = walk.end.as_ref().is_some_and(BranchEnd::is_unbounded);
     let last = walk.rows.last().filter(|_| ends && plan.multiples.contains(&1))?.frequency_hz;
     let [low, high] = plan.range_hz;
     let step = BEYOND * (high - low);
@@ -48,8 +66,8 @@ fn at_row(
     // The first row of a branch that leaves another one is where it does so; the last one where it comes to
     // one of shorter period is there, too.
     let is_root = side == Side::Up && number == 0;
-    let meets_shorter = number + 1 == walk.rows.len()
-        && walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
+    let meets_shorter =
+        number + 1 == walk.rows.len() && walk.end.as_ref().is_some_and(BranchEnd::is_shorter_period);
     let crosses = row.branch_point && !is_root && !meets_shorter;
     crosses.then_some((JobKind::Crossing, row.frequency_hz, Some(key), depth))
 }

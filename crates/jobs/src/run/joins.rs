@@ -11,7 +11,10 @@
 //! is compared while it is under way or when all of it is there.
 
 use hammerbeam_orbit::Side;
-use hammerbeam_results::store::{Store, StoreError, StoredReason};
+use hammerbeam_results::{
+    end::BranchEnd,
+    store::{Store, StoreError},
+};
 
 use super::{
     Solver,
@@ -36,7 +39,7 @@ pub(super) fn cut(
     solver: &dyn Solver,
     agenda: &mut Agenda,
     (job, place, side): (usize, usize, Side),
-) -> Result<Option<StoredReason>, StoreError> {
+) -> Result<Option<BranchEnd>, StoreError> {
     let start = &agenda.jobs[job].starts[place];
     if start.walk(side).compared == start.walk(side).rows.len() {
         return Ok(None);
@@ -46,13 +49,13 @@ pub(super) fn cut(
     let key = start.key;
     let walk = start.walk_mut(side);
     walk.compared = walk.rows.len();
-    let Some((solutions, reason)) = found else { return Ok(None) };
+    let Some((solutions, end)) = found else { return Ok(None) };
     walk.cancel();
     walk.rows.truncate(solutions);
     walk.compared = solutions;
-    walk.reason = Some(reason.clone());
-    store.cut_walk(key, side, solutions as u32, &reason)?;
-    Ok(Some(reason))
+    walk.end = Some(end.clone());
+    store.cut_walk(key, side, solutions as u32, &end)?;
+    Ok(Some(end))
 }
 
 /// After how many of its solutions the side comes upon an early end, and the end that this makes.
@@ -61,7 +64,7 @@ fn first_join(
     solver: &dyn Solver,
     (start, side): (&Start, Side),
     ends: &[LostEnd<'_>],
-) -> Result<Option<(usize, StoredReason)>, StoreError> {
+) -> Result<Option<(usize, BranchEnd)>, StoreError> {
     let compared = start.walk(side).compared;
     // The other side has the start itself.
     let ahead = usize::from(side == Side::Down && !start.up.rows.is_empty());
@@ -77,8 +80,10 @@ fn first_join(
             }
         }
     }
-    Ok(first
-        .map(|(index, end)| (skipped + index + 1 - ahead, StoredReason::joins(end.branch, end.frequency_hz))))
+    Ok(first.map(|(index, lost)| {
+        let end = BranchEnd::Joins { branch: lost.branch, frequency_hz: lost.frequency_hz };
+        (skipped + index + 1 - ahead, end)
+    }))
 }
 
 /// Early ends of the branches before the one of a start, of the same period.
@@ -91,7 +96,7 @@ fn lost_ends<'a>(agenda: &'a Agenda, start: &Start) -> Vec<LostEnd<'a>> {
 
 fn lost_end((start, side): (&Start, Side)) -> Option<LostEnd<'_>> {
     let walk = start.walk(side);
-    let branch = start.branch.filter(|_| !walk.reason.as_ref().is_none_or(StoredReason::is_complete))?;
+    let branch = start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
     let rows: Vec<Placed<'_>> = known::rows_of_side(start, side).collect();
     let last: &Sketch = rows.last()?.1;
     let back = [0, 4, 16, 64, 256].into_iter();

@@ -3,7 +3,7 @@
 //! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the
 //! solution lie, within a margin, are candidates. Then the states decide: the state between the rows,
 //! interpolated to the frequency of the solution, is compared with the states of the solution at the
-//! beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the
+//! starts of all its excitation periods, and the orbit that Newton's method finds from there must be the
 //! solution itself.
 //!
 //! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point
@@ -11,7 +11,10 @@
 //! within [`DOUBTS`] times its uncertainty.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
-use hammerbeam_results::store::{Store, StoreError, solution_key};
+use hammerbeam_results::{
+    end::BranchEnd,
+    store::{Store, StoreError, solution_key},
+};
 
 use super::{
     Match, Solver,
@@ -122,7 +125,7 @@ pub(super) fn has_branch_point(
 fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
     let of_side = |side| {
         let walk = start.walk(side);
-        let ends = walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
+        let ends = walk.end.as_ref().is_some_and(BranchEnd::is_shorter_period);
         let last = walk.rows.last().filter(|_| ends)?;
         Some((solution_key(start.key, side, walk.rows.len() as u32 - 1), last))
     };

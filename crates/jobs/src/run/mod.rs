@@ -50,10 +50,11 @@ mod solver;
 mod whole;
 mod worker;
 
+pub use crate::walk::Walk;
 pub use plan::Plan;
-pub use report::{BranchReport, RunReport, peak_stability};
+pub use report::{BranchReport, RunReport, end_of_side, peak_stability};
 pub use runner::{RunError, RunOutcome, run};
-pub use solver::{Match, Origin, Solver, Surveyed, Walk};
+pub use solver::{Match, Origin, Solver, Surveyed};
 pub use whole::{RunOrigin, RunRequest, WholeRun, run_study};
 
 #[cfg(test)]

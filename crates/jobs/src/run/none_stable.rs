@@ -5,7 +5,7 @@
 //! stable rows a stable solution is taken to be known; what that leaves of the range are *intervals*. Each of
 //! them is looked at in its middle, however narrow, the widest first; then the widest part between two
 //! frequencies that were looked at is halved. Where nothing new is found motion is chaotic as a rule, so that
-//! only each branch that is begun gives leave to halve further. That is done in rounds, since a branch that a
+//! only each branch that is found gives leave to halve further. That is done in rounds, since a branch that a
 //! round finds may cover much of what is left.
 
 use hammerbeam_orbit::Side;
@@ -15,7 +15,7 @@ use super::{Plan, agenda::Agenda};
 
 /// Most frequencies that are looked at so, in all rounds, and no more than the survey has.
 const MOST: usize = 48;
-/// Frequencies of a first round, and for each branch that was begun at one of them.
+/// Frequencies of a first round, and for each branch that was found at one of them.
 const ROUND: usize = 6;
 /// Intervals narrower than this part of the distance of the frequencies of the survey are left out.
 const NARROWEST: f64 = 1e-4;

@@ -25,7 +25,7 @@ pub struct Plan {
     pub unstable: bool,
     /// Largest number of solutions of a walk.
     pub budget: u64,
-    /// Time after which no new piece of work is begun.
+    /// Time after which no new piece of work is started.
     pub time: Option<Duration>,
     /// Solutions after which a walk that takes turns makes room for another one; what is computed does not
     /// depend on it.

@@ -2,10 +2,11 @@
 
 use std::{collections::BTreeMap, path::PathBuf};
 
-use hammerbeam_orbit::Stability;
+use hammerbeam_orbit::{BranchEventKind, Side, Stability};
 use hammerbeam_results::{
-    store::{JobRecord, PieceBranchRecord, PieceRecord, WalkRecord},
-    summary::{BranchSummary, Peak},
+    end_text::{BranchOver, NOT_FINISHED, sentence},
+    store::{JobRecord, PieceRecord, WalkRecord},
+    summary::{BranchSummary, Peak, PieceSummary},
 };
 use hammerbeam_study::{UndampedInContact, UndampedMode};
 use serde::{Serialize, Serializer};
@@ -28,7 +29,7 @@ pub struct RunReport {
     /// Branches over the frequency.
     pub branches: Vec<BranchReport>,
     /// Branches in other parameters and curves.
-    pub varied: Vec<PieceRecord>,
+    pub varied: Vec<PieceSummary>,
     /// Searches, flips and branch points at which branches were looked for.
     pub searches: Vec<JobRecord>,
     /// Modes without damping,
@@ -115,7 +116,7 @@ impl Serialize for BranchReport {
             Word(&'static str),
         }
         #[derive(Serialize)]
-        struct Document<'a> {
+        struct Document {
             branch: u32,
             period_multiple: u32,
             solutions: u64,
@@ -129,24 +130,25 @@ impl Serialize for BranchReport {
             branch_points: u64,
             grazings: u64,
             peaks: Vec<PeakDocument>,
-            up: WalkDocument<'a>,
-            down: WalkDocument<'a>,
+            up: WalkDocument,
+            down: WalkDocument,
             mirror_image: Option<Image>,
         }
         let summary = &self.summary;
+        let count = |kind| summary.events.of(kind);
         let document = Document {
             branch: summary.record.id,
             period_multiple: summary.record.period_multiple,
             solutions: summary.solutions,
             stable_solutions: summary.stable,
             marginal_solutions: summary.marginal,
-            frequency_hz: summary.range_hz,
-            folds: summary.folds,
-            flips: summary.flips,
+            frequency_hz: summary.range,
+            folds: count(BranchEventKind::Fold),
+            flips: count(BranchEventKind::Flip),
             flips_not_followed: summary.flips_not_followed,
-            neimark_sacker_points: summary.neimark_sackers,
-            branch_points: summary.branch_points,
-            grazings: summary.grazings,
+            neimark_sacker_points: count(BranchEventKind::NeimarkSacker),
+            branch_points: count(BranchEventKind::BranchPoint),
+            grazings: count(BranchEventKind::Grazing),
             peaks: summary.peaks.iter().map(PeakDocument::from).collect(),
             up: WalkDocument::from(&summary.record.up),
             down: WalkDocument::from(&summary.record.down),
@@ -161,21 +163,21 @@ impl Serialize for BranchReport {
 }
 
 #[derive(Serialize)]
-struct WalkDocument<'a> {
+struct WalkDocument {
     solutions: u64,
-    stop_reason: Option<&'a str>,
+    stop_reason: Option<&'static str>,
     stop_frequency_hz: Option<f64>,
-    stop_message: Option<&'a str>,
+    stop_message: Option<String>,
 }
 
-impl<'a> From<&'a WalkRecord> for WalkDocument<'a> {
-    fn from(walk: &'a WalkRecord) -> Self {
-        let reason = walk.reason.as_ref();
+impl From<&WalkRecord> for WalkDocument {
+    fn from(walk: &WalkRecord) -> Self {
+        let end = walk.end.as_ref();
         Self {
             solutions: walk.solutions,
-            stop_reason: reason.map(|reason| reason.kind.as_str()),
-            stop_frequency_hz: reason.and_then(|reason| reason.frequency_hz),
-            stop_message: reason.map(|reason| reason.message.as_str()),
+            stop_reason: end.map(|end| end.word()),
+            stop_frequency_hz: end.and_then(|end| end.place()),
+            stop_message: end.map(|end| sentence(end, BranchOver::Frequency)),
         }
     }
 }
@@ -215,48 +217,54 @@ struct PieceDocument<'a> {
     kind: &'static str,
     parameter_name: &'a str,
     message: Option<&'a str>,
-    branches: Vec<PieceBranchDocument<'a>>,
+    branches: Vec<PieceBranchDocument>,
 }
 
 #[derive(Serialize)]
-struct PieceBranchDocument<'a> {
+struct PieceBranchDocument {
     branch: u32,
-    of: &'a str,
+    of: &'static str,
     period_multiple: u32,
-    solutions: u32,
-    stable_solutions: u32,
-    marginal_solutions: u32,
-    events: &'a BTreeMap<String, u32>,
+    solutions: u64,
+    stable_solutions: u64,
+    marginal_solutions: u64,
+    events: BTreeMap<&'static str, u64>,
     parameter: [f64; 2],
-    up: &'a str,
-    down: &'a str,
+    up: String,
+    down: String,
 }
 
-impl<'a> From<&'a PieceRecord> for PieceDocument<'a> {
-    fn from(piece: &'a PieceRecord) -> Self {
+impl<'a> From<&'a PieceSummary> for PieceDocument<'a> {
+    fn from(piece: &'a PieceSummary) -> Self {
+        let record = &piece.record;
         Self {
-            piece: piece.id,
-            kind: if piece.is_curve { "curve" } else { "vary" },
-            parameter_name: &piece.parameter,
-            message: piece.message.as_deref(),
-            branches: piece.branches.iter().map(PieceBranchDocument::from).collect(),
+            piece: record.place,
+            kind: if record.kind.is_curve() { "curve" } else { "vary" },
+            parameter_name: &record.parameter,
+            message: record.message.as_deref(),
+            branches: piece.branches.iter().map(|branch| branch_document(record, branch)).collect(),
         }
     }
 }
 
-impl<'a> From<&'a PieceBranchRecord> for PieceBranchDocument<'a> {
-    fn from(branch: &'a PieceBranchRecord) -> Self {
-        Self {
-            branch: branch.branch,
-            of: &branch.kind,
-            period_multiple: branch.period_multiple,
-            solutions: branch.rows,
-            stable_solutions: branch.stable,
-            marginal_solutions: branch.marginal,
-            events: &branch.events,
-            parameter: branch.range,
-            up: &branch.up,
-            down: &branch.down,
-        }
+fn branch_document(piece: &PieceRecord, branch: &BranchSummary) -> PieceBranchDocument {
+    PieceBranchDocument {
+        branch: branch.record.id,
+        of: piece.kind.name(),
+        period_multiple: branch.record.period_multiple,
+        solutions: branch.solutions,
+        stable_solutions: branch.stable,
+        marginal_solutions: branch.marginal,
+        events: branch.events.by_name(),
+        parameter: branch.range,
+        up: end_of_side(piece, branch, Side::Up),
+        down: end_of_side(piece, branch, Side::Down),
     }
+}
+
+/// How a side of a branch over another parameter, or of a curve, ended, in a sentence.
+#[must_use]
+pub fn end_of_side(piece: &PieceRecord, branch: &BranchSummary, side: Side) -> String {
+    let end = branch.record.walk(side).end.as_ref();
+    end.map_or_else(|| NOT_FINISHED.to_owned(), |end| sentence(end, piece.along()))
 }

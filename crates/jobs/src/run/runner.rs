@@ -9,14 +9,15 @@ use std::{
     time::Instant,
 };
 
-use hammerbeam_results::store::{Continuation, MOST_STARTS, Memory, Store, StoreError};
+use hammerbeam_results::store::{MOST_STARTS, Store, StoreError};
 
 use super::{
     Plan, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
+    follow_ups,
     schedule::next_task,
-    worker::{self, Report, Stretch, Task},
+    worker::{self, Report, Task, Walked},
 };
 use crate::{
     Observer, Progress,
@@ -26,7 +27,7 @@ use crate::{
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunOutcome {
-    /// Everything the study asks for was looked for; what stopped early is told by its reason.
+    /// Everything the study asks for was looked for; what stopped early has its end.
     Done,
     /// The time budget is used up; the same run goes on when it is started again.
     OutOfTime {
@@ -64,7 +65,8 @@ pub fn run(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, RunError> {
-    let agenda = Agenda::load(store, solver, plan)?;
+    let mut agenda = Agenda::load(store, solver, plan)?;
+    follow_ups::add_wanted(&mut agenda, store, plan)?;
     let threads = threads.max(1);
     let stop = AtomicBool::new(false);
     let stop = &stop;
@@ -80,7 +82,7 @@ pub fn run(
             busy: 0,
             new_solutions: 0,
             fraction: 0.0,
-            begun: Instant::now(),
+            started: Instant::now(),
         };
         let outcome = run.work(&Desk { pool, sender, stop }, &reports);
         // Threads that still walk, for nothing any more, see that nobody reads their reports.
@@ -109,7 +111,7 @@ struct Run<'a> {
     busy: usize,
     new_solutions: u64,
     fraction: f64,
-    begun: Instant,
+    started: Instant,
 }
 
 impl<'work> Run<'work> {
@@ -125,7 +127,7 @@ impl<'work> Run<'work> {
                 interrupted = true;
                 desk.stop.store(true, Ordering::Relaxed);
             }
-            let out_of_time = self.plan.time.is_some_and(|time| self.begun.elapsed() >= time);
+            let out_of_time = self.plan.time.is_some_and(|time| self.started.elapsed() >= time);
             if !interrupted && !out_of_time {
                 self.hand_out(desk)?;
             }
@@ -137,7 +139,7 @@ impl<'work> Run<'work> {
                 };
             }
             match reports.recv_timeout(PATIENCE) {
-                Ok(report) => self.hear(report)?,
+                Ok(report) => self.take(report)?,
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return Err(RunError::Thread),
             }
@@ -163,7 +165,7 @@ impl<'work> Run<'work> {
         Ok(())
     }
 
-    fn hear(&mut self, report: Report) -> Result<(), RunError> {
+    fn take(&mut self, report: Report) -> Result<(), RunError> {
         match report {
             Report::Evaluated { job, starts } => {
                 self.busy -= 1;
@@ -179,7 +181,7 @@ impl<'work> Run<'work> {
                 self.agenda.jobs[job as usize].record.message = message;
                 self.agenda.add_starts(job, self.store)?;
             }
-            Report::Walked(stretch) => self.keep(&stretch)?,
+            Report::Walked(walked) => self.keep(&walked)?,
             Report::Left => self.busy -= 1,
             Report::Lost => return Err(RunError::Thread),
             Report::Failed { key, message } => return Err(RunError::Walk { start: key, message }),
@@ -188,36 +190,31 @@ impl<'work> Run<'work> {
     }
 
     /// Commits a stretch of a walk, unless the walk is not wanted any more.
-    fn keep(&mut self, stretch: &Stretch) -> Result<(), RunError> {
+    fn keep(&mut self, walked: &Walked) -> Result<(), RunError> {
+        let Walked { key, side, stretch, cancelled } = walked;
         self.busy -= usize::from(stretch.last);
-        let Some(start) = self.agenda.start_mut(stretch.key) else { return Ok(()) };
-        let running = &start.walk(stretch.side).running;
-        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, &stretch.cancelled)) {
+        let Some(start) = self.agenda.start_mut(*key) else { return Ok(()) };
+        let running = &start.walk(*side).running;
+        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, cancelled)) {
             return Ok(());
         }
         let (branch, period_multiple) = (start.branch, start.period_multiple);
-        let memory = Memory { checkpoint: &stretch.checkpoint, journal: &stretch.journal };
-        let continuation = match &stretch.reason {
-            None => Continuation::GoesOn(memory),
-            Some(reason) if reason.is_budget() => Continuation::Paused(reason, memory),
-            Some(reason) => Continuation::Ended(reason),
-        };
-        self.store.append(stretch.key, stretch.side, &stretch.rows, continuation)?;
-        self.agenda.add_rows(stretch.key, stretch.side, &stretch.rows, stretch.reason.as_ref());
+        self.store.append(*key, *side, &stretch.rows, stretch.continuation())?;
+        self.agenda.add_rows(*key, *side, &stretch.rows, stretch.end.as_ref());
         if stretch.last {
-            self.agenda.rest(stretch.key, stretch.side);
+            self.agenda.rest(*key, *side);
         }
         self.new_solutions += stretch.rows.len() as u64;
-        if let (Some(branch), Some(reason)) = (branch, &stretch.reason) {
-            self.observer.walk_ended(branch, stretch.side, reason);
+        if let (Some(branch), Some(end)) = (branch, &stretch.end) {
+            self.observer.walk_ended(branch, *side, end);
         }
         if let Some(newest) = stretch.rows.last() {
-            self.tell(newest.solution.frequency_hz, period_multiple);
+            self.report_progress(newest.solution.frequency_hz, period_multiple);
         }
         Ok(())
     }
 
-    fn tell(&mut self, frequency_hz: f64, period_multiple: u32) {
+    fn report_progress(&mut self, frequency_hz: f64, period_multiple: u32) {
         self.fraction = self.fraction.max(self.estimate());
         let open = |start: &super::agenda::Start| {
             usize::from(start.up.running.is_some()) + usize::from(start.down.running.is_some())
@@ -233,7 +230,7 @@ impl<'work> Run<'work> {
         });
     }
 
-    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range
+    /// Part of the work that is done, as far as that is known: finished jobs, and how much of the range
     /// the branches reach that are walked.
     fn estimate(&self) -> f64 {
         let jobs = self.agenda.jobs.len().max(1) as f64;

@@ -1,6 +1,8 @@
 //! What a run needs of the numerics; the rest of this module knows no more of them than this.
 
-use hammerbeam_orbit::{BranchRow, Crossing, Interruption, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{Crossing, Interruption, PeriodicSolution, Side};
+
+use crate::walk::Walk;
 
 /// Finds periodic solutions and follows their branches; shared by all threads.
 pub trait Solver: Sync {
@@ -92,21 +94,6 @@ pub enum Origin {
     Found(PeriodicSolution),
     /// Where the branch leaves another one.
     Crossing(Crossing),
-}
-
-/// A walk along one side of a branch.
-pub trait Walk {
-    /// Appends the next solutions in the order of the path; `Some` when the walk has ended.
-    ///
-    /// # Errors
-    /// Why there is neither a solution nor an end, in words.
-    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String>;
-
-    /// All that is needed to go on from here, besides the journal; replaces the last one.
-    fn checkpoint(&self) -> Vec<u8>;
-
-    /// What the walk has to remember of the solutions since the journal was taken last.
-    fn take_journal(&mut self) -> Vec<u8>;
 }
 
 /// A solution that others are compared with, whatever the excitation period at which they begin.

@@ -2,7 +2,9 @@ use std::{path::Path, sync::atomic::Ordering};
 
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_results::{
-    export::export_csv,
+    columns::TableColumn,
+    end::BranchEnd,
+    export::{BranchTable, export_csv},
     store::{JobKind, Store, StoreError},
 };
 use hammerbeam_study::file::StudyFile;
@@ -56,7 +58,8 @@ fn undisturbed(study: &StudyFile) -> (TempDir, String) {
 fn rows_run_end_to_end_along_the_branch() {
     let (_folder, text) = undisturbed(&study_with(""));
     let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    assert_eq!(lines[0], hammerbeam_results::export::COLUMNS);
+    let columns: Vec<&str> = BranchTable::ALL[0].columns().map(TableColumn::name).collect();
+    assert_eq!(lines[0], columns);
     assert_eq!((lines[1][2], lines[1][11]), ("10.0", "start"));
     let last = lines.last().unwrap();
     assert_eq!((last[2], last[11]), ("20.0", "end"));
@@ -156,7 +159,7 @@ fn a_larger_budget_lets_a_paused_walk_go_on_to_the_same_bytes() {
         let plan = Plan { budget, ..Plan::of(&study.study) };
         run(&mut store, &FakeSolver::default(), &plan, 2, &mut Quiet).unwrap();
         let branches = store.branches().unwrap();
-        assert_eq!(branches[0].up.reason.as_ref().unwrap().is_budget(), budget <= 350);
+        assert_eq!(branches[0].up.end.as_ref().unwrap().is_budget(), budget <= 350);
         // What is left at its budget holds nothing up.
         assert!(branches.iter().any(|branch| branch.period_multiple == 2));
         store.finish().unwrap();
@@ -274,11 +277,11 @@ fn a_branch_that_comes_upon_the_lost_end_of_another_is_cut_there() {
     };
     let (expected, folder) = of_threads(1, usize::MAX);
     let branches = Store::open(folder.path()).unwrap().branches().unwrap();
-    let kind = |walk: &hammerbeam_results::store::WalkRecord| walk.reason.as_ref().unwrap().kind.clone();
+    let kind = |walk: &hammerbeam_results::store::WalkRecord| walk.end.as_ref().unwrap().word();
     let kinds: Vec<_> = branches.iter().map(|branch| (kind(&branch.up), kind(&branch.down))).collect();
-    let of = |up: &str, down: &str| (up.to_owned(), down.to_owned());
-    assert_eq!(kinds, [of("range-end", "step-too-short"), of("joins", "range-end")]);
-    assert!(branches[1].up.reason.as_ref().unwrap().message.contains("it is branch 1"));
+    assert_eq!(kinds, [("range-end", "step-too-short"), ("joins", "range-end")]);
+    let joins = matches!(branches[1].up.end, Some(BranchEnd::Joins { branch: 1, .. }));
+    assert!(joins, "{:?}", branches[1].up.end);
     let frequencies = |text: &str| {
         let lines = text.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().parse::<f64>().unwrap());
         let mut sorted: Vec<f64> = lines.collect();

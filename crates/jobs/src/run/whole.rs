@@ -4,7 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_results::{Store, summary::summarise};
+use hammerbeam_results::{
+    Store,
+    summary::{summarise, summarise_pieces},
+};
 
 use super::{Plan, RunOutcome, RunReport, run};
 use crate::{
@@ -124,7 +127,7 @@ fn report(study: &PreparedStudy, store: &Store, outcome: RunOutcome) -> Result<R
         title: file.study.title.clone(),
         results: store.folder().to_owned(),
         branches: branches.collect::<Result<_, JobError>>()?,
-        varied: store.pieces()?,
+        varied: summarise_pieces(store)?,
         searches: store.jobs()?,
         undamped_modes: model.undamped_modes(),
         undamped_in_contact: model.undamped_in_contact(),

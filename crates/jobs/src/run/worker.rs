@@ -7,18 +7,13 @@ use std::{
         mpsc::SyncSender,
     },
     thread,
-    time::{Duration, Instant},
 };
 
-use hammerbeam_orbit::{BranchRow, Crossing, Side, StopReason};
-use hammerbeam_results::store::{StoredMemory, StoredReason};
+use hammerbeam_orbit::{Crossing, Side};
+use hammerbeam_results::store::StoredMemory;
 
-use super::{Origin, Solver, Surveyed, Walk};
-
-/// Solutions are sent together after this time,
-const SEND_AFTER: Duration = Duration::from_millis(200);
-/// or when there are so many of them.
-const SEND_AT: u64 = 2000;
+use super::solver::{Origin, Solver, Surveyed};
+use crate::walk::{Stretch, WalkLimits, walk_on};
 
 /// A piece of work.
 #[derive(Debug)]
@@ -69,8 +64,8 @@ pub(super) enum Report {
     /// What came of a job.
     Evaluated { job: u32, starts: Result<Surveyed, String> },
     /// More of a walk.
-    Walked(Stretch),
-    /// The task was given up as it was told; there is nothing more of it.
+    Walked(Walked),
+    /// The task was given up as it was cancelled; there is nothing more of it.
     Left,
     /// A stored walk cannot be taken up.
     Failed { key: u32, message: String },
@@ -92,16 +87,10 @@ impl Drop for Alarm<'_> {
 
 /// Solutions of a walk, to be committed together.
 #[derive(Debug)]
-pub(super) struct Stretch {
+pub(super) struct Walked {
     pub key: u32,
     pub side: Side,
-    pub rows: Vec<BranchRow>,
-    pub checkpoint: Vec<u8>,
-    pub journal: Vec<u8>,
-    /// Why the walk ended with them, if it did.
-    pub reason: Option<StoredReason>,
-    /// Whether the thread has left the walk.
-    pub last: bool,
+    pub stretch: Stretch,
     pub cancelled: Arc<AtomicBool>,
 }
 
@@ -136,7 +125,7 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
             solver.probe(*frequency_hz, multiples, &mut || stop.load(Ordering::Relaxed))
         }
         Question::Leave(crossing) => {
-            // Only a branch that can be begun is one.
+            // Only a branch that can be followed is one.
             solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
             Ok(complete(vec![solver.root(crossing)?]))
         }
@@ -145,83 +134,31 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
 
 /// Walks until the walk ends, its share is walked, it is to leave, or nobody reads reports any more.
 fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop: &AtomicBool) {
+    let report = |stretch: Stretch| {
+        let cancelled = Arc::clone(&task.cancelled);
+        Report::Walked(Walked { key: task.key, side: task.side, stretch, cancelled })
+    };
     let opened = match &task.from {
         From::Origin(origin) => solver.begin(origin, task.side),
         From::Memory(memory) => solver.resume(&memory.checkpoint, &memory.journal),
     };
     let mut walk = match opened {
         Ok(walk) => walk,
+        // A walk that cannot begin ends its side; one that cannot be taken up is an error.
         Err(message) => {
-            let _ = reports.send(not_opened(task, message));
+            let _ = reports.send(match task.from {
+                From::Memory(_) => Report::Failed { key: task.key, message },
+                From::Origin(_) => report(Stretch::not_started(message)),
+            });
             return;
         }
     };
-    let leave = || stop.load(Ordering::Relaxed) || task.cancelled.load(Ordering::Relaxed);
-    let mut stored = task.stored;
-    loop {
-        let mut rows = Vec::new();
-        let left = task.share.map_or(u64::MAX, |share| share.saturating_sub(stored - task.stored));
-        // What cannot be computed ends its side and nothing else.
-        let reason = stretch(walk.as_mut(), &mut rows, (stored, task.budget), left.min(SEND_AT), &leave)
-            .unwrap_or_else(|message| Some(StoredReason::failed(&message)));
-        if task.cancelled.load(Ordering::Relaxed) {
-            let _ = reports.send(Report::Left);
-            return;
-        }
-        stored += rows.len() as u64;
-        let last = reason.is_some() || leave() || rows.len() as u64 >= left;
-        let stretch = Stretch {
-            key: task.key,
-            side: task.side,
-            rows,
-            checkpoint: walk.checkpoint(),
-            journal: walk.take_journal(),
-            reason,
-            last,
-            cancelled: Arc::clone(&task.cancelled),
-        };
-        if reports.send(Report::Walked(stretch)).is_err() || last {
-            return;
-        }
-    }
-}
-
-/// A walk that cannot begin is told as the end of its side; one that cannot be taken up is an error.
-fn not_opened(task: &WalkTask, message: String) -> Report {
-    match task.from {
-        From::Memory(_) => Report::Failed { key: task.key, message },
-        From::Origin(_) => Report::Walked(Stretch {
-            key: task.key,
-            side: task.side,
-            rows: Vec::new(),
-            checkpoint: Vec::new(),
-            journal: Vec::new(),
-            reason: Some(StoredReason::not_begun(&message)),
-            last: true,
-            cancelled: Arc::clone(&task.cancelled),
-        }),
-    }
-}
-
-/// Appends solutions that are sent together, so many or a few more; why the walk ended with them if it did.
-fn stretch(
-    walk: &mut dyn Walk,
-    rows: &mut Vec<BranchRow>,
-    (stored, budget): (u64, u64),
-    most: u64,
-    leave: &dyn Fn() -> bool,
-) -> Result<Option<StoredReason>, String> {
-    let begun = Instant::now();
-    loop {
-        if stored + rows.len() as u64 >= budget {
-            let reason = StopReason::Budget { solutions: budget as usize };
-            return Ok(Some(StoredReason::of(&reason)));
-        }
-        if let Some(reason) = walk.step(rows)? {
-            return Ok(Some(StoredReason::of(&reason)));
-        }
-        if rows.len() as u64 >= most || begun.elapsed() >= SEND_AFTER || leave() {
-            return Ok(None);
-        }
-    }
+    let is_cancelled = || task.cancelled.load(Ordering::Relaxed);
+    let leave = || stop.load(Ordering::Relaxed) || is_cancelled();
+    let limits = WalkLimits { stored: task.stored, budget: task.budget, share: task.share };
+    walk_on(walk.as_mut(), limits, &leave, &mut |stretch| {
+        let is_wanted = !is_cancelled();
+        let news = if is_wanted { report(stretch) } else { Report::Left };
+        reports.send(news).is_ok() && is_wanted
+    });
 }

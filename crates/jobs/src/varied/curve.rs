@@ -1,23 +1,21 @@
-//! Curves of bifurcations, from the events of stored branches.
+//! Curves of bifurcations from the events of stored branches: what is computed for a `[[curve]]`.
 
 use hammerbeam_orbit::{
-    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events, LocatedEvent, OrbitError,
+    BranchEventKind, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, LocatedEvent, OrbitError,
     PathError, PeriodicSolution, Side,
 };
 use hammerbeam_results::{
-    reason::{CAME_BACK, OVER_PARAMETER, splits},
-    store::{Store, StoreError, VariedBranch, VariedRow, solution_key},
+    end::BranchEnd,
+    row::SolvedRow,
+    store::{Store, StoreError, StoredMemory, solution_key},
 };
 use hammerbeam_study::{
     Model, Study, StudyParameter,
     file::{Curve, CurveOf},
 };
 
-use super::{
-    Failed, Found,
-    watch::{Watch, Way},
-};
-use crate::orbit_solver::settings;
+use super::solver::{Failed, FoundStarts, PieceSolver};
+use crate::{orbit_solver::settings, walk::Walk};
 
 /// Longest step of a curve, in hundredths of the ranges.
 const MAX_STEP: f64 = 0.5;
@@ -37,32 +35,136 @@ pub(super) fn start(
     if is_corner && curve.of != CurveOf::Grazing {
         let (of, hz) = (curve.of.name(), solution.frequency_hz);
         return Ok(Err(format!(
-            "the {of} nearest to it, at {hz} Hz, is a corner of the branch at a grazing, where multipliers jump: ask for the curve of the grazing"
+            "the {of} nearest to it, at {hz} Hz, is a corner of the branch at a grazing, where multipliers \
+             jump: ask for the curve of the grazing"
         )));
     }
     Ok(Ok((solution, event)))
 }
 
-/// The curve through that event.
-pub(super) fn follow(
-    model: &Model,
-    study: &Study,
-    (curve, (start, event)): (&Curve, &(PeriodicSolution, LocatedEvent)),
-    watch: &Watch<'_>,
-) -> Result<Found, Failed> {
-    let parameter = model.parameter(study, &curve.parameter).map_err(Failed::Message)?;
-    let kind = kind_of(curve.of, event);
-    let [low, high] = study.excitation.range_hz();
-    let [from, to] = curve.parameter.range;
-    let curve_settings = CurveSettings {
-        parameter: parameter.parameter,
-        range: (parameter.in_system(from), parameter.in_system(to)),
-        range_hz: (low, high),
-        max_step: MAX_STEP,
-        max_rows: study.continuation.budget_solutions,
-    };
-    let branch = both_sides(model, study, (start, kind), (curve, &curve_settings, &parameter), watch)?;
-    Ok(Found { branches: vec![branch], message: None })
+/// The curve through an event.
+#[derive(Debug)]
+pub(super) struct CurveSolver<'a> {
+    model: &'a Model,
+    study: &'a Study,
+    curve: &'a Curve,
+    parameter: StudyParameter,
+    /// Value of the parameter as the study has it, in the unit of its name.
+    value: f64,
+    start: PeriodicSolution,
+    kind: CurveKind,
+}
+
+impl<'a> CurveSolver<'a> {
+    /// * `(start, event)`: of [`start`].
+    pub fn new(
+        (model, study): (&'a Model, &'a Study),
+        curve: &'a Curve,
+        (start, event): (PeriodicSolution, LocatedEvent),
+    ) -> Result<Self, String> {
+        let parameter = model.parameter(study, &curve.parameter)?;
+        let value = model.system.parameter(parameter.parameter).map_err(|error| error.to_string())?;
+        let kind = kind_of(curve.of, &event);
+        Ok(Self { model, study, curve, parameter, value: parameter.in_study(value), start, kind })
+    }
+
+    fn settings(&self) -> CurveSettings {
+        let [low, high] = self.study.excitation.range_hz();
+        let [from, to] = self.curve.parameter.range;
+        CurveSettings {
+            parameter: self.parameter.parameter,
+            range: (self.parameter.in_system(from), self.parameter.in_system(to)),
+            range_hz: (low, high),
+            max_step: MAX_STEP,
+            max_rows: self.study.continuation.budget_solutions,
+        }
+    }
+
+    /// Why no curve starts, in the unit of its parameter.
+    fn failed(&self, error: OrbitError) -> Failed {
+        match error {
+            OrbitError::Path(PathError::Start { parameter: value, cause }) => {
+                let value = self.parameter.in_range(value, self.curve.parameter.range);
+                let name = &self.curve.parameter.name;
+                Failed::Message(format!("the start at {name} = {value} was not corrected: {cause}"))
+            }
+            error => error.into(),
+        }
+    }
+}
+
+impl PieceSolver for CurveSolver<'_> {
+    fn search(&self, _interrupted: &dyn Fn() -> bool) -> Result<FoundStarts, Failed> {
+        Ok(FoundStarts { starts: vec![self.start.clone()], parameter: self.value, message: None })
+    }
+
+    fn begin<'a>(&'a self, _start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, Failed> {
+        let (system, response) = (&self.model.system, &self.model.response);
+        let of_side = (self.kind, side);
+        let orbits = settings(&self.study.continuation);
+        let walk = CurveWalk::new(system, response, &self.start, of_side, &self.settings(), &orbits)
+            .map_err(|error| self.failed(error))?;
+        let (kind, parameter, range) = (self.kind, self.parameter, self.curve.parameter.range);
+        Ok(Box::new(SideOfCurve { walk, is_at_start: side == Side::Up, kind, parameter, range, last: None }))
+    }
+
+    fn resume<'a>(&'a self, _memory: &StoredMemory) -> Result<Box<dyn Walk + 'a>, Failed> {
+        Err(Failed::Message("a side of a curve is walked from its start to its end".to_owned()))
+    }
+
+    fn way(&self) -> ([f64; 2], f64) {
+        (self.curve.parameter.range, self.value)
+    }
+
+    fn is_near(&self, _start: &PeriodicSolution, _states: &[(f64, Vec<f64>)]) -> Result<bool, Failed> {
+        Ok(false)
+    }
+}
+
+/// A walk along one side of a curve, in the unit of its parameter.
+#[derive(Debug)]
+struct SideOfCurve {
+    walk: CurveWalk,
+    /// The start is still to be given as a row.
+    is_at_start: bool,
+    kind: CurveKind,
+    parameter: StudyParameter,
+    range: [f64; 2],
+    /// The newest row: how the curve ends may mark it.
+    last: Option<CurveRow>,
+}
+
+impl Walk for SideOfCurve {
+    fn step(&mut self, rows: &mut Vec<SolvedRow>) -> Result<Option<BranchEnd>, String> {
+        let found = if std::mem::take(&mut self.is_at_start) {
+            self.walk.start_row().map(Ok)
+        } else {
+            self.walk.step()
+        };
+        let (next, end, failure) = match found {
+            Ok(Ok(row)) => (Some(row), None, None),
+            Ok(Err(end)) => (None, Some(end), None),
+            Err(error) => (None, None, Some(error.to_string())),
+        };
+        let before = std::mem::replace(&mut self.last, next);
+        let value = |value: f64| self.parameter.in_range(value, self.range);
+        if let Some(mut row) = before {
+            if let Some(end) = &end {
+                row.events.mark_end(self.kind, end);
+            }
+            let row = SolvedRow::from(row);
+            rows.push(SolvedRow { parameter: value(row.parameter), ..row });
+        }
+        failure.map_or_else(|| Ok(end.map(|end| BranchEnd::Curve(end.in_unit(value)))), Err)
+    }
+
+    fn checkpoint(&self) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn take_journal(&mut self) -> Vec<u8> {
+        Vec::new()
+    }
 }
 
 fn kind_of(of: CurveOf, event: &LocatedEvent) -> CurveKind {
@@ -74,81 +176,23 @@ fn kind_of(of: CurveOf, event: &LocatedEvent) -> CurveKind {
     }
 }
 
-fn both_sides(
-    model: &Model,
-    study: &Study,
-    (start, kind): (&PeriodicSolution, CurveKind),
-    (curve, curve_settings, parameter): (&Curve, &CurveSettings, &StudyParameter),
-    watch: &Watch<'_>,
-) -> Result<VariedBranch, Failed> {
-    let orbits = settings(&study.continuation);
-    let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
-    let mut way = Way::new(curve.parameter.range, parameter.in_study(value));
-    let (mut rows, mut ends) = (Vec::new(), Vec::new());
-    for side in [Side::Down, Side::Up] {
-        let of_side = (kind, side);
-        let mut walk =
-            CurveWalk::new(&model.system, &model.response, start, of_side, curve_settings, &orbits)
-                .map_err(|error| failed(error, curve, parameter))?;
-        let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
-        let end = loop {
-            if watch.interrupted() {
-                return Err(Failed::Interrupted);
-            }
-            match walk.step()? {
-                Ok(row) => {
-                    let value = parameter.in_study(row.parameter);
-                    watch.row(value, row.solution.frequency_hz, way.at(value, side == Side::Up));
-                    walked.push(row);
-                }
-                Err(end) => break end,
-            }
-        };
-        if let Some(last) = walked.last_mut() {
-            last.events.mark_end(kind, &end);
-        }
-        if side == Side::Down {
-            walked.reverse();
-        }
-        rows.extend(walked.into_iter().map(|row| varied(row, parameter, curve.parameter.range)));
-        ends.push(in_words(&end, kind, curve, parameter));
-        if end == CurveEnd::Closed {
-            ends.push(ends[0].clone());
-            break;
-        }
-    }
-    let [down, up] = [ends.swap_remove(0), ends.pop().unwrap_or_default()];
-    let kind = curve.of.name().to_owned();
-    Ok(VariedBranch { period_multiple: curve.period_multiple, kind, up, down, rows })
-}
-
-fn varied(row: CurveRow, parameter: &StudyParameter, range: [f64; 2]) -> VariedRow {
-    let event = row.events.label();
-    VariedRow {
-        parameter: parameter.in_range(row.parameter, range),
-        solution: row.solution,
-        event,
-        located: None,
-    }
-}
-
 /// The solution at the event of that kind nearest to the frequency, over all branches of that period.
 fn nearest_event(
     store: &Store,
     curve: &Curve,
 ) -> Result<Option<(PeriodicSolution, LocatedEvent)>, StoreError> {
-    let wanted = |events: Events| match curve.of {
-        CurveOf::Fold => events.fold,
-        CurveOf::Flip => events.flip,
-        CurveOf::NeimarkSacker => events.neimark_sacker,
-        CurveOf::Grazing => events.grazing,
+    let wanted = match curve.of {
+        CurveOf::Fold => BranchEventKind::Fold,
+        CurveOf::Flip => BranchEventKind::Flip,
+        CurveOf::NeimarkSacker => BranchEventKind::NeimarkSacker,
+        CurveOf::Grazing => BranchEventKind::Grazing,
     };
     let mut nearest: Option<(f64, i64)> = None;
     let mut found = Vec::new();
     for branch in store.branches()?.iter().filter(|branch| branch.period_multiple == curve.period_multiple) {
         for side in [Side::Up, Side::Down] {
             for (number, row) in store.walked(branch.start, side)?.iter().enumerate() {
-                if !wanted(row.events) {
+                if !row.events.has(wanted) {
                     continue;
                 }
                 let distance = (row.frequency_hz - curve.near_hz).abs();
@@ -166,8 +210,8 @@ fn nearest_event(
     Ok(Some((store.solution_of_key(key)?, event)))
 }
 
-/// Of events that cannot be told from the nearest one by their places, as at a corner that several rows mark,
-/// the one that is known best.
+/// Of events that cannot be distinguished from the nearest one by their places, as at a corner that several
+/// rows mark, the one that is known best.
 ///
 /// * `found`: frequencies [Hz] and keys.
 fn best_known(
@@ -188,63 +232,4 @@ fn best_known(
         }
     }
     Ok(best)
-}
-
-/// Why no curve begins, in the unit of its parameter.
-fn failed(error: OrbitError, curve: &Curve, parameter: &StudyParameter) -> Failed {
-    match error {
-        OrbitError::Path(PathError::Start { parameter: value, cause }) => {
-            let start = named(value, curve, parameter);
-            Failed::Message(format!("the start at {start} was not corrected: {cause}"))
-        }
-        error => error.into(),
-    }
-}
-
-fn named(value: f64, curve: &Curve, parameter: &StudyParameter) -> String {
-    format!("{} = {}", curve.parameter.name, parameter.in_range(value, curve.parameter.range))
-}
-
-fn in_words(end: &CurveEnd, kind: CurveKind, curve: &Curve, parameter: &StudyParameter) -> String {
-    match end {
-        CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
-        CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
-        CurveEnd::Closed => format!("the curve {CAME_BACK}"),
-        CurveEnd::Resonance => "the second frequency of the motion came into a resonance of 1:1 or 1:2 \
-            with its own, where its pair of multipliers becomes real and Neimark-Sacker points end"
-            .to_owned(),
-        CurveEnd::OwnImage { parameter: value, mirrored: true } => format!(
-            "the orbits become symmetric at {}, where pairs of mirror images branch off: the curve comes back from there as that of the mirror images, over the same values",
-            named(*value, curve, parameter)
-        ),
-        CurveEnd::OwnImage { parameter: value, mirrored: false } => format!(
-            "the orbits become those of half their period at {}, where they branch off in a flip: the curve comes back from there as that of the same orbits half a period later, over the same values",
-            named(*value, curve, parameter)
-        ),
-        CurveEnd::Grazing { parameter: value, cause } => {
-            let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
-            let resonant = kind.resonant_grazing().map_or(String::new(), |name| {
-                format!(": a resonant grazing ({name}) where the curve ends on that of the grazing")
-            });
-            format!("met a grazing at {}{resonant}{cause}", named(*value, curve, parameter))
-        }
-        CurveEnd::GrazedAsWell { parameter: value, element } => {
-            format!("{element} is grazed as well at {} and struck beyond", named(*value, curve, parameter))
-        }
-        CurveEnd::ContactSplits { parameter: value, element, phase } => {
-            format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase, &OVER_PARAMETER))
-        }
-        CurveEnd::Crawls { parameter: value, rows } => {
-            format!(
-                "ended early at {}: the last {rows} solutions brought the curve no further",
-                named(*value, curve, parameter)
-            )
-        }
-        CurveEnd::Budget => "the budget of solutions is used up; with a larger budget_solutions \
-            ([continuation]) a new run gets further"
-            .to_owned(),
-        CurveEnd::Stopped { parameter: value, message } => {
-            format!("ended early at {}: {message}", named(*value, curve, parameter))
-        }
-    }
 }

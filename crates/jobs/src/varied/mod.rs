@@ -2,63 +2,48 @@
 //! curves of bifurcations (`[[curve]]`).
 //!
 //! A *vary* finds all orbits of the study as it is at its frequency, and follows each that does not lie on a
-//! branch already followed to both ends of the range. A *curve* begins at the event of a stored branch that
-//! is nearest to its frequency, and is followed to both sides. Pieces do not depend on each other: each is
-//! computed by one thread and stored whole under its place in the study, so results are the same for any
-//! number of threads. What is stored is not done again; of an interrupted run all pieces are kept that were
-//! finished.
+//! branch already followed to both ends of the range. A *curve* starts at the event of a stored branch that
+//! is nearest to its frequency, and is followed to both sides.
+//!
+//! Pieces do not depend on each other, and what is done of one follows from what is stored of it, so results
+//! are the same for any number of threads. Branches are stored and taken up again as those over the frequency
+//! are: stretch by stretch, with the checkpoints of their walks. A side of a curve is stored whole.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `solver.rs` | what is needed of the numerics |
+//! | `vary.rs`, `curve.rs` | that, for branches and for curves |
+//! | `piece.rs` | what is left to do of a piece |
+//! | `pool.rs`, `watch.rs` | all pieces on many threads; what these report |
 
-mod branch;
 mod curve;
+mod piece;
 mod pool;
+mod solver;
+mod vary;
 mod watch;
 
-use hammerbeam_orbit::{LocatedEvent, OrbitError, PeriodicSolution};
-use hammerbeam_results::store::{Piece, Store, StoreError, VariedBranch};
-use hammerbeam_study::{
-    Model, Study,
-    file::{Curve, Vary},
-};
+use hammerbeam_orbit::{LocatedEvent, PeriodicSolution};
+use hammerbeam_results::store::{Piece, PieceKind, Store, StoreError};
+use hammerbeam_study::{Model, Study, file::VariedParameter};
 
 use crate::Observer;
+use curve::CurveSolver;
+use piece::PieceWork;
+use solver::PieceSolver;
+use vary::VarySolver;
 
 /// What came of the pieces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariedOutcome {
     /// Everything is stored.
     Done,
-    /// The observer said stop; the same run goes on with the pieces at which it was.
+    /// The observer said stop; the same run goes on where it was.
     Interrupted,
 }
 
-/// What came of one piece.
-struct Found {
-    branches: Vec<VariedBranch>,
-    message: Option<String>,
-}
-
-/// Why a piece has no result.
-enum Failed {
-    Interrupted,
-    /// In words; it is stored as what came of the piece.
-    Message(String),
-}
-
-impl From<OrbitError> for Failed {
-    fn from(error: OrbitError) -> Self {
-        match error {
-            OrbitError::Interrupted => Self::Interrupted,
-            error => Self::Message(error.to_string()),
-        }
-    }
-}
-
-/// What a piece is computed from.
-enum Work<'a> {
-    Vary(&'a Vary),
-    /// With the event at which it begins, or why there is none.
-    Curve(&'a Curve, Result<Box<(PeriodicSolution, LocatedEvent)>, String>),
-}
+/// Where a curve starts, or why there is none.
+type CurveStart = Result<(PeriodicSolution, LocatedEvent), String>;
 
 /// Computes what is left of the varied branches and curves of a study, after its diagram, on so many threads.
 ///
@@ -71,47 +56,49 @@ pub fn run(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<VariedOutcome, StoreError> {
-    let budget = study.continuation.budget_solutions;
-    let mut asked: Vec<(Piece, Work<'_>)> = Vec::new();
-    for vary in &study.varies {
-        let definition = (vary, budget);
-        asked.push((piece("vary", &definition, &vary.parameter.name), Work::Vary(vary)));
-    }
-    for curve in &study.curves {
-        let start = curve::start(store, curve)?.map(Box::new);
-        // It begins elsewhere when branches have gone on since.
-        let from = start.as_ref().map(|start| start.0.frequency_hz).map_err(String::as_str);
-        let definition = (curve, budget, from);
-        asked.push((piece("curve", &definition, &curve.parameter.name), Work::Curve(curve, start)));
-    }
-    let wanted: Vec<Piece> = asked.iter().map(|(piece, _)| piece.clone()).collect();
+    let starts: Vec<CurveStart> =
+        study.curves.iter().map(|curve| curve::start(store, curve)).collect::<Result<_, _>>()?;
+    let wanted = pieces(study, &starts);
     store.keep_pieces(&wanted)?;
-    let (mut pieces, mut works) = (Vec::new(), Vec::new());
-    for (place, (piece, work)) in asked.into_iter().enumerate() {
-        if !store.has_piece(&piece)? && wanted.iter().position(|other| *other == piece) == Some(place) {
-            works.push(work);
-            pieces.push((place as u32 + 1, piece));
-        }
+    let stored = store.all_pieces()?;
+    let (varies, curves) = (study.varies.len(), study.curves.len());
+    let mut solvers: Vec<Result<Box<dyn PieceSolver + '_>, String>> = Vec::with_capacity(varies + curves);
+    for vary in &study.varies {
+        solvers.push(VarySolver::new(model, study, vary).map(|solver| Box::new(solver) as _));
     }
-    let names: Vec<&str> = pieces.iter().map(|(_, piece)| piece.parameter.as_str()).collect();
-    let compute = |number: usize, watch: &watch::Watch<'_>| match &works[number] {
-        Work::Vary(vary) => branch::follow(model, study, vary, watch),
-        Work::Curve(curve, Ok(start)) => curve::follow(model, study, (curve, start), watch),
-        Work::Curve(_, Err(message)) => Err(Failed::Message(message.clone())),
+    for (curve, start) in study.curves.iter().zip(starts) {
+        let solver = start.and_then(|start| CurveSolver::new((model, study), curve, start));
+        solvers.push(solver.map(|solver| Box::new(solver) as _));
+    }
+    let work = |record: hammerbeam_results::store::PieceRecord| {
+        let solver = &solvers[record.place as usize - 1];
+        PieceWork { record, solver: solver.as_deref().map_err(Clone::clone), is_running: false }
     };
-    let keep = |number: usize, found: Result<Found, Failed>| {
-        let (place, piece) = &pieces[number];
-        match found {
-            Ok(found) => store.store_piece(*place, piece, &found.branches, found.message.as_deref()),
-            Err(Failed::Message(message)) => store.store_piece(*place, piece, &[], Some(&message)),
-            Err(Failed::Interrupted) => Ok(()),
-        }
-    };
-    let all = pool::compute_all(&names, threads, observer, compute, keep)?;
+    let mut left: Vec<PieceWork<'_>> =
+        stored.into_iter().filter(|record| !record.finished).map(work).collect();
+    let all = pool::compute_all(store, &mut left, threads, observer)?;
     Ok(if all { VariedOutcome::Done } else { VariedOutcome::Interrupted })
 }
 
-fn piece(kind: &str, definition: &impl serde::Serialize, parameter: &str) -> Piece {
+/// What the study asks for, in its order.
+fn pieces(study: &Study, starts: &[CurveStart]) -> Vec<Piece> {
+    let budget = study.continuation.budget_solutions;
+    let varies =
+        study.varies.iter().map(|vary| piece(PieceKind::Vary, "vary", &(vary, budget), &vary.parameter));
+    let curves = study.curves.iter().zip(starts).map(|(curve, start)| {
+        // It starts elsewhere when branches have gone on since.
+        let from = start.as_ref().map(|start| start.0.frequency_hz).map_err(String::as_str);
+        piece(PieceKind::Curve(curve.of), "curve", &(curve, budget, from), &curve.parameter)
+    });
+    varies.chain(curves).collect()
+}
+
+fn piece(
+    kind: PieceKind,
+    word: &str,
+    definition: &impl serde::Serialize,
+    parameter: &VariedParameter,
+) -> Piece {
     let text = serde_json::to_string(definition).expect("a piece is plain data with text keys");
-    Piece { definition: format!("{kind} {text}"), is_curve: kind == "curve", parameter: parameter.to_owned() }
+    Piece { definition: format!("{word} {text}"), kind, parameter: parameter.name.clone() }
 }

@@ -1,103 +1,130 @@
-//! Pieces on many threads, each computed by one; what they give is stored as soon as it is there.
+//! Pieces on many threads, each done by one at a time; what they give is stored as soon as it is there.
 
 use std::sync::{
     atomic::{AtomicBool, Ordering},
-    mpsc::{self, Sender},
+    mpsc,
 };
 
-use hammerbeam_results::store::StoreError;
+use hammerbeam_results::store::{Store, StoreError};
 
-use super::{Failed, Found, watch::Watch};
+use super::{
+    piece::{PieceTask, PieceWork},
+    solver::PieceSolver,
+    watch::{News, PieceNews, Watch},
+};
 use crate::{
     Observer, VariedProgress,
     pool::{PATIENCE, with_pool},
 };
 
-/// What threads report.
-pub(super) enum News {
-    /// A new solution of a piece.
-    Row { piece: usize, value: f64, frequency_hz: f64, fraction: f64 },
-    /// A piece is done, or given up.
-    Done { piece: usize, found: Result<Found, Failed> },
-}
-
-/// Computes so many pieces and hands each over when it is done; whether all were, or the observer said stop.
-///
-/// * `names`: the parameter of each piece.
-/// * `compute`: computes the piece of a number; called on several threads at once.
-/// * `store`: takes what came of the piece of a number, on this thread.
-pub(super) fn compute_all(
-    names: &[&str],
+/// Computes what is left of the pieces and stores it; whether all are finished, or the observer said stop.
+pub(super) fn compute_all<'w>(
+    store: &mut Store,
+    pieces: &mut [PieceWork<'w>],
     threads: usize,
     observer: &mut dyn Observer,
-    compute: impl Fn(usize, &Watch<'_>) -> Result<Found, Failed> + Sync,
-    mut store: impl FnMut(usize, Result<Found, Failed>) -> Result<(), StoreError>,
 ) -> Result<bool, StoreError> {
     let stop = AtomicBool::new(false);
-    let (stop, compute) = (&stop, &compute);
-    let mut desk = Desk::new(names);
+    let stop = &stop;
+    let names: Vec<String> = pieces.iter().map(|piece| piece.record.parameter.clone()).collect();
     with_pool(threads.min(names.len()), |pool| {
         let (sender, news) = mpsc::channel();
-        let mut result = Ok(());
-        let mut next = 0;
-        let mut busy = 0;
-        loop {
+        let mut desk = Desk {
+            names: &names,
+            fractions: vec![0.0; names.len()],
+            done: 0,
+            solutions: 0,
+            busy: 0,
+            most: pool.threads().max(1),
+        };
+        let hand = |(piece, solver, task): Handed<'w>| {
+            let sender = sender.clone();
+            pool.hand(move || PieceWork::work(solver, &task, &Watch { piece, stop, news: &sender }));
+        };
+        let result = loop {
             if observer.interrupted() {
                 stop.store(true, Ordering::Relaxed);
             }
-            while busy < pool.threads().max(1) && next < names.len() && !stop.load(Ordering::Relaxed) {
-                let (piece, sender) = (next, sender.clone());
-                pool.hand(move || work(piece, stop, sender, compute));
-                next += 1;
-                busy += 1;
+            if !stop.load(Ordering::Relaxed)
+                && let Err(error) = desk.hand_out(store, pieces, &hand)
+            {
+                break Err(error);
             }
-            if busy == 0 {
-                return result.map(|()| desk.all_done());
+            if desk.busy == 0 {
+                break Ok(desk.done == names.len());
             }
             match news.recv_timeout(PATIENCE) {
-                Ok(News::Row { piece, value, frequency_hz, fraction }) => {
-                    desk.note(piece, fraction);
-                    observer.varied(&desk.progress(piece, value, frequency_hz));
-                }
-                Ok(News::Done { piece, found }) => {
-                    busy -= 1;
-                    if result.is_ok() && !matches!(found, Err(Failed::Interrupted)) {
-                        result = store(piece, found);
-                        desk.done(piece);
-                    }
-                    if result.is_err() {
-                        stop.store(true, Ordering::Relaxed);
+                Ok(news) => {
+                    if let Err(error) = desk.take(store, pieces, news, observer) {
+                        break Err(error);
                     }
                 }
                 Err(_) => assert!(!pool.has_panicked(), "a thread has panicked"),
             }
-        }
+        };
+        // Threads that still work do so for nothing.
+        stop.store(true, Ordering::Relaxed);
+        result
     })
 }
 
-/// Computes a piece and reports what came of it.
-fn work(
-    piece: usize,
-    stop: &AtomicBool,
-    news: Sender<News>,
-    compute: &(impl Fn(usize, &Watch<'_>) -> Result<Found, Failed> + Sync),
-) {
-    let found = compute(piece, &Watch { piece, stop, news: &news });
-    // Nobody may wait for it any more.
-    let _ = news.send(News::Done { piece, found });
-}
+/// A piece by its number, and what a thread is to do of it.
+type Handed<'w> = (usize, &'w dyn PieceSolver, PieceTask);
 
 /// What is done of each piece.
 struct Desk<'a> {
-    names: &'a [&'a str],
+    names: &'a [String],
     fractions: Vec<f64>,
     done: usize,
     solutions: u64,
+    /// Threads that have a task, and how many there are.
+    busy: usize,
+    most: usize,
 }
 
 impl<'a> Desk<'a> {
-    fn new(names: &'a [&'a str]) -> Self {
-        Self { names, fractions: vec![0.0; names.len()], done: 0, solutions: 0 }
+    /// Hands out tasks of the pieces that nobody is at, in their order, as long as threads are idle.
+    fn hand_out<'w>(
+        &mut self,
+        store: &mut Store,
+        pieces: &mut [PieceWork<'w>],
+        hand: &dyn Fn(Handed<'w>),
+    ) -> Result<(), StoreError> {
+        for (number, piece) in pieces.iter_mut().enumerate() {
+            if self.busy == self.most {
+                break;
+            }
+            if piece.is_running {
+                continue;
+            }
+            if let (Some(task), Ok(solver)) = (piece.next_task(store)?, &piece.solver) {
+                piece.is_running = true;
+                self.busy += 1;
+                hand((number, *solver, task));
+            } else {
+                self.fractions[number] = 1.0;
+            }
+        }
+        self.done = pieces.iter().filter(|piece| piece.record.finished).count();
+        Ok(())
+    }
+
+    /// Takes what a thread reports.
+    fn take(
+        &mut self,
+        store: &mut Store,
+        pieces: &mut [PieceWork<'_>],
+        News { piece, what }: News,
+        observer: &mut dyn Observer,
+    ) -> Result<(), StoreError> {
+        if let PieceNews::Row { value, frequency_hz, fraction } = what {
+            self.note(piece, fraction);
+            observer.varied(&self.progress(piece, value, frequency_hz));
+            return Ok(());
+        }
+        pieces[piece].take(store, what)?;
+        self.busy -= usize::from(!pieces[piece].is_running);
+        Ok(())
     }
 
     fn note(&mut self, piece: usize, fraction: f64) {
@@ -105,18 +132,9 @@ impl<'a> Desk<'a> {
         self.solutions += 1;
     }
 
-    fn done(&mut self, piece: usize) {
-        self.fractions[piece] = 1.0;
-        self.done += 1;
-    }
-
-    fn all_done(&self) -> bool {
-        self.done == self.names.len()
-    }
-
     fn progress(&self, piece: usize, value: f64, frequency_hz: f64) -> VariedProgress<'a> {
         VariedProgress {
-            parameter: self.names[piece],
+            parameter: &self.names[piece],
             value,
             frequency_hz,
             pieces_done: self.done,
@@ -128,83 +146,4 @@ impl<'a> Desk<'a> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::{sync::atomic::AtomicUsize, thread};
-
-    use super::*;
-    use crate::Quiet;
-
-    fn nothing(message: String) -> Found {
-        Found { branches: Vec::new(), message: Some(message) }
-    }
-
-    /// The first piece waits until the others are stored.
-    #[test]
-    fn a_piece_is_stored_when_it_is_done_however_it_ends() {
-        let names = ["a", "b", "c", "d"];
-        for threads in [1, 2, 7] {
-            let stored = AtomicUsize::new(0);
-            let compute = |piece: usize, _: &Watch<'_>| {
-                while piece == 0 && threads > 1 && stored.load(Ordering::Relaxed) < 3 {
-                    thread::yield_now();
-                }
-                if piece == 2 { Err(Failed::Message("none".into())) } else { Ok(nothing(piece.to_string())) }
-            };
-            let mut order = Vec::new();
-            let store = |piece, found: Result<Found, Failed>| {
-                order.push((piece, found.is_ok()));
-                stored.fetch_add(1, Ordering::Relaxed);
-                Ok(())
-            };
-            assert!(compute_all(&names, threads, &mut Quiet, compute, store).expect("nothing refuses"));
-            if threads > 1 {
-                assert_eq!(order.last(), Some(&(0, true)), "{threads} threads");
-            }
-            order.sort_unstable();
-            assert_eq!(order, [(0, true), (1, true), (2, false), (3, true)], "{threads} threads");
-        }
-    }
-
-    #[derive(Default)]
-    struct Listener {
-        told: Vec<(f64, u64)>,
-        stops: bool,
-    }
-
-    impl Observer for Listener {
-        fn varied(&mut self, progress: &VariedProgress<'_>) {
-            assert!((0.0..=1.0).contains(&progress.fraction) && progress.pieces == 2);
-            self.told.push((progress.fraction, progress.new_solutions));
-        }
-
-        fn interrupted(&mut self) -> bool {
-            self.stops
-        }
-    }
-
-    #[test]
-    fn progress_grows_with_every_row() {
-        let mut listener = Listener::default();
-        let compute = |_: usize, watch: &Watch<'_>| {
-            (0..4).for_each(|k| watch.row(1.0, 2.0, 0.25 * f64::from(k)));
-            Ok(nothing(String::new()))
-        };
-        assert!(compute_all(&["a", "b"], 2, &mut listener, compute, |_, _| Ok(())).expect("no refusal"));
-        assert_eq!(listener.told.len(), 8);
-        assert!(listener.told.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 < pair[1].1));
-    }
-
-    /// A piece that hears of the interruption is not stored.
-    #[test]
-    fn an_interruption_reaches_every_thread() {
-        let mut listener = Listener { stops: true, ..Listener::default() };
-        let compute = |_: usize, watch: &Watch<'_>| {
-            while !watch.interrupted() {
-                thread::yield_now();
-            }
-            Err(Failed::Interrupted)
-        };
-        let stored = compute_all(&["a", "b"], 2, &mut listener, compute, |piece, _| panic!("{piece}"));
-        assert!(!stored.expect("nothing refuses"));
-    }
-}
+mod tests;

@@ -1,18 +1,87 @@
-//! What a piece tells while it is computed, and how it hears that it is to stop.
+//! What the computing of a piece reports, and how far it is.
 
 use std::sync::{
     atomic::{AtomicBool, Ordering},
     mpsc::Sender,
 };
 
-use super::pool::News;
+use hammerbeam_orbit::Side;
+use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 
-/// The ear and the mouth of one piece.
+use super::solver::{Failed, FoundStarts};
+use crate::walk::{Stretch, Walk};
+
+/// What threads report of a piece, by its number among those to be computed.
+#[derive(Debug)]
+pub(super) struct News {
+    pub piece: usize,
+    pub what: PieceNews,
+}
+
+#[derive(Debug)]
+pub(super) enum PieceNews {
+    /// A new solution.
+    Row { value: f64, frequency_hz: f64, fraction: f64 },
+    /// What came of the search.
+    Searched(Result<FoundStarts, Failed>),
+    /// More of a walk, from its start on or behind what is stored.
+    Walked { start: u32, side: Side, stretch: Stretch, from_start: bool },
+    /// A walk could not start, or go on.
+    NotOpened { start: u32, failed: Failed },
+    /// The task was given up when it was to stop.
+    Left,
+}
+
+/// Where a thread reports to, and whether it is to stop.
 pub(super) struct Watch<'a> {
     /// Number of the piece among those to be computed.
     pub piece: usize,
     pub stop: &'a AtomicBool,
     pub news: &'a Sender<News>,
+}
+
+impl Watch<'_> {
+    /// Whether to stop.
+    pub fn interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Reports; whether anybody reads it.
+    pub fn report(&self, what: PieceNews) -> bool {
+        self.news.send(News { piece: self.piece, what }).is_ok()
+    }
+}
+
+/// A walk that reports each of its rows.
+pub(super) struct WatchedWalk<'a> {
+    pub walk: Box<dyn Walk + 'a>,
+    pub watch: &'a Watch<'a>,
+    pub way: Way,
+    pub second_side: bool,
+    /// Part of the piece that is done before this start, and part of it that a start is.
+    pub share: [f64; 2],
+}
+
+impl Walk for WatchedWalk<'_> {
+    fn step(&mut self, rows: &mut Vec<SolvedRow>) -> Result<Option<BranchEnd>, String> {
+        let before = rows.len();
+        let end = self.walk.step(rows);
+        for row in &rows[before..] {
+            let [done, part] = self.share;
+            let fraction = done + part * self.way.at(row.parameter, self.second_side);
+            let frequency_hz = row.solution.frequency_hz;
+            self.watch.report(PieceNews::Row { value: row.parameter, frequency_hz, fraction });
+        }
+        end
+    }
+
+    fn checkpoint(&self) -> Option<Vec<u8>> {
+        self.walk.checkpoint()
+    }
+
+    fn take_journal(&mut self) -> Vec<u8> {
+        self.walk.take_journal()
+    }
 }
 
 /// How far a walk to both sides is: the part of the way from the start to the ends of the range.
@@ -24,21 +93,6 @@ pub(super) struct Way {
     pub start: f64,
     /// Largest part reached yet.
     pub reached: f64,
-}
-
-impl Watch<'_> {
-    /// Whether to stop.
-    pub fn interrupted(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// There is a new solution.
-    ///
-    /// * `fraction`: estimated part of the piece that is done, 0 to 1.
-    pub fn row(&self, value: f64, frequency_hz: f64, fraction: f64) {
-        // Nobody may listen any more, which is no harm.
-        let _ = self.news.send(News::Row { piece: self.piece, value, frequency_hz, fraction });
-    }
 }
 
 impl Way {

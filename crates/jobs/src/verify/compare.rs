@@ -1,11 +1,11 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
 use hammerbeam_motion::{Law, LocalElement, System, general::ElementMaxima};
-use hammerbeam_orbit::PeriodicSolution;
-use hammerbeam_results::store::Row;
+use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution};
+use hammerbeam_results::row::Row;
 
 use super::{
-    Quantity,
+    quantity::Quantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
     unknown::{Unknown, touches_at_nodes},
@@ -151,10 +151,11 @@ fn pushed(system: &System) -> f64 {
 
 /// Every comparison of a solution.
 ///
+/// * `(row, claims, solution)`: what tables show, what is claimed to happen there, and the solution.
 /// * `sensitivity`: how much the monodromy matrix changes with the first node, as far as that is wanted.
 pub(super) fn compare(
     (system, response): (&System, &[f64]),
-    (row, solution): (&Row, &PeriodicSolution),
+    (row, claims, solution): (&Row, EventSet, &PeriodicSolution),
     scales: &[f64],
     found: &Recomputed,
     (tolerance, sensitivity): (f64, f64),
@@ -172,7 +173,11 @@ pub(super) fn compare(
     let turned = found.kinks.iter().filter(|(_, penetration)| penetration.abs() <= margin).count();
     list.push(contacts(row, found, grazing + turned + cut.len()));
     // At a damper multipliers jump on the row of the grazing.
-    let damped_row = if row.events.grazing { damped.min(nearest_kink(system, found)) } else { f64::INFINITY };
+    let damped_row = if claims.has(BranchEventKind::Grazing) {
+        damped.min(nearest_kink(system, found))
+    } else {
+        f64::INFINITY
+    };
     let jump = rigid.min(damped).min(damped_row);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
@@ -183,7 +188,7 @@ pub(super) fn compare(
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
     // Beside a rigid stop multipliers are far outside the unit circle.
-    list.extend(events(row, found, &measures, (unknown, rigid.min(damped_row))));
+    list.extend(events(claims, found, &measures, (unknown, rigid.min(damped_row))));
     list
 }
 
@@ -298,7 +303,7 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
 ///   to a grazing at which they jump: from one side of the place of such an event to the other, so that none
 ///   need be there.
 fn events(
-    row: &Row,
+    claims: EventSet,
     found: &Recomputed,
     measures: &Measures,
     (unknown, jump): (f64, f64),
@@ -319,11 +324,12 @@ fn events(
             list.push(plain(Quantity::Events, 0.0, distance, distance));
         }
     };
-    claim(row.events.fold && !jumps, nearest(&|m| (m - 1.0).norm()));
-    claim(row.events.flip && !jumps, nearest(&|m| (m + 1.0).norm()));
+    let has = |kind| claims.has(kind);
+    claim(has(BranchEventKind::Fold) && !jumps, nearest(&|m| (m - 1.0).norm()));
+    claim(has(BranchEventKind::Flip) && !jumps, nearest(&|m| (m + 1.0).norm()));
     let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(row.events.neimark_sacker && !jumps, nearest(&circle));
-    claim(row.events.grazing, touch / measures.contact[0]);
+    claim(has(BranchEventKind::NeimarkSacker) && !jumps, nearest(&circle));
+    claim(has(BranchEventKind::Grazing), touch / measures.contact[0]);
     list
 }
 

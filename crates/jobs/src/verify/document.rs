@@ -3,7 +3,10 @@
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::{Disagreement, Verification, VerifySettings, Worst};
+use super::{
+    report::{Disagreement, Verification, VerifiedPlace, Worst},
+    settings::VerifySettings,
+};
 
 /// What came of a verification, and how close it was.
 #[derive(Debug)]
@@ -33,29 +36,41 @@ impl Serialize for VerifyReport {
 }
 
 fn of_quantity(worst: &Worst) -> Value {
-    json!({
+    let mut document = json!({
         "quantity": worst.quantity.name(),
         "worst_difference": number(worst.difference),
         "bound": worst.bound,
-        "branch": worst.place.map(|(branch, _)| branch),
-        "frequency_hz": worst.place.map(|(_, frequency_hz)| frequency_hz),
+        "branch": worst.place.map(|place| place.branch),
+        "frequency_hz": worst.place.map(|place| place.frequency_hz),
         "compared": worst.compared,
         "disagree": worst.disagree,
         "grazing": worst.grazing,
-    })
+    });
+    add_piece(&mut document, worst.place);
+    document
 }
 
 fn of_disagreement(found: &Disagreement) -> Value {
-    json!({
-        "branch": found.branch,
-        "frequency_hz": found.frequency_hz,
+    let mut document = json!({
+        "branch": found.place.branch,
+        "frequency_hz": found.place.frequency_hz,
         "quantity": found.quantity.name(),
         "stored": number(found.stored),
         "recomputed": number(found.recomputed),
         "difference": number(found.difference),
         "bound": found.bound,
         "message": found.message,
-    })
+    });
+    add_piece(&mut document, Some(found.place));
+    document
+}
+
+/// Adds the piece of a solution that is of one, with the value of its parameter.
+fn add_piece(document: &mut Value, place: Option<VerifiedPlace>) {
+    if let Some((piece, parameter)) = place.and_then(|place| place.piece) {
+        document["piece"] = json!(piece);
+        document["parameter"] = json!(parameter);
+    }
 }
 
 /// JSON has no infinity: null.

@@ -45,64 +45,46 @@
 //! below `c v_s` agree, and accelerations to what the response gets from that. A touch at a node belongs to
 //! either segment, or, by rounding, to none.
 //!
+//! Rows of curves are compared with `tau` of 1e-8 at least, to which curves are followed.
+//!
 //! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that
 //! of a penetration of `T G L_r`, and of an element that comes no deeper, agrees with none.
 //!
 //! | file | idea |
 //! |---|---|
-//! | `sample.rs` | which solutions |
+//! | `settings.rs`, `quantity.rs` | what is asked for, what is compared |
+//! | `stored.rs`, `sample.rs` | all stored rows, each with its system and what it claims; which of them |
 //! | `recompute.rs`, `spectrum.rs` | the motion over the orbit; multipliers and their conditions |
-//! | `compare.rs`, `unknown.rs` | the table above, and what cannot be told from nothing |
+//! | `compare.rs`, `unknown.rs` | the table above, and what cannot be distinguished from nothing |
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
 mod compare;
 mod document;
+mod quantity;
 mod recompute;
 mod report;
 mod sample;
+mod settings;
 mod spectrum;
+mod stored;
 mod unknown;
 
 use std::sync::atomic::AtomicBool;
 
-use hammerbeam_motion::general::GeneralSettings;
-use hammerbeam_orbit::{PeriodicSolution, Side};
-use hammerbeam_results::{
-    Store, StoreError,
-    store::{BranchRecord, Row},
-};
-use hammerbeam_study::Model;
+use hammerbeam_motion::{System, general::GeneralSettings};
+use hammerbeam_orbit::Response;
+use hammerbeam_results::{Store, StoreError};
 
-use crate::{CountedProgress, Observer, PooledOrder};
+use crate::{CountedProgress, Observer, PooledOrder, PreparedStudy};
 
 pub use document::VerifyReport;
-pub use report::{Disagreement, Quantity, Verification, Worst};
+pub use quantity::Quantity;
+pub use report::{Disagreement, Verification, VerifiedPlace, Worst};
+pub use settings::{TOLERANCE, VerifySettings};
 
 use compare::{Comparison, compare};
 use recompute::{recompute, scales, sensitivity};
-
-/// What to verify, and how closely.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VerifySettings {
-    /// Number of solutions; `None` for all.
-    pub sample: Option<u64>,
-    /// Which sample.
-    pub seed: u64,
-    /// The tolerance `tau` of all comparisons; see the module.
-    pub tolerance: f64,
-    /// Number of threads, at least 1; the result does not depend on it.
-    pub jobs: usize,
-}
-
-impl Default for VerifySettings {
-    /// A thousand solutions on one thread.
-    fn default() -> Self {
-        Self { sample: Some(1000), seed: 0, tolerance: TOLERANCE, jobs: 1 }
-    }
-}
-
-/// Default of [`VerifySettings::tolerance`].
-pub const TOLERANCE: f64 = 1e-9;
+use stored::{StoredRow, StoredRows};
 
 /// The general integrator is not asked for more, see [`GeneralSettings::tolerance`].
 const FINEST_MOTION: f64 = 3e-13;
@@ -116,15 +98,8 @@ fn motion_tolerance(tolerance: f64) -> f64 {
 /// Solutions that are in memory at once.
 const BATCH: usize = 1024;
 
-/// A stored solution and where it stands.
-#[derive(Debug)]
-struct Stored {
-    branch: u32,
-    row: Row,
-    solution: PeriodicSolution,
-}
-
-/// Computes stored solutions again and compares.
+/// Computes stored solutions again and compares: of branches over the frequency, over other parameters, and
+/// of curves, each with the system that it is of.
 ///
 /// # Returns
 /// `None` if the observer said stop.
@@ -133,93 +108,59 @@ struct Stored {
 /// The store refuses.
 pub fn verify(
     store: &Store,
-    model: &Model,
+    study: &PreparedStudy,
     settings: &VerifySettings,
     observer: &mut dyn Observer,
 ) -> Result<Option<Verification>, StoreError> {
     let _snapshot = store.snapshot()?;
-    let branches = store.branches()?;
-    let stored: u64 = branches.iter().map(|branch| branch.up.solutions + branch.down.solutions).sum();
-    let chosen = sample::sample(stored, settings.sample.unwrap_or(stored), settings.seed);
-    let places = places(store, &branches, &chosen)?;
-    let mut verification = Verification::new(stored, settings);
-    for batch in places.chunks(BATCH) {
-        let solutions: Vec<Stored> = batch.iter().map(|place| place.read(store)).collect::<Result<_, _>>()?;
+    let rows = StoredRows::of(store, study)?;
+    let count = rows.count();
+    let chosen =
+        rows.places(store, &sample::sample(count, settings.sample.unwrap_or(count), settings.seed))?;
+    let mut verification = Verification::new(count, settings);
+    for batch in chosen.chunks(BATCH) {
+        let solutions: Vec<StoredRow<'_>> =
+            batch.iter().map(|place| rows.read(store, place)).collect::<Result<_, _>>()?;
         let done = verification.sampled;
         let counted = |observer: &mut dyn Observer, more: usize| {
             observer.counted(&CountedProgress {
                 done: done + more as u64,
-                total: Some(places.len() as u64),
+                total: Some(chosen.len() as u64),
                 things: "solutions",
                 place: &"",
             });
         };
-        let compare = |(): &mut (), stored: &Stored, _: &AtomicBool| compare_one(model, stored, settings);
+        let compare = |(): &mut (), stored: &StoredRow<'_>, _: &AtomicBool| compare_one(stored, settings);
         let mut threads = PooledOrder::new(settings.jobs, observer);
         let Some(results) = threads.each(&solutions, &|| (), &compare, counted) else { return Ok(None) };
         for (stored, result) in solutions.iter().zip(results) {
-            verification.add(stored.branch, stored.solution.frequency_hz, result);
+            verification.add(stored.place, stored.tolerance(settings.tolerance), result);
         }
     }
     Ok(Some(verification))
 }
 
-/// Where a chosen solution stands.
-#[derive(Debug)]
-struct Place {
-    branch: u32,
-    start: u32,
-    side: Side,
-    number: u32,
-    row: Row,
-}
-
-impl Place {
-    fn read(&self, store: &Store) -> Result<Stored, StoreError> {
-        let solution = store.solution(self.start, self.side, self.number)?;
-        Ok(Stored { branch: self.branch, row: self.row, solution })
-    }
-}
-
-/// Places of the chosen solutions, counted end to end along one branch after the other.
-fn places(store: &Store, branches: &[BranchRecord], chosen: &[u64]) -> Result<Vec<Place>, StoreError> {
-    let mut wanted = chosen.iter().copied().peekable();
-    let mut places = Vec::with_capacity(chosen.len());
-    let mut first = 0;
-    for branch in branches {
-        let (down, up) = (branch.down.solutions, branch.up.solutions);
-        let mut index = 0;
-        store.each_row::<StoreError>(branch, |row| {
-            if wanted.next_if_eq(&(first + index)).is_some() {
-                // The down side is read from its end.
-                let (side, number) =
-                    if index < down { (Side::Down, down - 1 - index) } else { (Side::Up, index - down) };
-                places.push(Place {
-                    branch: branch.id,
-                    start: branch.start,
-                    side,
-                    number: number as u32,
-                    row,
-                });
-            }
-            index += 1;
-            Ok(())
-        })?;
-        first += down + up;
-    }
-    Ok(places)
-}
-
 type Compared = Result<Vec<Comparison>, String>;
 
-fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Compared {
-    let (solution, tolerance) = (&stored.solution, settings.tolerance);
-    let scales = scales(&model.system, solution).map_err(|failed| failed.to_string())?;
+fn compare_one(stored: &StoredRow<'_>, settings: &VerifySettings) -> Compared {
+    let (system, response) = stored.system()?;
+    compare_with((&system, &response), stored, settings)
+}
+
+fn compare_with(
+    (system, response): (&System, &Response),
+    stored: &StoredRow<'_>,
+    settings: &VerifySettings,
+) -> Compared {
+    let (solution, tolerance) = (&stored.solution, stored.tolerance(settings.tolerance));
+    let scales = scales(system, solution).map_err(|failed| failed.to_string())?;
     let motion = GeneralSettings::with_tolerance(motion_tolerance(tolerance));
-    let found = recompute(model, solution, &scales, &motion).map_err(|failed| failed.to_string())?;
-    let observed = (&model.system, model.response.shape.as_slice());
-    let with =
-        |sensitivity| compare(observed, (&stored.row, solution), &scales, &found, (tolerance, sensitivity));
+    let found =
+        recompute((system, response), solution, &scales, &motion).map_err(|failed| failed.to_string())?;
+    let with = |sensitivity| {
+        let claimed = (&stored.row, stored.claims, solution);
+        compare((system, response.shape.as_slice()), claimed, &scales, &found, (tolerance, sensitivity))
+    };
     let comparisons = with(0.0);
     let doubtful = |comparison: &Comparison| {
         comparison.quantity == Quantity::Multipliers && comparison.difference > tolerance
@@ -227,6 +168,6 @@ fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Com
     if !comparisons.iter().any(doubtful) {
         return Ok(comparisons);
     }
-    let sensitivity = sensitivity(model, solution, &scales, (&found, tolerance), &motion);
+    let sensitivity = sensitivity((system, response), solution, &scales, (&found, tolerance), &motion);
     Ok(with(sensitivity.map_err(|failed| failed.to_string())?))
 }

@@ -7,8 +7,7 @@ use hammerbeam_motion::{
     Stretch, System,
     general::{ElementMaxima, GeneralError, GeneralSettings, Observed, observe, sample},
 };
-use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
-use hammerbeam_study::Model;
+use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, Response};
 
 use super::spectrum::{Multiplier, norm, spectrum};
 
@@ -99,13 +98,13 @@ fn distance(a: &[f64], b: Option<&[f64]>, scales: &[f64]) -> f64 {
 
 /// Follows the motion from the first node over the whole orbit, and compares it with the others on the way.
 pub(super) fn recompute(
-    model: &Model,
+    (system, response): (&System, &Response),
     solution: &PeriodicSolution,
     scales: &[f64],
     settings: &GeneralSettings,
 ) -> Result<Recomputed, Failed> {
-    let (system, size, segments) = (&model.system, scales.len(), solution.nodes.len());
-    let response = (model.response.shape.as_slice(), model.response.support_ratios.as_slice());
+    let (size, segments) = (scales.len(), solution.nodes.len());
+    let response = (response.shape.as_slice(), response.support_ratios.as_slice());
     let mut settings = *settings;
     let (mut state, mut product) = (solution.nodes[0].clone(), Mat::<f64>::identity(size, size));
     let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
@@ -176,7 +175,7 @@ fn join(earlier: Observed, later: Observed) -> Observed {
 /// along any one. The larger one of both signs; that of the one from which a motion can begin, where the
 /// other leads into a contact whose law remembers how it began.
 pub(super) fn sensitivity(
-    model: &Model,
+    observed: (&System, &Response),
     solution: &PeriodicSolution,
     scales: &[f64],
     (found, change): (&Recomputed, f64),
@@ -191,7 +190,7 @@ pub(super) fn sensitivity(
         for (i, (entry, scale)) in changed.nodes[0].iter_mut().zip(scales).enumerate() {
             *entry += if i % 2 == 0 { side * scale } else { -side * scale };
         }
-        let other = match recompute(model, &changed, scales, settings) {
+        let other = match recompute(observed, &changed, scales, settings) {
             Err(Failed::Motion(GeneralError::StartsInContact { .. })) if !one_is_within => {
                 one_is_within = true;
                 continue;

@@ -1,66 +1,21 @@
 //! What a verification found.
 
 use super::{
-    VerifySettings,
     compare::{Comparison, bound},
+    quantity::Quantity,
+    settings::VerifySettings,
 };
 
-/// What is compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
-    /// That the motion from the first node meets the others and closes.
-    Residual,
-    /// Floquet multipliers; in a disagreement their moduli.
-    Multipliers,
-    /// Largest displacement [m].
-    Displacement,
-    /// Largest acceleration [m/s^2].
-    Acceleration,
-    /// Largest contact force [N].
-    ContactForce,
-    /// Largest impact velocity [m/s].
-    ImpactVelocity,
-    /// Sum of the impulses [N s].
-    Impulse,
-    /// Number of contacts.
-    Contacts,
-    /// That events are where they are claimed; in a disagreement the distance from there.
-    Events,
-    /// That the motion can be computed at all.
-    Motion,
-}
-
-impl Quantity {
-    /// All of them, in the order of a report.
-    pub const ALL: [Self; 10] = [
-        Self::Residual,
-        Self::Multipliers,
-        Self::Displacement,
-        Self::Acceleration,
-        Self::ContactForce,
-        Self::ImpactVelocity,
-        Self::Impulse,
-        Self::Contacts,
-        Self::Events,
-        Self::Motion,
-    ];
-
-    /// Its name, with the unit of its values.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Residual => "residual",
-            Self::Multipliers => "multiplier_modulus",
-            Self::Displacement => "max_abs_displacement_m",
-            Self::Acceleration => "max_abs_acceleration_m_s2",
-            Self::ContactForce => "max_contact_force_n",
-            Self::ImpactVelocity => "max_impact_velocity_m_s",
-            Self::Impulse => "impulse_n_s",
-            Self::Contacts => "contacts",
-            Self::Events => "events",
-            Self::Motion => "motion",
-        }
-    }
+/// Where a stored solution is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VerifiedPlace {
+    /// Of a branch over another parameter, or a curve: the place of its piece in the study, from 1, and the
+    /// value of the parameter, in the unit of its name.
+    pub piece: Option<(u32, f64)>,
+    /// Number of the branch, within its piece.
+    pub branch: u32,
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
 }
 
 /// The worst of a quantity.
@@ -72,8 +27,8 @@ pub struct Worst {
     pub difference: f64,
     /// What it may be.
     pub bound: f64,
-    /// Where: branch and frequency [Hz]; `None` if nothing was compared.
-    pub place: Option<(u32, f64)>,
+    /// Where; `None` if nothing was compared.
+    pub place: Option<VerifiedPlace>,
     /// Solutions that were compared.
     pub compared: u64,
     /// Solutions that disagree.
@@ -82,13 +37,22 @@ pub struct Worst {
     pub grazing: u64,
 }
 
+impl Worst {
+    /// Whether a difference is larger, as a part of what it may be.
+    fn is_exceeded_by(&self, difference: f64, bound: f64) -> bool {
+        if bound == self.bound {
+            difference > self.difference
+        } else {
+            difference / bound > self.difference / self.bound
+        }
+    }
+}
+
 /// A solution that disagrees in a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disagreement {
-    /// Number of the branch.
-    pub branch: u32,
-    /// Frequency [Hz].
-    pub frequency_hz: f64,
+    /// Where.
+    pub place: VerifiedPlace,
     /// What disagrees.
     pub quantity: Quantity,
     /// Stored value.
@@ -135,14 +99,18 @@ impl Verification {
     /// Number of solutions that disagree in something.
     #[must_use]
     pub fn disagreeing(&self) -> u64 {
-        let mut places: Vec<(u32, u64)> =
-            self.disagreements.iter().map(|d| (d.branch, d.frequency_hz.to_bits())).collect();
+        let mut places: Vec<VerifiedPlace> = self.disagreements.iter().map(|found| found.place).collect();
         places.dedup();
         places.len() as u64
     }
 
-    /// Takes the comparisons of one solution.
-    pub(super) fn add(&mut self, branch: u32, frequency_hz: f64, compared: Result<Vec<Comparison>, String>) {
+    /// Takes the comparisons of one solution, which were made with a tolerance.
+    pub(super) fn add(
+        &mut self,
+        place: VerifiedPlace,
+        tolerance: f64,
+        compared: Result<Vec<Comparison>, String>,
+    ) {
         self.sampled += 1;
         let failed = |message: &String| Comparison {
             quantity: Quantity::Motion,
@@ -164,25 +132,25 @@ impl Verification {
                 continue;
             };
             worst.compared += 1;
-            let beyond = comparison.difference.is_nan() || comparison.difference > worst.bound;
+            let bound = bound(worst.quantity, tolerance);
+            let beyond = comparison.difference.is_nan() || comparison.difference > bound;
             if beyond && comparison.grazing {
                 worst.grazing += 1;
                 allowed = true;
                 continue;
             }
-            if worst.place.is_none() || comparison.difference > worst.difference {
-                (worst.difference, worst.place) = (comparison.difference, Some((branch, frequency_hz)));
+            if worst.place.is_none() || worst.is_exceeded_by(comparison.difference, bound) {
+                (worst.difference, worst.bound, worst.place) = (comparison.difference, bound, Some(place));
             }
             if beyond {
                 worst.disagree += 1;
                 self.disagreements.push(Disagreement {
-                    branch,
-                    frequency_hz,
+                    place,
                     quantity: worst.quantity,
                     stored: comparison.stored,
                     recomputed: comparison.recomputed,
                     difference: comparison.difference,
-                    bound: worst.bound,
+                    bound,
                     message: message.clone(),
                 });
             }

@@ -1,5 +1,5 @@
-//! What of an orbit cannot be told from nothing at the accuracy of a verification: touches at grazing, and
-//! touches where the orbit is cut.
+//! What of an orbit cannot be distinguished from nothing at the accuracy of a verification: touches at
+//! grazing, and touches where the orbit is cut.
 
 use hammerbeam_motion::{LocalElement, System};
 use hammerbeam_orbit::PeriodicSolution;

@@ -3,7 +3,7 @@
 
 use hammerbeam_motion::Parameter;
 
-use crate::PeriodicSolution;
+use crate::{BranchEventKind, EventSet, PeriodicSolution};
 
 /// What is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,30 +81,34 @@ impl CurveEvents {
     /// The names of the events joined by `+`, empty if there are none.
     #[must_use]
     pub fn label(self) -> String {
-        let resonance = ["1:1", "1:2", "1:3", "1:4"];
-        let resonance = self.resonance.map(|n| format!("resonance-{}", resonance[usize::from(n) - 1]));
-        let named = [
-            (self.start, "start"),
-            (self.turn, "turn"),
-            (self.cusp, "cusp"),
-            (self.fold_flip, "fold-flip"),
-            (self.fold_neimark_sacker, "fold-neimark-sacker"),
-            (self.flip_neimark_sacker, "flip-neimark-sacker"),
-            (self.double_neimark_sacker, "double-neimark-sacker"),
-            (self.degenerate_flip, "degenerate-flip"),
-            (self.degenerate_branch_point, "degenerate-branch-point"),
-            (self.degenerate_neimark_sacker, "degenerate-neimark-sacker"),
-            (self.grazing_fold, "grazing-fold"),
-            (self.grazing_flip, "grazing-flip"),
-            (self.grazing_neimark_sacker, "grazing-neimark-sacker"),
-            (self.degenerate_grazing, "degenerate-grazing"),
-            (self.double_grazing, "double-grazing"),
-            (self.grazing, "grazing"),
-        ];
-        let mut names: Vec<String> =
-            named.iter().filter(|(set, _)| *set).map(|(_, name)| (*name).to_owned()).collect();
-        names.extend(resonance);
-        names.join("+")
+        EventSet::from(self).label()
+    }
+}
+
+impl From<CurveEvents> for EventSet {
+    fn from(events: CurveEvents) -> Self {
+        Self::of([
+            (events.start, BranchEventKind::Start),
+            (events.turn, BranchEventKind::Turn),
+            (events.cusp, BranchEventKind::Cusp),
+            (events.fold_flip, BranchEventKind::FoldFlip),
+            (events.fold_neimark_sacker, BranchEventKind::FoldNeimarkSacker),
+            (events.flip_neimark_sacker, BranchEventKind::FlipNeimarkSacker),
+            (events.double_neimark_sacker, BranchEventKind::DoubleNeimarkSacker),
+            (events.degenerate_flip, BranchEventKind::DegenerateFlip),
+            (events.degenerate_branch_point, BranchEventKind::DegenerateBranchPoint),
+            (events.degenerate_neimark_sacker, BranchEventKind::DegenerateNeimarkSacker),
+            (events.grazing_fold, BranchEventKind::GrazingFold),
+            (events.grazing_flip, BranchEventKind::GrazingFlip),
+            (events.grazing_neimark_sacker, BranchEventKind::GrazingNeimarkSacker),
+            (events.degenerate_grazing, BranchEventKind::DegenerateGrazing),
+            (events.double_grazing, BranchEventKind::DoubleGrazing),
+            (events.grazing, BranchEventKind::GrazingOnCurve),
+            (events.resonance == Some(1), BranchEventKind::Resonance11),
+            (events.resonance == Some(2), BranchEventKind::Resonance12),
+            (events.resonance == Some(3), BranchEventKind::Resonance13),
+            (events.resonance == Some(4), BranchEventKind::Resonance14),
+        ])
     }
 }
 
@@ -217,4 +221,21 @@ pub enum CurveEnd {
         /// Why.
         message: String,
     },
+}
+
+impl CurveEnd {
+    /// The same end with its value of the parameter in another unit.
+    #[must_use]
+    pub fn in_unit(mut self, unit: impl Fn(f64) -> f64) -> Self {
+        match &mut self {
+            Self::OwnImage { parameter, .. }
+            | Self::Grazing { parameter, .. }
+            | Self::GrazedAsWell { parameter, .. }
+            | Self::ContactSplits { parameter, .. }
+            | Self::Crawls { parameter, .. }
+            | Self::Stopped { parameter, .. } => *parameter = unit(*parameter),
+            Self::RangeEnd | Self::FrequencyRangeEnd | Self::Closed | Self::Resonance | Self::Budget => {}
+        }
+        self
+    }
 }

@@ -43,7 +43,7 @@ fn section_header(layout: &SimulationLayout) -> Vec<String> {
 /// `samples.csv`, one row per sample, `contacts.csv`, one per contact, and `stroboscopic.csv`, one per
 /// period, that are being written.
 ///
-/// They are begun with the first period that is written down: a transient leaves no tables.
+/// They are started with the first period that is written down: a transient leaves no tables.
 #[derive(Debug)]
 pub struct SimulationTables {
     layout: SimulationLayout,
@@ -76,7 +76,7 @@ impl Tables {
 }
 
 impl SimulationTables {
-    /// The tables of a motion in a folder, which are not begun yet.
+    /// The tables of a motion in a folder, which are not started yet.
     ///
     /// * `suffix`: follows the names of the files.
     #[must_use]
@@ -101,9 +101,9 @@ impl SimulationTables {
         let per_period = layout.numbers_of_sample() * layout.samples_per_period as usize;
         let samples = chunk.samples.chunks_exact(per_period);
         for (samples, section) in samples.zip(chunk.section.chunks_exact(layout.numbers_of_section())) {
-            let begun = self.periods as f64 / layout.frequency_hz;
+            let start = self.periods as f64 / layout.frequency_hz;
             let row = |phase: f64, numbers: &[f64]| {
-                let first = [begun + phase / layout.frequency_hz, phase];
+                let first = [start + phase / layout.frequency_hz, phase];
                 first.iter().chain(numbers).map(|value| number(*value)).collect::<Vec<_>>()
             };
             for (sample, numbers) in (0..).zip(samples.chunks_exact(layout.numbers_of_sample())) {

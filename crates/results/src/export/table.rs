@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::ExportError;
+use super::error::ExportError;
 use crate::whole_file::{WholeFile, WriteError};
 
 /// A table that is being written; it gets its name when it is finished.
@@ -41,6 +41,17 @@ impl Table {
     pub fn finish(self) -> Result<PathBuf, ExportError> {
         Ok(self.file.finish()?)
     }
+}
+
+/// Writes a file that appears complete or not at all.
+pub(super) fn write_whole<T>(
+    path: &Path,
+    write: impl FnOnce(&mut WholeFile) -> Result<T, ExportError>,
+) -> Result<T, ExportError> {
+    let mut file = WholeFile::begin(path)?;
+    let written = write(&mut file)?;
+    file.finish()?;
+    Ok(written)
 }
 
 /// A number in full precision; nothing if there is none.

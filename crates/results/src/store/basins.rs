@@ -17,7 +17,8 @@ impl Store {
         let mut statement =
             self.connection.prepare("SELECT attractor FROM cell WHERE request = ?1 ORDER BY number")?;
         let cells = statement.query_map([request], |row| row.get(0))?.collect::<Result<_, _>>()?;
-        let select = "SELECT class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one, state_length, states
+        let select = "SELECT class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one,
+            state_length, states
             FROM attractor WHERE request = ?1 ORDER BY number";
         let mut statement = self.connection.prepare(select)?;
         let mut rows = statement.query([request])?;

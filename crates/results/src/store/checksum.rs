@@ -28,7 +28,7 @@ use rusqlite::{
     types::ValueRef,
 };
 
-use super::{StoreError, schema};
+use super::StoreError;
 
 /// Adds the function of rows by which the tables compute their checksums; whatever inserts or updates rows
 /// needs it.
@@ -99,17 +99,22 @@ fn columns_of(connection: &Connection, table: &str) -> rusqlite::Result<String> 
 
 /// Reads the whole database, and refuses it where it is damaged, but for rows of solutions.
 ///
+/// * `create_tables`: makes all tables that there are to be.
+///
 /// # Returns
 /// Keys of the solutions that are not as they were stored, in increasing order.
 /// # Errors
 /// [`StoreError::DamagedFile`], or the database refuses.
-pub(super) fn check(connection: &Connection) -> Result<Vec<i64>, StoreError> {
+pub(super) fn check(
+    connection: &Connection,
+    create_tables: impl Fn(&Connection) -> Result<(), StoreError>,
+) -> Result<Vec<i64>, StoreError> {
     let damaged = |what: String| StoreError::DamagedFile { what };
     // All of one moment, even while a run writes.
     let _moment = connection.unchecked_transaction()?;
     let made = Connection::open_in_memory()?;
     add_checksums(&made)?;
-    schema::create_tables(&made)?;
+    create_tables(&made)?;
     let tables = tables_of(connection)?;
     if tables != tables_of(&made)? {
         return Err(damaged("its tables are not those that were made".to_owned()));

@@ -6,7 +6,7 @@ use rusqlite::{Row as SqlRow, types::Value};
 
 use super::StoreError;
 
-/// What is told of a motion's kind.
+/// What is known of a motion's kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kind {
     pub class: Class,

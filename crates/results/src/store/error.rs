@@ -9,6 +9,9 @@ use rusqlite::ErrorCode;
 
 use crate::whole_file::is_wrong_place;
 
+/// Name of the database in a results folder.
+pub const DATABASE: &str = "results.db";
+
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -18,10 +21,14 @@ pub enum StoreError {
     #[error("there are no results in {}", folder.display())]
     NoResults { folder: PathBuf },
     /// `results.db` is something else.
-    #[error("{} was not written by hammerbeam", folder.join(super::DATABASE).display())]
+    #[error("{} was not written by hammerbeam", folder.join(DATABASE).display())]
     NotResults { folder: PathBuf },
     /// The folder holds the results of another study.
-    #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
+    #[error(
+        "{} holds the results of another study; it differs in\n{}",
+        folder.display(),
+        indented(differences)
+    )]
     OtherStudy { folder: PathBuf, differences: Vec<String> },
     /// The folder was written by a program that stores or computes differently.
     #[error(
@@ -46,7 +53,8 @@ pub enum StoreError {
     MissingSolutions { branch: String, side: &'static str, first: u32, last: u32 },
     /// Periods of a motion are not there, or there are some that were not counted.
     #[error(
-        "the motion of request {request} is damaged: {done} periods are done, in results.db {found} follow one another; the same command into a new folder computes them again"
+        "the motion of request {request} is damaged: {done} periods are done, in results.db {found} follow \
+         one another; the same command into a new folder computes them again"
     )]
     DamagedMotion { request: i64, found: u64, done: u64 },
     /// Something stored has a name that this program does not know.
@@ -60,17 +68,24 @@ pub enum StoreError {
     Folder { folder: PathBuf, source: io::Error },
     /// Something else than rows of solutions is not as it was written.
     #[error(
-        "results.db is damaged: {what}; put back a copy of it, or let a run of the study into a new folder compute everything again"
+        "results.db is damaged: {what}; put back a copy of it, or let a run of the study into a new folder \
+         compute everything again"
     )]
     DamagedFile { what: String },
     /// What is stored of a solution is not what was written.
     #[error("it is not as it was stored; a run of the study into a new folder computes it again")]
     OtherThanStored,
-    /// Another run has begun to write, though this one held the lock: someone has removed it.
-    #[error("another run has begun to write to {}; what this one had stored is kept, nothing more was added", folder.display())]
+    /// Another run has started to write, though this one held the lock: someone has removed it.
+    #[error(
+        "another run has begun to write to {}; what this one had stored is kept, nothing more was added",
+        folder.display()
+    )]
     TakenOver { folder: PathBuf },
     /// The database is not where it was.
-    #[error("{} was removed or replaced while it was written; what was stored in it is gone with it", database.display())]
+    #[error(
+        "{} was removed or replaced while it was written; what was stored in it is gone with it",
+        database.display()
+    )]
     Gone { database: PathBuf },
     /// The database refuses.
     #[error("results database: {}", in_words(.0))]
@@ -87,7 +102,7 @@ impl From<rusqlite::Error> for StoreError {
 }
 
 impl StoreError {
-    /// What stands in the way is told in words where it is a file.
+    /// What stands in the way is named where it is a file.
     pub(super) fn folder(folder: &Path, source: io::Error) -> Self {
         let source = if folder.is_file() {
             io::Error::new(io::ErrorKind::NotADirectory, "it is a file, not a folder")

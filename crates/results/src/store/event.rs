@@ -1,45 +1,18 @@
-//! What is known of events: of solutions in the frequency and of rows of pieces.
+//! What is known of the event at a solution.
 
 use hammerbeam_orbit::{ContactChange, EventStatus, LocatedEvent};
 use rusqlite::{Row, Transaction, params_from_iter, types::Value};
 
 use super::{Store, StoreError, blob};
 
-/// Columns of an event, as tables have them.
-pub(super) const COLUMNS: &str = "
-    located INTEGER NOT NULL,
-    uncertainty REAL NOT NULL,
-    multiplier_re REAL,
-    multiplier_im REAL,
-    direction BLOB NOT NULL,
-    contact_changes BLOB NOT NULL,
-    breaks_symmetry INTEGER NOT NULL";
-
-/// Their names.
+/// Names of the columns of an event.
 const NAMES: &str =
     "located, uncertainty, multiplier_re, multiplier_im, direction, contact_changes, breaks_symmetry";
 
-/// An event of a row of a branch in a parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct VariedEvent {
-    /// Number of the row within its branch, from 0.
-    pub row: u32,
-    /// Value of the parameter, in the unit of its name.
-    pub parameter: f64,
-    /// Excitation frequency [Hz].
-    pub frequency_hz: f64,
-    /// Events joined by `+`.
-    pub event: String,
-    /// What is known of it; uncertainty and direction in the unit of the parameter's name.
-    pub located: LocatedEvent,
-    /// All multipliers.
-    pub multipliers: Vec<[f64; 2]>,
-}
-
-/// Stores an event under a key: one number of a solution, or piece, branch and place of a row.
+/// Stores what is known of the event at a solution.
 pub(super) fn insert_event(
     transaction: &Transaction<'_>,
-    (table, key): (&str, &[i64]),
+    key: i64,
     event: &LocatedEvent,
 ) -> Result<(), StoreError> {
     let number = |value: Option<f64>| value.map_or(Value::Null, Value::Real);
@@ -49,7 +22,8 @@ pub(super) fn insert_event(
         if change.appears { number } else { -number }
     };
     let contacts: Vec<f64> = event.contacts.iter().map(signed).collect();
-    let of_event = [
+    let values = [
+        Value::from(key),
         Value::from(event.status == EventStatus::Located),
         Value::from(event.uncertainty),
         number(event.multiplier.map(|[re, _]| re)),
@@ -58,9 +32,8 @@ pub(super) fn insert_event(
         Value::from(blob::pack(&contacts)),
         Value::from(event.breaks_symmetry),
     ];
-    let values: Vec<Value> = key.iter().map(|key| Value::from(*key)).chain(of_event).collect();
-    let insert = format!("INSERT INTO {table} VALUES ({})", vec!["?"; values.len()].join(", "));
-    transaction.prepare_cached(&insert)?.execute(params_from_iter(values))?;
+    let insert = "INSERT INTO event VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
+    transaction.prepare_cached(insert)?.execute(params_from_iter(values))?;
     Ok(())
 }
 
@@ -86,7 +59,7 @@ fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
 }
 
 /// Multipliers end to end, as pairs.
-pub(super) fn pairs(bytes: &[u8]) -> Result<Vec<[f64; 2]>, StoreError> {
+fn pairs(bytes: &[u8]) -> Result<Vec<[f64; 2]>, StoreError> {
     let numbers = blob::unpack("multipliers", bytes, bytes.len() / 8)?;
     Ok(numbers.as_chunks::<2>().0.to_vec())
 }
@@ -112,30 +85,5 @@ impl Store {
         let select = "SELECT multipliers FROM solution WHERE id = ?1";
         let bytes: Vec<u8> = self.connection.prepare_cached(select)?.query_row([key], |row| row.get(0))?;
         pairs(&bytes)
-    }
-
-    /// Events of a branch of a piece, along it.
-    ///
-    /// # Errors
-    /// The database refuses, or an event is damaged.
-    pub fn varied_events(&self, (piece, branch): (u32, u32)) -> Result<Vec<VariedEvent>, StoreError> {
-        let select = format!(
-            "SELECT {NAMES}, e.place, parameter, frequency_hz, event, multipliers FROM piece_event e
-            JOIN piece_row USING (piece, branch, place) WHERE piece = ?1 AND branch = ?2 ORDER BY e.place"
-        );
-        let mut statement = self.connection.prepare_cached(&select)?;
-        let mut rows = statement.query([piece, branch])?;
-        let mut events = Vec::new();
-        while let Some(row) = rows.next()? {
-            events.push(VariedEvent {
-                row: row.get(7)?,
-                parameter: row.get(8)?,
-                frequency_hz: row.get(9)?,
-                event: row.get(10)?,
-                located: read_event(row)?,
-                multipliers: pairs(&row.get::<_, Vec<u8>>(11)?)?,
-            });
-        }
-        Ok(events)
     }
 }

@@ -29,8 +29,9 @@ impl Store {
     /// # Errors
     /// The database refuses, or something in it is damaged.
     pub fn exponents(&self, request: i64) -> Result<Vec<ExponentRecord>, StoreError> {
-        let select = "SELECT frequency_hz, sections_per_period, time_s, sum_per_s, divergence_per_s, kaplan_yorke_dimension,
-            block_correlation, zero_one, exponents, convergence, section, expected_sum_per_s FROM exponents WHERE request = ?1 ORDER BY number";
+        let select = "SELECT frequency_hz, sections_per_period, time_s, sum_per_s, divergence_per_s,
+            kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section,
+            expected_sum_per_s FROM exponents WHERE request = ?1 ORDER BY number";
         let mut statement = self.connection.prepare(select)?;
         let mut rows = statement.query([request])?;
         let mut records = Vec::new();
@@ -62,8 +63,9 @@ impl Store {
             .iter()
             .flat_map(|place| std::iter::once(place.time).chain(place.exponents.iter().copied()))
             .collect();
-        let insert = "INSERT INTO exponents (request, number, frequency_hz, sections_per_period, time_s, sum_per_s,
-            divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section, expected_sum_per_s)
+        let insert = "INSERT INTO exponents (request, number, frequency_hz, sections_per_period, time_s,
+            sum_per_s, divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents,
+            convergence, section, expected_sum_per_s)
             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
         let values = params![
             request,

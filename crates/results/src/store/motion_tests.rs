@@ -1,6 +1,7 @@
 //! Requests and what is stored for them.
 
 use hammerbeam_attractor::{Attractor, Class, Convergence, Doubt, Estimate, Round, Spectrum, SweepPoint};
+use hammerbeam_study::file::StudyFile;
 use tempfile::{TempDir, tempdir};
 
 use super::*;

@@ -1,24 +1,35 @@
 //! Reading: branches, their walks, and their solutions one after the other.
 
-use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side, Stability};
+use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution, Side};
 use rusqlite::{OptionalExtension, Row as SqlRow, params};
 
 use super::{
-    Store, StoreError, StoredReason, blob, first_key, solution_key, stability, walk_id, write::unpack_events,
+    Store, StoreError, blob,
+    keys::{first_key, is_of_piece, solution_key, start_of_key, walk_id},
+    stability,
+    values::{END_COLUMNS, read_end, read_row, row_columns},
+};
+use crate::{
+    columns::TableColumn,
+    end::BranchEnd,
+    row::{Row, SolvedRow},
 };
 
-/// A branch of the results.
+/// Number of the columns of a row.
+const OF_ROW: usize = TableColumn::STORED.len();
+
+/// A branch of the results, over the frequency or another parameter, or a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchRecord {
-    /// Number, counted from 1.
+    /// Number, counted from 1; within its piece, where it is of one.
     pub id: u32,
     /// Key of its start, by which its walks are found.
     pub start: u32,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
-    /// The walk from the start to higher frequencies at first; its first solution is the start.
+    /// The walk from the start to higher values at first; its first solution is the start.
     pub up: WalkRecord,
-    /// The walk from the start to lower frequencies at first.
+    /// The walk from the start to lower values at first.
     pub down: WalkRecord,
 }
 
@@ -27,8 +38,8 @@ pub struct BranchRecord {
 pub struct WalkRecord {
     /// Number of solutions.
     pub solutions: u64,
-    /// Why it ended; `None` if it has not.
-    pub reason: Option<StoredReason>,
+    /// How it ended; `None` if it has not.
+    pub end: Option<BranchEnd>,
 }
 
 /// What a walk needs to go on.
@@ -40,46 +51,68 @@ pub struct StoredMemory {
     pub journal: Vec<u8>,
 }
 
-/// What the tables of a solution show, without its nodes.
+/// A row of a branch with its place in the store.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
-    /// Excitation frequency [Hz].
-    pub frequency_hz: f64,
-    /// Maxima over the orbit.
-    pub maxima: OrbitMaxima,
-    /// Events, start and end of the branch included.
-    pub events: Events,
-    /// What is known of its stability.
-    pub stability: Stability,
-    /// Multiplier of the largest modulus, the positive one of a pair.
-    pub leading_multiplier: [f64; 2],
-    /// Residual of the shooting equations.
-    pub residual: f64,
-    /// Estimated error.
-    pub error_estimate: f64,
+pub struct PlacedRow {
+    /// Its side,
+    pub side: Side,
+    /// and its number there.
+    pub number: u32,
+    /// What its tables show.
+    pub row: Row,
 }
 
-const ROW: &str = "frequency_hz, max_abs_displacement_m, max_abs_acceleration_m_s2, max_contact_force_n,
-    max_impact_velocity_m_s, impulse_n_s, contacts, events, stable, leading_multiplier_re, leading_multiplier_im,
-    residual, error_estimate";
-
-impl Store {
-    /// As long as this is held, everything read is of one moment, even while a run writes.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn snapshot(&self) -> Result<impl Sized + use<'_>, StoreError> {
-        Ok(self.connection.unchecked_transaction()?)
+impl BranchRecord {
+    /// Number of its solutions.
+    #[must_use]
+    pub fn solutions(&self) -> u64 {
+        self.up.solutions + self.down.solutions
     }
 
-    /// All branches, in the order in which they were begun.
+    /// The walk to one side.
+    #[must_use]
+    pub fn walk(&self, side: Side) -> &WalkRecord {
+        match side {
+            Side::Up => &self.up,
+            Side::Down => &self.down,
+        }
+    }
+
+    /// The solution with which a side ends: a side without any ends at the start, which is the first of the
+    /// up side, or where a closed branch came back to it; `None` if there is no solution.
+    #[must_use]
+    pub fn last_of(&self, side: Side) -> Option<(Side, u32)> {
+        let last = |side: Side| self.walk(side).solutions.checked_sub(1).map(|last| (side, last as u32));
+        last(side).or_else(|| (self.up.solutions > 0).then_some((Side::Up, 0))).or_else(|| last(Side::Down))
+    }
+
+    /// Where its solutions lie, end to end: the down side from its end, the start, the up side.
+    pub fn places(&self) -> impl Iterator<Item = (Side, u32)> + use<> {
+        let (down, up) = (self.down.solutions as u32, self.up.solutions as u32);
+        let down = (0..down).rev().map(|number| (Side::Down, number));
+        down.chain((0..up).map(|number| (Side::Up, number)))
+    }
+
+    fn is_of_piece(&self) -> bool {
+        is_of_piece(self.start)
+    }
+}
+
+impl Store {
+    /// All branches over the frequency, in the order in which they were started.
     ///
     /// # Errors
     /// The database refuses.
     pub fn branches(&self) -> Result<Vec<BranchRecord>, StoreError> {
-        let select = "SELECT branch, id, period_multiple FROM start WHERE branch IS NOT NULL ORDER BY branch";
+        self.branches_of(None)
+    }
+
+    /// The branches of a piece, by its key; over the frequency without one.
+    pub(super) fn branches_of(&self, piece: Option<u32>) -> Result<Vec<BranchRecord>, StoreError> {
+        let select = "SELECT branch, id, period_multiple FROM start
+            WHERE branch IS NOT NULL AND piece IS ?1 ORDER BY branch";
         let mut statement = self.connection.prepare(select)?;
-        let ids = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+        let ids = statement.query_map([piece], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
         ids.map(|ids| {
             let (id, start, period_multiple) = ids?;
             let (up, down) = (self.walk(start, Side::Up)?, self.walk(start, Side::Down)?);
@@ -93,16 +126,11 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn walk(&self, start: u32, side: Side) -> Result<WalkRecord, StoreError> {
-        let select = "SELECT solutions, stop_kind, stop_frequency_hz, stop_message FROM walk WHERE id = ?1";
-        let read = |row: &SqlRow<'_>| {
-            let kind: Option<String> = row.get(1)?;
-            let reason = match kind {
-                Some(kind) => Some(StoredReason { kind, frequency_hz: row.get(2)?, message: row.get(3)? }),
-                None => None,
-            };
-            Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), reason })
-        };
-        Ok(self.connection.query_row(select, [walk_id(start, side)], read)?)
+        let select = format!("SELECT solutions, {END_COLUMNS} FROM walk WHERE id = ?1");
+        let mut statement = self.connection.prepare_cached(&select)?;
+        let mut rows = statement.query([walk_id(start, side)])?;
+        let Some(row) = rows.next()? else { return Err(rusqlite::Error::QueryReturnedNoRows.into()) };
+        Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), end: read_end(row, 1)? })
     }
 
     /// The checkpoint and the journal from which a walk goes on, if it does.
@@ -124,7 +152,8 @@ impl Store {
         Ok(Some(StoredMemory { checkpoint, journal }))
     }
 
-    /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side.
+    /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side. The first
+    /// and the last one of a branch over the frequency are marked.
     ///
     /// # Errors
     /// Solutions are missing or damaged, the database refuses, or `take` does.
@@ -133,17 +162,44 @@ impl Store {
         branch: &BranchRecord,
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let total = branch.up.solutions + branch.down.solutions;
+        self.each_placed_row(branch, |placed| take(placed.row))
+    }
+
+    /// The same, each with its place.
+    ///
+    /// # Errors
+    /// Solutions are missing or damaged, the database refuses, or `take` does.
+    pub fn each_placed_row<E: From<StoreError>>(
+        &self,
+        branch: &BranchRecord,
+        mut take: impl FnMut(PlacedRow) -> Result<(), E>,
+    ) -> Result<(), E> {
         let mut place = 0;
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
-            self.each_row_of_walk(walk_id(branch.start, side), order, |mut row| {
-                row.events.start = place == 0;
-                row.events.end = place + 1 == total;
+            self.each_row_of_walk(walk_id(branch.start, side), order, |number, mut row| {
                 place += 1;
-                take(row)
+                if !branch.is_of_piece() {
+                    row.events = with_ends(row.events, place == 1, place == branch.solutions());
+                }
+                take(PlacedRow { side, number, row })
             })?;
         }
         Ok(())
+    }
+
+    /// All rows of a branch end to end, as they are stored, each with its place.
+    ///
+    /// # Errors
+    /// Solutions are missing or damaged, or the database refuses.
+    pub fn placed_rows(&self, branch: &BranchRecord) -> Result<Vec<PlacedRow>, StoreError> {
+        let mut rows = Vec::new();
+        for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
+            self.each_row_of_walk::<StoreError>(walk_id(branch.start, side), order, |number, row| {
+                rows.push(PlacedRow { side, number, row });
+                Ok(())
+            })?;
+        }
+        Ok(rows)
     }
 
     /// Hands over the multipliers of the solutions of a branch, end to end as [`Self::each_row`] does;
@@ -160,7 +216,8 @@ impl Store {
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             let walk = walk_id(branch.start, side);
             let select = format!(
-                "SELECT multiplier_count, multipliers, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
+                "SELECT multiplier_count, multipliers, id FROM solution
+                WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
             );
             let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
             let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
@@ -199,17 +256,19 @@ impl Store {
         &self,
         walk: i64,
         order: &str,
-        mut take: impl FnMut(Row) -> Result<(), E>,
+        mut take: impl FnMut(u32, Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let select = format!("SELECT {ROW}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
+        let columns = row_columns();
+        let select =
+            format!("SELECT {columns}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
         self.check_complete(walk)?;
         let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
-            let key = row.get(13).map_err(failed)?;
-            let read = self.check_solution(key).and_then(|()| Ok(read_row(row)?));
-            take(read.map_err(|error| self.damaged(key, error))?)?;
+            let key = row.get(OF_ROW).map_err(failed)?;
+            let read = self.check_solution(key).and_then(|()| read_row(row));
+            take(key as u32, read.map_err(|error| self.damaged(key, error))?)?;
         }
         Ok(())
     }
@@ -227,44 +286,25 @@ impl Store {
     /// # Errors
     /// There is no such solution, or it is damaged.
     pub fn solution_of_key(&self, key: i64) -> Result<PeriodicSolution, StoreError> {
+        Ok(self.solved_row(key)?.solution)
+    }
+
+    /// A stored solution by its key, with its row; what is known of its event is left out.
+    ///
+    /// # Errors
+    /// There is no such solution, or it is damaged.
+    pub fn solved_row(&self, key: i64) -> Result<SolvedRow, StoreError> {
+        let columns = row_columns();
         let select = format!(
-            "SELECT {ROW}, segments, state_length, multiplier_count, multipliers, nodes,
-            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles, on_circle FROM solution WHERE id = ?1"
+            "SELECT {columns}, segments, state_length, multiplier_count, multipliers, nodes,
+            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles, on_circle
+            FROM solution WHERE id = ?1"
         );
         let mut statement = self.connection.prepare_cached(&select)?;
-        let mut rows = statement.query(params![key, key >> 33])?;
+        let mut rows = statement.query(params![key, start_of_key(key)])?;
         let Some(row) = rows.next()? else { return Err(self.missing(key, key)) };
         let read = self.check_solution(key).and_then(|()| read_solution(row));
         read.map_err(|error| self.damaged(key, error))
-    }
-
-    /// Refuses a solution that was found damaged when the folder was opened.
-    pub(super) fn check_solution(&self, key: i64) -> Result<(), StoreError> {
-        match self.damaged.binary_search(&key) {
-            Ok(_) => Err(StoreError::OtherThanStored),
-            Err(_) => Ok(()),
-        }
-    }
-
-    /// Says which solution it is that cannot be read.
-    pub(super) fn damaged(&self, key: i64, error: StoreError) -> StoreError {
-        let (branch, side) = self.place_of(key);
-        StoreError::DamagedSolution { branch, side, number: key as u32, source: Box::new(error) }
-    }
-
-    /// Says which solutions of a walk are not there, from one key to another.
-    fn missing(&self, first: i64, last: i64) -> StoreError {
-        let (branch, side) = self.place_of(first);
-        StoreError::MissingSolutions { branch, side, first: first as u32, last: last as u32 }
-    }
-
-    /// Branch and side of a solution, in words.
-    fn place_of(&self, key: i64) -> (String, &'static str) {
-        let select = "SELECT branch FROM start WHERE id = ?1";
-        let branch: Option<u32> =
-            self.connection.query_row(select, [key >> 33], |row| row.get(0)).unwrap_or_default();
-        let branch = branch.map_or_else(|| "(none yet)".to_owned(), |branch| branch.to_string());
-        (branch, if key >> 32 & 1 == 1 { "down" } else { "up" })
     }
 }
 
@@ -275,7 +315,7 @@ impl Store {
     /// Solutions are missing or damaged, or the database refuses.
     pub fn walked(&self, start: u32, side: Side) -> Result<Vec<Row>, StoreError> {
         let mut rows = Vec::new();
-        self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |row| {
+        self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |_, row| {
             rows.push(row);
             Ok(())
         })?;
@@ -283,42 +323,30 @@ impl Store {
     }
 }
 
-fn read_row(row: &SqlRow<'_>) -> rusqlite::Result<Row> {
-    Ok(Row {
-        frequency_hz: row.get(0)?,
-        maxima: OrbitMaxima {
-            displacement: row.get(1)?,
-            acceleration: row.get(2)?,
-            contact_force: row.get(3)?,
-            impact_velocity: row.get(4)?,
-            impulse: row.get(5)?,
-            contacts: row.get(6)?,
-        },
-        events: unpack_events(row.get(7)?),
-        stability: row.get::<_, stability::Stored>(8)?.0,
-        leading_multiplier: [row.get(9)?, row.get(10)?],
-        residual: row.get(11)?,
-        error_estimate: row.get(12)?,
-    })
+/// Events with the marks of the first and the last row of a branch.
+fn with_ends(events: EventSet, is_first: bool, is_last: bool) -> EventSet {
+    let marks = [(is_first, BranchEventKind::Start), (is_last, BranchEventKind::End)];
+    marks.into_iter().filter(|(is, _)| *is).fold(events, |events, (_, kind)| events.with(kind))
 }
 
-fn read_solution(row: &SqlRow<'_>) -> Result<PeriodicSolution, StoreError> {
+fn read_solution(row: &SqlRow<'_>) -> Result<SolvedRow, StoreError> {
     let shown = read_row(row)?;
     let size = |column| row.get::<_, u32>(column).map(|size| size as usize);
-    let (segments, state_length) = (size(13)?, size(14)?);
-    let node_bytes: Vec<u8> = row.get(17)?;
+    let (segments, state_length) = (size(OF_ROW)?, size(OF_ROW + 1)?);
+    let node_bytes: Vec<u8> = row.get(OF_ROW + 4)?;
     let nodes = blob::unpack("nodes", &node_bytes, segments * state_length)?;
-    Ok(PeriodicSolution {
+    let solution = PeriodicSolution {
         frequency_hz: shown.frequency_hz,
-        period_multiple: row.get(18)?,
-        phase: row.get(19)?,
+        period_multiple: row.get(OF_ROW + 5)?,
+        phase: row.get(OF_ROW + 6)?,
         nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
-        floquet_multipliers: read_multipliers(row, 15)?,
-        on_circle: stability::marks(&row.get::<_, Vec<u8>>(20)?),
+        floquet_multipliers: read_multipliers(row, OF_ROW + 2)?,
+        on_circle: stability::marks(&row.get::<_, Vec<u8>>(OF_ROW + 7)?),
         residual: shown.residual,
         error_estimate: shown.error_estimate,
         maxima: shown.maxima,
-    })
+    };
+    Ok(SolvedRow { parameter: shown.parameter, solution, events: shown.events, located: None })
 }
 
 /// Multipliers from the column of their number and the one behind it.

@@ -8,10 +8,11 @@ use hammerbeam_study::{
 };
 use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
 
-use super::{StoreError, checksum, event::COLUMNS, varied::TABLES_OF_PIECES};
+use super::{StoreError, checksum};
+use crate::columns::TableColumn;
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 8;
+pub const SCHEMA_VERSION: u32 = 9;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -23,7 +24,8 @@ const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
-    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
+    kind TEXT NOT NULL CHECK (kind IN
+        ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,
@@ -31,20 +33,33 @@ CREATE TABLE job (
     message TEXT,
     outcome TEXT
 );
+CREATE TABLE piece (
+    id INTEGER PRIMARY KEY,
+    place INTEGER NOT NULL,
+    definition TEXT NOT NULL UNIQUE,
+    kind TEXT NOT NULL CHECK (kind IN ('vary', 'fold', 'flip', 'neimark-sacker', 'grazing')),
+    parameter TEXT NOT NULL,
+    searched INTEGER NOT NULL DEFAULT 0,
+    finished INTEGER NOT NULL DEFAULT 0,
+    message TEXT
+);
 CREATE TABLE start (
     id INTEGER PRIMARY KEY,
-    job INTEGER NOT NULL REFERENCES job (id),
+    job INTEGER REFERENCES job (id),
+    piece INTEGER REFERENCES piece (id),
     period_multiple INTEGER NOT NULL,
-    branch INTEGER UNIQUE
+    branch INTEGER,
+    CHECK ((job IS NULL) <> (piece IS NULL))
 );
 CREATE TABLE walk (
     id INTEGER PRIMARY KEY,
     start INTEGER NOT NULL REFERENCES start (id),
     side TEXT NOT NULL CHECK (side IN ('up', 'down')),
     solutions INTEGER NOT NULL,
-    stop_kind TEXT,
-    stop_frequency_hz REAL,
-    stop_message TEXT,
+    end_kind TEXT,
+    end_place REAL,
+    end_numbers BLOB,
+    end_text TEXT,
     checkpoint BLOB
 );
 CREATE TABLE journal (
@@ -52,30 +67,27 @@ CREATE TABLE journal (
     walk INTEGER NOT NULL REFERENCES walk (id),
     bytes BLOB NOT NULL
 );
-CREATE TABLE solution (
-    id INTEGER PRIMARY KEY,
-    frequency_hz REAL NOT NULL,
-    max_abs_displacement_m REAL NOT NULL,
-    max_abs_acceleration_m_s2 REAL NOT NULL,
-    max_contact_force_n REAL NOT NULL,
-    max_impact_velocity_m_s REAL NOT NULL,
-    impulse_n_s REAL NOT NULL,
-    contacts INTEGER NOT NULL,
-    events INTEGER NOT NULL,
-    stable INTEGER NOT NULL,
-    leading_multiplier_re REAL NOT NULL,
-    leading_multiplier_im REAL NOT NULL,
-    residual REAL NOT NULL,
-    error_estimate REAL NOT NULL,
+CREATE TABLE event (
+    solution INTEGER PRIMARY KEY,
+    located INTEGER NOT NULL,
+    uncertainty REAL NOT NULL,
+    multiplier_re REAL,
+    multiplier_im REAL,
+    direction BLOB NOT NULL,
+    contact_changes BLOB NOT NULL,
+    breaks_symmetry INTEGER NOT NULL
+);
+";
+
+/// What a solution has besides the columns of its row, behind them.
+const BEHIND_ROWS: &str = "
     segments INTEGER NOT NULL,
     state_length INTEGER NOT NULL,
     multiplier_count INTEGER NOT NULL,
     multipliers BLOB NOT NULL,
     nodes BLOB NOT NULL,
     phase_cycles REAL NOT NULL,
-    on_circle BLOB NOT NULL
-);
-";
+    on_circle BLOB NOT NULL";
 
 /// What came of requests for motions that need not repeat.
 const TABLES_OF_MOTIONS: &str = "
@@ -223,7 +235,8 @@ fn not_ours(error: rusqlite::Error, folder: &Path) -> StoreError {
     }
 }
 
-fn about(connection: &Connection, key: &str) -> Result<String, StoreError> {
+/// Something noted about the study.
+pub(super) fn about(connection: &Connection, key: &str) -> Result<String, StoreError> {
     let value = connection.query_row("SELECT value FROM about WHERE key = ?1", [key], |row| row.get(0));
     Ok(value.optional()?.unwrap_or_default())
 }
@@ -262,14 +275,19 @@ pub(super) fn writer(connection: &Connection) -> Result<u64, StoreError> {
     Ok(about(connection, WRITER)?.parse().unwrap_or_default())
 }
 
-/// Makes all tables.
+/// Makes all tables; that of solutions has the stored columns of rows.
 pub(super) fn create_tables(connection: &Connection) -> Result<(), StoreError> {
-    let events = format!(
-        "CREATE TABLE event (solution INTEGER PRIMARY KEY, {COLUMNS});
-        CREATE TABLE piece_event (piece INTEGER, branch INTEGER, place INTEGER, {COLUMNS},
-        PRIMARY KEY (piece, branch, place)) WITHOUT ROWID;"
-    );
-    Ok(checksum::create(connection, &[TABLES, TABLES_OF_PIECES, TABLES_OF_MOTIONS, &events].concat())?)
+    let column = |column: TableColumn| {
+        let kind = match column {
+            TableColumn::Contacts | TableColumn::Event | TableColumn::Stable => "INTEGER",
+            _ => "REAL",
+        };
+        format!("{} {kind} NOT NULL", column.name())
+    };
+    let columns: Vec<String> = TableColumn::STORED.into_iter().map(column).collect();
+    let columns = columns.join(", ");
+    let solutions = format!("CREATE TABLE solution (id INTEGER PRIMARY KEY, {columns}, {BEHIND_ROWS});");
+    Ok(checksum::create(connection, &[TABLES, &solutions, TABLES_OF_MOTIONS].concat())?)
 }
 
 fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreError> {
@@ -277,14 +295,4 @@ fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreErro
         ON CONFLICT (key) DO UPDATE SET value = excluded.value WHERE value <> excluded.value";
     connection.execute(changed, params![key, value])?;
     Ok(())
-}
-
-impl super::Store {
-    /// Something noted about the study: `title`, `study` (its text), `program`, `identity`.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn about(&self, key: &str) -> Result<String, StoreError> {
-        about(&self.connection, key)
-    }
 }

@@ -20,8 +20,9 @@ impl Store {
     /// # Errors
     /// The database refuses, or something in it is damaged.
     pub fn settled(&self, request: i64) -> Result<Vec<SettledMotion>, StoreError> {
-        let select = "SELECT origin, frequency_hz, class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one,
-            max_abs_displacement_m, contacts_per_period, samples, state FROM settled WHERE request = ?1 ORDER BY number";
+        let select = "SELECT origin, frequency_hz, class, period, doubt, exponent_per_s,
+            exponent_half_width_per_s, zero_one, max_abs_displacement_m, contacts_per_period, samples, state
+            FROM settled WHERE request = ?1 ORDER BY number";
         let mut statement = self.connection.prepare(select)?;
         let mut rows = statement.query([request])?;
         let mut motions = Vec::new();
@@ -78,8 +79,9 @@ impl Store {
                 Value::Blob(blob::pack(&point.samples)),
                 Value::Blob(blob::pack(&point.state)),
             ]);
-            let insert = "INSERT INTO settled (request, number, origin, frequency_hz, class, period, doubt, exponent_per_s,
-                exponent_half_width_per_s, zero_one, max_abs_displacement_m, contacts_per_period, samples, state)
+            let insert = "INSERT INTO settled (request, number, origin, frequency_hz, class, period, doubt,
+                exponent_per_s, exponent_half_width_per_s, zero_one, max_abs_displacement_m,
+                contacts_per_period, samples, state)
                 VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
             transaction.execute(insert, rusqlite::params_from_iter(values))?;
         }

@@ -8,7 +8,10 @@ use hammerbeam_attractor::{ContactRecord, SimulationCheckpoint};
 use hammerbeam_motion::exact::{Jump, Touchdown};
 use rusqlite::{Row as SqlRow, params};
 
-use super::{SimulationLayout, Store, StoreError, blob, requests};
+use super::{
+    Store, StoreError, blob, requests,
+    simulation_layout::{SimulationLayout, check_length},
+};
 
 /// Periods of a motion that follow one another.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,7 +37,7 @@ pub struct SimulatedChunk {
 pub struct SimulatedContact {
     /// Number of the local element.
     pub element: usize,
-    /// The touch; `None` if it was closed when the motion was begun to be written down.
+    /// The touch; `None` if it was closed when the first period was written down.
     pub touch: Option<SimulatedTouch>,
     /// When it opened [s]; `None` if it was still closed.
     pub end_s: Option<f64>,
@@ -67,6 +70,37 @@ impl SimulatedContact {
     pub const NUMBERS: usize = 10;
 }
 
+impl SimulatedChunk {
+    /// Whether the chunk has the lengths that follow from its number of periods.
+    ///
+    /// * `first`: the number of periods before it.
+    fn check(&self, first: u64, layout: &SimulationLayout) -> Result<(), StoreError> {
+        let written = |done: u64| done.saturating_sub(layout.transient_periods) as usize;
+        let (before, after) = (written(first), written(first.saturating_add(self.periods)));
+        let periods = after - before;
+        let per_period = layout.samples_per_period as usize * layout.numbers_of_sample();
+        check_length("samples of a motion", self.samples.len(), periods.saturating_mul(per_period))?;
+        let section = periods.saturating_mul(layout.numbers_of_section());
+        check_length("section of a motion", self.section.len(), section)?;
+        let checkpoint = &self.checkpoint;
+        check_length("state of a motion", checkpoint.state.len(), 2 * layout.dof)?;
+        if !checkpoint.impact_speeds.is_empty() {
+            check_length(
+                "remembered impacts of a motion",
+                checkpoint.impact_speeds.len(),
+                layout.elements.len(),
+            )?;
+        }
+        if checkpoint.periods != after as u64 {
+            let found = checkpoint.periods.to_string();
+            return Err(StoreError::Unknown { what: "number of periods of a checkpoint", found });
+        }
+        let contacts = self.contacts.iter().chain(&self.unfinished).map(|contact| contact.element);
+        let mut elements = contacts.chain(checkpoint.open.iter().map(|record| record.element));
+        elements.try_for_each(|element| layout.check_element(element))
+    }
+}
+
 impl Store {
     /// Goes through the chunks of a request, in their order; all is of one moment, even while a command
     /// writes.
@@ -80,8 +114,9 @@ impl Store {
         layout: &SimulationLayout,
         mut take: impl FnMut(SimulatedChunk) -> Result<(), E>,
     ) -> Result<(), E> {
-        let select = "SELECT done, first, periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds
-            FROM request LEFT JOIN simulated ON simulated.request = request.id WHERE request.id = ?1 ORDER BY first";
+        let select = "SELECT done, first, periods, samples, section, contacts, unfinished, observed, state,
+            open, impact_speeds FROM request LEFT JOIN simulated ON simulated.request = request.id
+            WHERE request.id = ?1 ORDER BY first";
         let mut statement = self.connection.prepare(select).map_err(StoreError::from)?;
         let mut rows = statement.query([request]).map_err(StoreError::from)?;
         let (mut found, mut done) = (0_u64, 0);
@@ -95,7 +130,7 @@ impl Store {
                 return Err(damaged(found, done));
             }
             let chunk = chunk(row)?;
-            layout.check(found, &chunk)?;
+            chunk.check(found, layout)?;
             found = found.saturating_add(chunk.periods);
             take(chunk)?;
         }
@@ -117,7 +152,8 @@ impl Store {
         let transaction = self.write()?;
         requests::advance(&transaction, request, (first, first + chunk.periods))?;
         let SimulationCheckpoint { state, periods: observed, open, impact_speeds } = &chunk.checkpoint;
-        let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds)
+        let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished,
+            observed, state, open, impact_speeds)
             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
         let values = params![
             request,

@@ -2,7 +2,7 @@
 
 use std::{ops::RangeInclusive, str::FromStr};
 
-use super::{RequestRecord, SimulatedChunk, StoreError};
+use super::{RequestRecord, StoreError};
 
 /// Degrees of freedom and samples in a period at most, of what is read.
 const MOST: u32 = 1_000_000;
@@ -86,40 +86,16 @@ impl SimulationLayout {
             + self.numbers_of_section() as u64
     }
 
-    /// Whether a chunk has the lengths that follow from its number of periods.
-    ///
-    /// * `first`: the number of periods before it.
-    pub(super) fn check(&self, first: u64, chunk: &SimulatedChunk) -> Result<(), StoreError> {
-        let written = |done: u64| done.saturating_sub(self.transient_periods) as usize;
-        let (before, after) = (written(first), written(first.saturating_add(chunk.periods)));
-        let periods = after - before;
-        let per_period = self.samples_per_period as usize * self.numbers_of_sample();
-        length("samples of a motion", chunk.samples.len(), periods.saturating_mul(per_period))?;
-        let section = periods.saturating_mul(self.numbers_of_section());
-        length("section of a motion", chunk.section.len(), section)?;
-        let checkpoint = &chunk.checkpoint;
-        length("state of a motion", checkpoint.state.len(), 2 * self.dof)?;
-        if !checkpoint.impact_speeds.is_empty() {
-            length("remembered impacts of a motion", checkpoint.impact_speeds.len(), self.elements.len())?;
-        }
-        if checkpoint.periods != after as u64 {
-            let found = checkpoint.periods.to_string();
-            return Err(StoreError::Unknown { what: "number of periods of a checkpoint", found });
-        }
-        let contacts = chunk.contacts.iter().chain(&chunk.unfinished).map(|contact| contact.element);
-        let mut elements = contacts.chain(checkpoint.open.iter().map(|record| record.element));
-        elements.try_for_each(|element| self.element(element))
-    }
-
-    fn element(&self, number: usize) -> Result<(), StoreError> {
+    /// Refuses the number of an element that there is not.
+    pub(super) fn check_element(&self, number: usize) -> Result<(), StoreError> {
         let unknown =
             || StoreError::Unknown { what: "local element of a contact", found: number.to_string() };
         self.elements.get(number).map(|_| ()).ok_or_else(unknown)
     }
 }
 
-/// A length in numbers, told in bytes.
-fn length(what: &'static str, found: usize, expected: usize) -> Result<(), StoreError> {
+/// Refuses another length in numbers than expected, reported in bytes.
+pub(super) fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), StoreError> {
     if found == expected {
         return Ok(());
     }

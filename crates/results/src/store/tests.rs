@@ -1,9 +1,12 @@
+use std::{fs, path::Path};
+
+use hammerbeam_orbit::{BranchEventKind, EventSet, OrbitMaxima, PeriodicSolution, Side};
+use hammerbeam_study::file::StudyFile;
+use rusqlite::Connection;
 use tempfile::tempdir;
 
-use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution};
-
 use super::*;
-use crate::store::{Continuation, Memory};
+use crate::{end::BranchEnd, row::SolvedRow};
 
 const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 
@@ -50,8 +53,8 @@ fn a_solution_comes_back_with_every_bit() {
     let folder = tempdir().unwrap();
     let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
     let branch = begin(&mut store);
-    let events = Events { fold: true, grazing: true, ..Events::default() };
-    let row = BranchRow { solution: solution(0.3), parameter: None, events, located: None };
+    let events = EventSet::default().with(BranchEventKind::Fold).with(BranchEventKind::Grazing);
+    let row = SolvedRow { solution: solution(0.3), parameter: 0.3, events, located: None };
     let memory = |checkpoint, journal| Continuation::GoesOn(Memory { checkpoint, journal });
     store.append(branch, Side::Up, &[row], memory(b"there", b"fi")).unwrap();
     store.append(branch, Side::Up, &[], memory(b"here", b"rst")).unwrap();
@@ -77,7 +80,8 @@ fn a_solution_that_is_gone_is_told_by_its_place() {
     let key = begin(&mut store);
     assert_eq!(store.walked(key, Side::Up).unwrap().len(), 1);
     store.connection.execute("DELETE FROM solution", []).unwrap();
-    let sentence = "solution 0 on the up side of branch 1 is missing from results.db; a run of the study into a new folder computes it again";
+    let sentence = "solution 0 on the up side of branch 1 is missing from results.db; \
+        a run of the study into a new folder computes it again";
     for error in [store.walked(key, Side::Up).unwrap_err(), store.solution(key, Side::Up, 0).unwrap_err()] {
         assert_eq!(error.to_string(), sentence);
         assert!(error.is_of_solutions() && !error.is_bad_input());
@@ -236,14 +240,14 @@ fn walked_folder(folder: &Path) {
     };
     let row = |number: u32| {
         let fold = number % 10 == 3;
-        BranchRow {
+        SolvedRow {
             solution: solution(0.3 + 0.001 * f64::from(number)),
-            parameter: None,
-            events: Events { fold, ..Events::default() },
+            parameter: 0.5,
+            events: EventSet::of([(fold, BranchEventKind::Fold)]),
             located: fold.then(|| located.clone()),
         }
     };
-    let rows: Vec<BranchRow> = (0..60).map(row).collect();
+    let rows: Vec<SolvedRow> = (0..60).map(row).collect();
     let memory = Memory { checkpoint: b"checkpoint", journal: &[3; 9000] };
     store.append(key, Side::Up, &rows, Continuation::GoesOn(memory)).unwrap();
     store.finish().unwrap();
@@ -308,14 +312,14 @@ fn values_that_databases_convert_keep_their_checksums() {
     let folder = tempdir().unwrap();
     let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
     let key = begin(&mut store);
-    let row = |frequency_hz: f64, residual: f64| BranchRow {
+    let row = |frequency_hz: f64, residual: f64| SolvedRow {
         solution: PeriodicSolution { residual, ..solution(frequency_hz) },
-        parameter: None,
-        events: Events::default(),
+        parameter: 0.5,
+        events: EventSet::default(),
         located: None,
     };
     let rows = [row(3.0, -0.0), row(1e300, f64::MIN_POSITIVE / 8.0), row(4e18, f64::INFINITY)];
-    let reason = StoredReason::not_begun("\u{0}\u{e9}\u{10ffff}");
+    let reason = BranchEnd::NotStarted { message: "\u{0}\u{e9}\u{10ffff}".to_owned() };
     store.append(key, Side::Up, &rows, Continuation::Ended(&reason)).unwrap();
     store.finish().unwrap();
     assert_eq!(everything(folder.path()).unwrap().matches("frequency_hz: 3.0").count(), 2);
@@ -329,7 +333,7 @@ fn of_two_runs_that_hold_a_lock_the_first_adds_nothing_more() {
     let key = begin(&mut first);
     fs::remove_file(folder.path().join("run.lock")).unwrap();
     let mut second = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
-    let reason = StoredReason::not_begun("no");
+    let reason = BranchEnd::NotStarted { message: "no".to_owned() };
     let error = first.append(key, Side::Up, &[], Continuation::Ended(&reason)).unwrap_err();
     assert!(matches!(error, StoreError::TakenOver { .. }) && !error.is_bad_input(), "{error}");
     assert!(first.add_jobs(&[(JobKind::Survey, 0.3, None, 0)]).is_err());

@@ -1,9 +1,19 @@
-//! Writing: each call is one transaction.
+//! Writing walks: each call is one transaction.
 
-use hammerbeam_orbit::{BranchRow, Events, PeriodicSolution, Side};
-use rusqlite::{Transaction, params};
+use hammerbeam_orbit::Side;
+use rusqlite::{Transaction, params, params_from_iter, types::Value};
 
-use super::{Store, StoreError, StoredReason, blob, event::insert_event, first_key, stability, walk_id};
+use super::{
+    Store, StoreError, blob,
+    event::insert_event,
+    keys::{first_key, walk_id},
+    stability,
+    values::{END_COLUMNS, values_of_end, values_of_row},
+};
+use crate::{
+    end::BranchEnd,
+    row::{Row, SolvedRow},
+};
 
 /// How a walk goes on.
 #[derive(Debug, Clone, Copy)]
@@ -11,9 +21,9 @@ pub enum Continuation<'a> {
     /// From here.
     GoesOn(Memory<'a>),
     /// Not at all.
-    Ended(&'a StoredReason),
+    Ended(&'a BranchEnd),
     /// From here, if its budget grows.
-    Paused(&'a StoredReason, Memory<'a>),
+    Paused(&'a BranchEnd, Memory<'a>),
 }
 
 /// All that a walk needs to go on.
@@ -34,40 +44,91 @@ impl Store {
         &mut self,
         start: u32,
         side: Side,
-        rows: &[BranchRow],
+        rows: &[SolvedRow],
+        continuation: Continuation<'_>,
+    ) -> Result<(), StoreError> {
+        self.write_walk((start, side), None, rows, continuation)
+    }
+
+    /// Stores the first solutions of a walk in the place of the start that was noted, together with how it
+    /// goes on.
+    ///
+    /// # Errors
+    /// The database refuses; nothing is changed then.
+    pub fn begin_walk(
+        &mut self,
+        start: u32,
+        side: Side,
+        rows: &[SolvedRow],
+        continuation: Continuation<'_>,
+    ) -> Result<(), StoreError> {
+        self.write_walk((start, side), Some(0), rows, continuation)
+    }
+
+    /// Ends a side after so many solutions; what was walked beyond is deleted.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn cut_walk(
+        &mut self,
+        start: u32,
+        side: Side,
+        solutions: u32,
+        end: &BranchEnd,
+    ) -> Result<(), StoreError> {
+        self.write_walk((start, side), Some(solutions), &[], Continuation::Ended(end))
+    }
+
+    /// * `kept`: so many solutions stay; `None` for all.
+    fn write_walk(
+        &mut self,
+        (start, side): (u32, Side),
+        kept: Option<u32>,
+        rows: &[SolvedRow],
         continuation: Continuation<'_>,
     ) -> Result<(), StoreError> {
         let walk = walk_id(start, side);
         let transaction = self.write()?;
-        let stored: i64 =
-            transaction.query_row("SELECT solutions FROM walk WHERE id = ?1", [walk], |row| row.get(0))?;
-        for (row, key) in rows.iter().zip(first_key(walk) + stored..) {
-            insert_solution(&transaction, key, &row.solution, row.events)?;
-            if let Some(located) = &row.located {
-                insert_event(&transaction, ("event", &[key]), located)?;
-            }
+        let count = "SELECT solutions FROM walk WHERE id = ?1";
+        let mut stored: u32 = transaction.query_row(count, [walk], |row| row.get(0))?;
+        if let Some(kept) = kept {
+            forget_walked(&transaction, walk, kept)?;
+            stored = stored.min(kept);
         }
-        let (reason, memory) = match continuation {
+        for (row, key) in rows.iter().zip(first_key(walk) + i64::from(stored)..) {
+            insert_solution(&transaction, key, row)?;
+        }
+        let (end, memory) = match continuation {
             Continuation::GoesOn(memory) => (None, Some(memory)),
-            Continuation::Ended(reason) => (Some(reason), None),
-            Continuation::Paused(reason, memory) => (Some(reason), Some(memory)),
+            Continuation::Ended(end) => (Some(end), None),
+            Continuation::Paused(end, memory) => (Some(end), Some(memory)),
         };
         keep_journal(&transaction, walk, memory)?;
-        let update =
-            "UPDATE walk SET solutions = ?2, checkpoint = ?3, stop_kind = ?4, stop_frequency_hz = ?5,
-            stop_message = ?6 WHERE id = ?1";
-        let values = params![
-            walk,
-            stored + rows.len() as i64,
-            memory.map(|memory| memory.checkpoint),
-            reason.map(|reason| &reason.kind),
-            reason.and_then(|reason| reason.frequency_hz),
-            reason.map(|reason| &reason.message),
+        let update = format!(
+            "UPDATE walk SET (solutions, checkpoint, {END_COLUMNS}) = (?2, ?3, ?4, ?5, ?6, ?7) WHERE id = ?1"
+        );
+        let of_walk = [
+            Value::Integer(walk),
+            Value::Integer(i64::from(stored) + rows.len() as i64),
+            memory.map_or(Value::Null, |memory| Value::Blob(memory.checkpoint.to_vec())),
         ];
-        transaction.execute(update, values)?;
+        transaction.execute(&update, params_from_iter(of_walk.into_iter().chain(values_of_end(end))))?;
         transaction.commit()?;
         Ok(())
     }
+}
+
+/// Deletes what was walked beyond so many solutions, and what is needed to go on.
+pub(super) fn forget_walked(
+    transaction: &Transaction<'_>,
+    walk: i64,
+    solutions: u32,
+) -> Result<(), StoreError> {
+    let (first, last) = (first_key(walk) + i64::from(solutions), first_key(walk + 1));
+    transaction.execute("DELETE FROM event WHERE solution >= ?1 AND solution < ?2", [first, last])?;
+    transaction.execute("DELETE FROM solution WHERE id >= ?1 AND id < ?2", [first, last])?;
+    transaction.execute("DELETE FROM journal WHERE walk = ?1", [walk])?;
+    Ok(())
 }
 
 /// Appends to the journal of a walk, or throws it away when the walk has ended.
@@ -87,61 +148,28 @@ fn keep_journal(
     Ok(())
 }
 
+/// Stores a solution under its key, with what is known of its event.
 pub(super) fn insert_solution(
     transaction: &Transaction<'_>,
     key: i64,
-    solution: &PeriodicSolution,
-    events: Events,
+    row: &SolvedRow,
 ) -> Result<(), StoreError> {
-    let insert = "INSERT INTO solution VALUES
-        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21)";
-    let maxima = &solution.maxima;
-    let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
-    let state_length = solution.nodes.first().map_or(0, Vec::len);
-    transaction.prepare_cached(insert)?.execute(params![
-        key,
-        solution.frequency_hz,
-        maxima.displacement,
-        maxima.acceleration,
-        maxima.contact_force,
-        maxima.impact_velocity,
-        maxima.impulse,
-        maxima.contacts,
-        pack_events(events),
-        stability::number(solution.stability()),
-        re,
-        im.abs(),
-        solution.residual,
-        solution.error_estimate,
-        solution.nodes.len() as i64,
-        state_length as i64,
-        solution.floquet_multipliers.len() as i64,
-        blob::pack(solution.floquet_multipliers.iter().flatten()),
-        blob::pack(solution.nodes.iter().flatten()),
-        solution.phase,
-        stability::bytes(&solution.on_circle),
-    ])?;
-    Ok(())
-}
-
-/// Events as bits; start and end follow from the place in the branch and are not stored.
-fn pack_events(events: Events) -> u32 {
-    [events.fold, events.flip, events.neimark_sacker, events.branch_point, events.grazing]
-        .iter()
-        .enumerate()
-        .map(|(bit, set)| u32::from(*set) << bit)
-        .sum()
-}
-
-/// The events of those bits.
-pub(super) fn unpack_events(bits: u32) -> Events {
-    let set = |bit: u32| bits >> bit & 1 == 1;
-    Events {
-        fold: set(0),
-        flip: set(1),
-        neimark_sacker: set(2),
-        branch_point: set(3),
-        grazing: set(4),
-        ..Events::default()
+    let solution = &row.solution;
+    let mut values = vec![Value::Integer(key)];
+    values.extend(values_of_row(&Row::from(row)));
+    values.extend([
+        Value::Integer(solution.nodes.len() as i64),
+        Value::Integer(solution.nodes.first().map_or(0, Vec::len) as i64),
+        Value::Integer(solution.floquet_multipliers.len() as i64),
+        Value::Blob(blob::pack(solution.floquet_multipliers.iter().flatten())),
+        Value::Blob(blob::pack(solution.nodes.iter().flatten())),
+        Value::Real(solution.phase),
+        Value::Blob(stability::bytes(&solution.on_circle)),
+    ]);
+    let insert = format!("INSERT INTO solution VALUES ({})", vec!["?"; values.len()].join(", "));
+    transaction.prepare_cached(&insert)?.execute(params_from_iter(values))?;
+    match &row.located {
+        Some(located) => insert_event(transaction, key, located),
+        None => Ok(()),
     }
 }

@@ -55,6 +55,7 @@ pub struct Model {
     damping_keys: Vec<DampingKey>,
     /// Other numbers that vary: the families of the system.
     number_keys: Vec<String>,
+    families: Vec<Arc<StudyFamily>>,
 }
 
 impl Model {
@@ -96,16 +97,18 @@ impl Model {
             let fault = |error: ParameterError| file.fault("damping", error.to_string(), Vec::new());
             system = system.with_damping_part(part).map_err(fault)?;
         }
+        let mut families = Vec::new();
         for ((key, width), reference) in numbers.iter().zip(reference.iter().cycle()) {
             let family = StudyFamily::new(file, key, Arc::clone(reference));
-            let family = family.expect("the study file knows its numbers");
+            let family = Arc::new(family.expect("the study file knows its numbers"));
             let value = family.value();
             let size = if value == 0.0 { *width } else { value.abs() };
-            system = system.with_family(Arc::new(family), value, size);
+            system = system.with_family(Arc::clone(&family) as _, value, size);
+            families.push(family);
         }
         let (tables, outline) = (reduced.tables, reduced.outline);
         let number_keys = numbers.into_iter().map(|(key, _)| key).collect();
-        let model = Self { system, response, tables, outline, matrices, damping_keys, number_keys };
+        let model = Self { system, response, tables, outline, matrices, damping_keys, number_keys, families };
         model.check_varied(file)?;
         Ok(model)
     }

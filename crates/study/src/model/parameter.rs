@@ -1,6 +1,7 @@
 //! Parameters of the study as parameters of the equations of motion.
 
-use hammerbeam_motion::{LawConstant, Parameter};
+use hammerbeam_motion::{Family, LawConstant, Member, Parameter, System};
+use hammerbeam_orbit::Response;
 
 use super::{Model, damping};
 use crate::file::{
@@ -88,6 +89,23 @@ impl Model {
                 Ok(StudyParameter { offset: gap - level, ..plain })
             }
         }
+    }
+
+    /// The system with another value of a parameter, and what is observed in its coordinates.
+    ///
+    /// * `value`: in the unit of the study.
+    ///
+    /// # Errors
+    /// Why there is no such system, in words.
+    pub fn with_parameter(&self, varied: &StudyParameter, value: f64) -> Result<(System, Response), String> {
+        let value = varied.in_system(value);
+        if let Parameter::OfFamily { family } = varied.parameter {
+            let Member { system, response } = self.families[family].member(value)?;
+            let response = Response { shape: response.0, support_ratios: response.1 };
+            return Ok((system, response));
+        }
+        let system = self.system.clone().with_parameter(varied.parameter, value);
+        Ok((system.map_err(|error| error.to_string())?, self.response.clone()))
     }
 
     fn element_of(&self, study: &Study, stop: usize) -> Result<usize, String> {

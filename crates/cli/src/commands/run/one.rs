@@ -10,11 +10,15 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
     MirrorImage, PreparedStudy,
     pool::threads,
-    run::{BranchReport, RunOutcome, RunReport, RunRequest, WholeRun, peak_stability, run_study},
+    run::{
+        BranchReport, RunOutcome, RunReport, RunRequest, WholeRun, end_of_side, peak_stability, run_study,
+    },
 };
+use hammerbeam_orbit::{BranchEventKind, Side};
 use hammerbeam_results::{
-    store::{JobRecord, PieceRecord, StoredReason},
-    summary::{BranchSummary, Peak},
+    end::BranchEnd,
+    store::JobRecord,
+    summary::{BranchSummary, Peak, PieceSummary},
 };
 
 use crate::{
@@ -198,7 +202,8 @@ fn image_text(image: MirrorImage) -> Option<String> {
 }
 
 fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
-    let [low, high] = branch.range_hz.map(|end| unit.factor() * end);
+    let [low, high] = branch.range.map(|end| unit.factor() * end);
+    let count = |kind| branch.events.of(kind);
     let mut lines = vec![
         format!(
             "\nbranch {} (period {}): {} solutions, {} to {} {}, {} of them stable{}",
@@ -213,7 +218,11 @@ fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
         ),
         format!(
             "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
-            branch.folds, branch.flips, branch.neimark_sackers, branch.branch_points, branch.grazings
+            count(BranchEventKind::Fold),
+            count(BranchEventKind::Flip),
+            count(BranchEventKind::NeimarkSacker),
+            count(BranchEventKind::BranchPoint),
+            count(BranchEventKind::Grazing)
         ),
     ];
     if branch.flips_not_followed > 0 {
@@ -225,7 +234,7 @@ fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
     }
     lines.extend(peaks_text(&branch.peaks, unit));
     for (side, walk) in [("up", &branch.record.up), ("down", &branch.record.down)] {
-        lines.push(format!("  {side} side: {}", stop_text(walk.reason.as_ref())));
+        lines.push(format!("  {side} side: {}", stop_text(walk.end.as_ref())));
     }
     lines.join("\n")
 }
@@ -274,37 +283,41 @@ fn marginal_words(marginal: u64) -> String {
     if marginal > 0 { format!(", {marginal} marginal") } else { String::new() }
 }
 
-fn piece_text(piece: &PieceRecord) -> String {
+fn piece_text(piece: &PieceSummary) -> String {
+    let record = &piece.record;
+    let (name, is_curve) = (&record.parameter, record.kind.is_curve());
     let mut lines = Vec::new();
     for branch in &piece.branches {
-        let what = if piece.is_curve { format!("{} curve", branch.kind) } else { "branch".to_owned() };
+        let what = if is_curve { format!("{} curve", record.kind.name()) } else { "branch".to_owned() };
         let [low, high] = branch.range;
         lines.push(format!(
-            "\n{what} over {} (period {}): {} solutions, {low} to {high}, {} of them stable{}",
-            piece.parameter,
-            branch.period_multiple,
-            branch.rows,
+            "\n{what} over {name} (period {}): {} solutions, {low} to {high}, {} of them stable{}",
+            branch.record.period_multiple,
+            branch.solutions,
             branch.stable,
-            marginal_words(u64::from(branch.marginal))
+            marginal_words(branch.marginal)
         ));
-        let events = branch.events.iter().filter(|(word, _)| !matches!(word.as_str(), "start" | "end"));
+        let events = branch.events.by_name().into_iter();
+        let events = events.filter(|(word, _)| *word != BranchEventKind::Start.name());
         let events: Vec<String> = events.map(|(word, count)| format!("{word} {count}")).collect();
         if !events.is_empty() {
             lines.push(format!("  events: {}", events.join(", ")));
         }
-        lines.push(format!("  up side: {}\n  down side: {}", branch.up, branch.down));
+        for (side, word) in [(Side::Up, "up"), (Side::Down, "down")] {
+            lines.push(format!("  {word} side: {}", end_of_side(record, branch, side)));
+        }
     }
-    if let Some(message) = &piece.message {
-        let what = if piece.is_curve { "curve" } else { "branches" };
-        lines.push(format!("\n{what} over {}: {message}", piece.parameter));
+    if let Some(message) = &record.message {
+        let what = if is_curve { "curve" } else { "branches" };
+        lines.push(format!("\n{what} over {name}: {message}"));
     }
     lines.join("\n")
 }
 
-fn stop_text(reason: Option<&StoredReason>) -> String {
-    match reason {
+fn stop_text(end: Option<&BranchEnd>) -> String {
+    match end {
         None => "not finished".to_owned(),
-        Some(reason) if reason.is_complete() => reason.message.clone(),
-        Some(reason) => format!("stopped early: {}", reason.message),
+        Some(end) if end.is_complete() => end.to_string(),
+        Some(end) => format!("stopped early: {end}"),
     }
 }

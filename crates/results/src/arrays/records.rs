@@ -4,7 +4,7 @@
 //! number, `|b1` a flag, `<U` words of equal width in UCS-4, `(w,)<f8` and `(w,)<c16` vectors. A file `.npy`
 //! is these bytes behind a header that describes them (NumPy Enhancement Proposal 1).
 
-use super::{ColumnTable, ColumnValues, TableColumn};
+use super::{ArrayTable, ArrayValues, ArrayColumn};
 
 /// Rows that are packed together, so that what is written stays in the cache.
 const BLOCK: usize = 256;
@@ -24,9 +24,9 @@ pub struct Records {
 
 /// Packs a table; columns of vectors that have no entry in any row are left out.
 #[must_use]
-pub fn pack(table: &ColumnTable) -> Records {
+pub fn pack(table: &ArrayTable) -> Records {
     let rows = table.rows();
-    let columns: Vec<&TableColumn> = table.columns.iter().filter(|column| width(column) > 0).collect();
+    let columns: Vec<&ArrayColumn> = table.columns.iter().filter(|column| width(column) > 0).collect();
     let fields = columns.iter().map(|column| field(column)).collect();
     let widths: Vec<usize> = columns.iter().map(|column| width(column)).collect();
     let size = widths.iter().sum::<usize>();
@@ -46,13 +46,13 @@ pub fn pack(table: &ColumnTable) -> Records {
 }
 
 /// Bytes of an entry.
-fn width(column: &TableColumn) -> usize {
+fn width(column: &ArrayColumn) -> usize {
     match &column.values {
-        ColumnValues::Numbers(_) | ColumnValues::Whole(_) => 8,
-        ColumnValues::Flags(_) => 1,
-        ColumnValues::Words(words) => 4 * longest(words),
-        ColumnValues::Vectors { width, .. } => 8 * width,
-        ColumnValues::Complex { width, .. } => 16 * width,
+        ArrayValues::Numbers(_) | ArrayValues::Whole(_) => 8,
+        ArrayValues::Flags(_) => 1,
+        ArrayValues::Words(words) => 4 * longest(words),
+        ArrayValues::Vectors { width, .. } => 8 * width,
+        ArrayValues::Complex { width, .. } => 16 * width,
     }
 }
 
@@ -61,32 +61,32 @@ fn longest(words: &[std::borrow::Cow<'static, str>]) -> usize {
     words.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1)
 }
 
-fn field(column: &TableColumn) -> (String, String, Option<usize>) {
+fn field(column: &ArrayColumn) -> (String, String, Option<usize>) {
     let (letters, length) = match &column.values {
-        ColumnValues::Numbers(_) => ("<f8".to_owned(), None),
-        ColumnValues::Whole(_) => ("<i8".to_owned(), None),
-        ColumnValues::Flags(_) => ("|b1".to_owned(), None),
-        ColumnValues::Words(words) => (format!("<U{}", longest(words)), None),
-        ColumnValues::Vectors { width, .. } => ("<f8".to_owned(), Some(*width)),
-        ColumnValues::Complex { width, .. } => ("<c16".to_owned(), Some(*width)),
+        ArrayValues::Numbers(_) => ("<f8".to_owned(), None),
+        ArrayValues::Whole(_) => ("<i8".to_owned(), None),
+        ArrayValues::Flags(_) => ("|b1".to_owned(), None),
+        ArrayValues::Words(words) => (format!("<U{}", longest(words)), None),
+        ArrayValues::Vectors { width, .. } => ("<f8".to_owned(), Some(*width)),
+        ArrayValues::Complex { width, .. } => ("<c16".to_owned(), Some(*width)),
     };
     (column.name.clone(), letters, length)
 }
 
-fn put(column: &TableColumn, row: usize, place: &mut [u8]) {
+fn put(column: &ArrayColumn, row: usize, place: &mut [u8]) {
     match &column.values {
-        ColumnValues::Numbers(values) => place.copy_from_slice(&values[row].to_le_bytes()),
-        ColumnValues::Whole(values) => place.copy_from_slice(&values[row].to_le_bytes()),
-        ColumnValues::Flags(values) => place[0] = u8::from(values[row]),
-        ColumnValues::Words(words) => {
+        ArrayValues::Numbers(values) => place.copy_from_slice(&values[row].to_le_bytes()),
+        ArrayValues::Whole(values) => place.copy_from_slice(&values[row].to_le_bytes()),
+        ArrayValues::Flags(values) => place[0] = u8::from(values[row]),
+        ArrayValues::Words(words) => {
             for (letter, place) in words[row].chars().zip(place.chunks_exact_mut(4)) {
                 place.copy_from_slice(&u32::from(letter).to_le_bytes());
             }
         }
-        ColumnValues::Vectors { width, values } => {
+        ArrayValues::Vectors { width, values } => {
             numbers(&values[row * width..(row + 1) * width], place);
         }
-        ColumnValues::Complex { width, values } => {
+        ArrayValues::Complex { width, values } => {
             numbers(values[row * width..(row + 1) * width].as_flattened(), place);
         }
     }
@@ -127,19 +127,19 @@ impl Records {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::named;
+    use crate::arrays::named;
 
-    fn table() -> ColumnTable {
+    fn table() -> ArrayTable {
         let words = vec!["".into(), "fold".into()];
-        ColumnTable::new(
+        ArrayTable::new(
             "table",
             named([
-                ("n", ColumnValues::Whole(vec![1, -1])),
-                ("x", ColumnValues::Numbers(vec![0.5, f64::NAN])),
-                ("ok", ColumnValues::Flags(vec![true, false])),
-                ("word", ColumnValues::Words(words)),
-                ("z", ColumnValues::complex(&[vec![[1.0, 2.0]], vec![]])),
-                ("none", ColumnValues::vectors(&[vec![], vec![]])),
+                ("n", ArrayValues::Whole(vec![1, -1])),
+                ("x", ArrayValues::Numbers(vec![0.5, f64::NAN])),
+                ("ok", ArrayValues::Flags(vec![true, false])),
+                ("word", ArrayValues::Words(words)),
+                ("z", ArrayValues::complex(&[vec![[1.0, 2.0]], vec![]])),
+                ("none", ArrayValues::vectors(&[vec![], vec![]])),
             ]),
         )
     }

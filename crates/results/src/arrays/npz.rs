@@ -7,14 +7,14 @@ use std::{
 
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
-use super::{ColumnTable, pack};
+use super::{ArrayTable, pack};
 use crate::whole_file::{WriteError, replace};
 
 /// Writes tables as records, each under its name; `numpy.load` gives them back without `allow_pickle`.
 ///
 /// # Errors
 /// [`WriteError`]: the file cannot be written.
-pub fn write_npz(tables: &[ColumnTable], path: &Path) -> Result<(), WriteError> {
+pub fn write_npz(tables: &[ArrayTable], path: &Path) -> Result<(), WriteError> {
     let failed = |source| WriteError { path: path.to_owned(), source };
     // In memory: the directory of an archive follows its files, and a whole file cannot be gone back in.
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));

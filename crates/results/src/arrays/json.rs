@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use super::{ColumnTable, ColumnValues};
+use super::{ArrayTable, ArrayValues};
 use crate::{
     export::ExportError,
     whole_file::{WholeFile, WriteError},
@@ -16,7 +16,7 @@ use crate::{
 ///
 /// # Errors
 /// [`ExportError::Write`].
-pub fn write_json(tables: &[ColumnTable], path: &Path) -> Result<(), ExportError> {
+pub fn write_json(tables: &[ArrayTable], path: &Path) -> Result<(), ExportError> {
     let failed = |source| WriteError { path: path.to_owned(), source };
     let mut file = WholeFile::begin(path)?;
     write(tables, &mut file).map_err(failed)?;
@@ -24,7 +24,7 @@ pub fn write_json(tables: &[ColumnTable], path: &Path) -> Result<(), ExportError
     Ok(())
 }
 
-fn write(tables: &[ColumnTable], out: &mut impl Write) -> io::Result<()> {
+fn write(tables: &[ArrayTable], out: &mut impl Write) -> io::Result<()> {
     for (table, mark) in tables.iter().zip(marks("{\n")) {
         write!(out, "{mark}{}: ", text(&table.name))?;
         for (column, mark) in table.columns.iter().zip(marks("{\n")) {
@@ -36,17 +36,17 @@ fn write(tables: &[ColumnTable], out: &mut impl Write) -> io::Result<()> {
     out.write_all(if tables.is_empty() { b"{}\n" } else { b"\n}\n" })
 }
 
-fn write_values(values: &ColumnValues, out: &mut impl Write) -> io::Result<()> {
+fn write_values(values: &ArrayValues, out: &mut impl Write) -> io::Result<()> {
     match values {
-        ColumnValues::Numbers(values) => list(values.iter().map(|value| number(*value)), out),
-        ColumnValues::Whole(values) => list(values.iter().map(whole), out),
-        ColumnValues::Flags(values) => list(values.iter().map(bool::to_string), out),
-        ColumnValues::Words(words) => list(words.iter().map(|word| text(word)), out),
-        ColumnValues::Vectors { width, values } => {
+        ArrayValues::Numbers(values) => list(values.iter().map(|value| number(*value)), out),
+        ArrayValues::Whole(values) => list(values.iter().map(whole), out),
+        ArrayValues::Flags(values) => list(values.iter().map(bool::to_string), out),
+        ArrayValues::Words(words) => list(words.iter().map(|word| text(word)), out),
+        ArrayValues::Vectors { width, values } => {
             let row = |row: &[f64]| joined(row.iter().map(|value| number(*value)));
             list(values.chunks((*width).max(1)).map(row), out)
         }
-        ColumnValues::Complex { width, values } => {
+        ArrayValues::Complex { width, values } => {
             let pair = |[re, im]: &[f64; 2]| joined([number(*re), number(*im)].into_iter());
             list(values.chunks((*width).max(1)).map(|row| joined(row.iter().map(pair))), out)
         }
@@ -85,18 +85,18 @@ fn text(words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::named;
+    use crate::arrays::named;
 
     #[test]
     fn the_document_has_the_entries_of_each_column() {
         let columns = named([
-            ("row", ColumnValues::Whole(vec![0, -1])),
-            ("x", ColumnValues::Numbers(vec![1e-300, f64::INFINITY])),
-            ("word", ColumnValues::Words(vec!["a \"b\"".into(), "".into()])),
-            ("z", ColumnValues::complex(&[vec![[1.0, -2.0]], vec![[0.5, 0.0]]])),
+            ("row", ArrayValues::Whole(vec![0, -1])),
+            ("x", ArrayValues::Numbers(vec![1e-300, f64::INFINITY])),
+            ("word", ArrayValues::Words(vec!["a \"b\"".into(), "".into()])),
+            ("z", ArrayValues::complex(&[vec![[1.0, -2.0]], vec![[0.5, 0.0]]])),
         ]);
         let mut out = Vec::new();
-        write(&[ColumnTable::new("one", columns), ColumnTable::new("two", Vec::new())][..1], &mut out)
+        write(&[ArrayTable::new("one", columns), ArrayTable::new("two", Vec::new())][..1], &mut out)
             .unwrap();
         let found: serde_json::Value = serde_json::from_slice(&out).unwrap();
         let expected = serde_json::json!({ "one": {

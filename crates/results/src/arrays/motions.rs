@@ -1,6 +1,6 @@
 //! Motions that need not repeat by columns: in time, settled ones, exponents, basins.
 
-use super::{ColumnTable, ColumnValues, named, or_nan, or_none};
+use super::{ArrayTable, ArrayValues, named, or_nan, or_none};
 use crate::{
     export::grid,
     store::{
@@ -13,7 +13,7 @@ use crate::{
 ///
 /// # Errors
 /// [`StoreError`].
-pub fn motion_tables(store: &Store) -> Result<Vec<ColumnTable>, StoreError> {
+pub fn motion_tables(store: &Store) -> Result<Vec<ArrayTable>, StoreError> {
     let mut tables = Vec::new();
     for request in store.requests()? {
         tables.extend(request_tables(store, &request)?.into_iter().map(|mut table| {
@@ -29,7 +29,7 @@ pub fn motion_tables(store: &Store) -> Result<Vec<ColumnTable>, StoreError> {
 ///
 /// # Errors
 /// [`StoreError`].
-pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<ColumnTable>, StoreError> {
+pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<ArrayTable>, StoreError> {
     match request.kind {
         RequestKind::Simulation => simulation(store, request),
         RequestKind::Sweep | RequestKind::Starts => Ok(settled(&store.settled(request.id)?)),
@@ -38,16 +38,16 @@ pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<Colu
             let (cells, _) = store.basins(request.id)?;
             let grid = grid(request)?;
             let places: Vec<[f64; 2]> = (0..cells.len()).map(|cell| grid.place(cell)).collect();
-            let along = |axis: usize| ColumnValues::Numbers(places.iter().map(|place| place[axis]).collect());
-            let attractors = ColumnValues::Whole(cells.iter().map(|&cell| cell.into()).collect());
+            let along = |axis: usize| ArrayValues::Numbers(places.iter().map(|place| place[axis]).collect());
+            let attractors = ArrayValues::Whole(cells.iter().map(|&cell| cell.into()).collect());
             let columns = named([("x", along(0)), ("y", along(1)), ("attractor", attractors)]);
-            Ok(vec![ColumnTable::new("basins", columns)])
+            Ok(vec![ArrayTable::new("basins", columns)])
         }
     }
 }
 
 /// Samples, contacts and the stroboscopic section of a motion in time.
-fn simulation(store: &Store, request: &RequestRecord) -> Result<Vec<ColumnTable>, StoreError> {
+fn simulation(store: &Store, request: &RequestRecord) -> Result<Vec<ArrayTable>, StoreError> {
     let layout = SimulationLayout::of(request)?;
     let (mut samples, mut section, mut contacts, mut open) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     store.each_simulated::<StoreError>(request.id, &layout, |chunk| {
@@ -66,11 +66,11 @@ fn simulation(store: &Store, request: &RequestRecord) -> Result<Vec<ColumnTable>
 }
 
 /// Every `width`-th number, from `first` on.
-fn strided(numbers: &[f64], first: usize, width: usize) -> ColumnValues {
-    ColumnValues::Numbers(numbers.iter().skip(first).step_by(width).copied().collect())
+fn strided(numbers: &[f64], first: usize, width: usize) -> ArrayValues {
+    ArrayValues::Numbers(numbers.iter().skip(first).step_by(width).copied().collect())
 }
 
-fn sample_table(layout: &SimulationLayout, samples: &[f64]) -> ColumnTable {
+fn sample_table(layout: &SimulationLayout, samples: &[f64]) -> ArrayTable {
     let width = layout.numbers_of_sample();
     let per_period = layout.samples_per_period as usize;
     let count = samples.len() / width;
@@ -79,8 +79,8 @@ fn sample_table(layout: &SimulationLayout, samples: &[f64]) -> ColumnTable {
         (sample / per_period) as f64 / layout.frequency_hz + phase(sample) / layout.frequency_hz
     };
     let mut columns = named([
-        ("time_s", ColumnValues::Numbers((0..count).map(time).collect())),
-        ("phase_cycles", ColumnValues::Numbers((0..count).map(phase).collect())),
+        ("time_s", ArrayValues::Numbers((0..count).map(time).collect())),
+        ("phase_cycles", ArrayValues::Numbers((0..count).map(phase).collect())),
         ("displacement_m", strided(samples, 0, width)),
         ("velocity_m_s", strided(samples, 1, width)),
         ("acceleration_m_s2", strided(samples, 2, width)),
@@ -90,38 +90,38 @@ fn sample_table(layout: &SimulationLayout, samples: &[f64]) -> ColumnTable {
         columns.push((format!("{name}_relative_displacement_m"), strided(samples, 3 + 2 * place, width)));
         columns.push((format!("{name}_force_n"), strided(samples, 4 + 2 * place, width)));
     }
-    ColumnTable::new("samples", columns)
+    ArrayTable::new("samples", columns)
 }
 
-fn section_table(layout: &SimulationLayout, section: &[f64]) -> ColumnTable {
+fn section_table(layout: &SimulationLayout, section: &[f64]) -> ArrayTable {
     let width = layout.numbers_of_section();
     let count = section.len() / width;
     let time =
         |period: usize| period as f64 / layout.frequency_hz + layout.section_phase / layout.frequency_hz;
     let states: Vec<f64> = section.chunks_exact(width).flat_map(|row| &row[2..]).copied().collect();
-    ColumnTable::new(
+    ArrayTable::new(
         "stroboscopic",
         named([
-            ("time_s", ColumnValues::Numbers((0..count).map(time).collect())),
-            ("phase_cycles", ColumnValues::Numbers(vec![layout.section_phase; count])),
+            ("time_s", ArrayValues::Numbers((0..count).map(time).collect())),
+            ("phase_cycles", ArrayValues::Numbers(vec![layout.section_phase; count])),
             ("displacement_m", strided(section, 0, width)),
             ("velocity_m_s", strided(section, 1, width)),
-            ("state", ColumnValues::Vectors { width: width - 2, values: states }),
+            ("state", ArrayValues::Vectors { width: width - 2, values: states }),
         ]),
     )
 }
 
-fn contact_table(layout: &SimulationLayout, contacts: &[SimulatedContact]) -> ColumnTable {
+fn contact_table(layout: &SimulationLayout, contacts: &[SimulatedContact]) -> ArrayTable {
     let number = |of: &dyn Fn(&SimulatedContact) -> Option<f64>| {
-        ColumnValues::Numbers(contacts.iter().map(|contact| or_nan(of(contact))).collect())
+        ArrayValues::Numbers(contacts.iter().map(|contact| or_nan(of(contact))).collect())
     };
     let name =
         |contact: &SimulatedContact| layout.elements.get(contact.element).cloned().unwrap_or_default().into();
     let touch = |contact: &SimulatedContact| contact.touch.clone();
-    ColumnTable::new(
+    ArrayTable::new(
         "contacts",
         named([
-            ("element", ColumnValues::Words(contacts.iter().map(name).collect())),
+            ("element", ArrayValues::Words(contacts.iter().map(name).collect())),
             ("begin_s", number(&|contact| Some(touch(contact)?.time_s))),
             ("end_s", number(&|contact| contact.end_s)),
             ("phase_cycles", number(&|contact| Some(touch(contact)?.phase))),
@@ -136,20 +136,20 @@ fn contact_table(layout: &SimulationLayout, contacts: &[SimulatedContact]) -> Co
 }
 
 /// Settled motions and their samples.
-fn settled(motions: &[SettledMotion]) -> Vec<ColumnTable> {
+fn settled(motions: &[SettledMotion]) -> Vec<ArrayTable> {
     let number = |of: &dyn Fn(&SettledMotion) -> Option<f64>| {
-        ColumnValues::Numbers(motions.iter().map(|motion| or_nan(of(motion))).collect())
+        ArrayValues::Numbers(motions.iter().map(|motion| or_nan(of(motion))).collect())
     };
     let origin = motions.iter().map(|motion| motion.origin.clone().into());
     let class = motions.iter().map(|motion| motion.point.class.name().into());
     let period = motions.iter().map(|motion| or_none(motion.point.class.period()));
-    let sweep = ColumnTable::new(
+    let sweep = ArrayTable::new(
         "sweep",
         named([
-            ("from", ColumnValues::Words(origin.collect())),
+            ("from", ArrayValues::Words(origin.collect())),
             ("frequency_hz", number(&|motion| Some(motion.point.frequency_hz))),
-            ("class", ColumnValues::Words(class.collect())),
-            ("period", ColumnValues::Whole(period.collect())),
+            ("class", ArrayValues::Words(class.collect())),
+            ("period", ArrayValues::Whole(period.collect())),
             ("max_abs_displacement_m", number(&|motion| Some(motion.point.max_abs_displacement))),
             ("contacts_per_period", number(&|motion| Some(motion.point.contacts_per_period))),
             ("largest_exponent_per_s", number(&|motion| Some(motion.point.largest_exponent?.value))),
@@ -159,28 +159,28 @@ fn settled(motions: &[SettledMotion]) -> Vec<ColumnTable> {
     );
     let each =
         || motions.iter().flat_map(|motion| motion.point.samples.iter().map(move |sample| (motion, *sample)));
-    let samples = ColumnTable::new(
+    let samples = ArrayTable::new(
         "sweep_samples",
         named([
-            ("from", ColumnValues::Words(each().map(|(motion, _)| motion.origin.clone().into()).collect())),
+            ("from", ArrayValues::Words(each().map(|(motion, _)| motion.origin.clone().into()).collect())),
             (
                 "frequency_hz",
-                ColumnValues::Numbers(each().map(|(motion, _)| motion.point.frequency_hz).collect()),
+                ArrayValues::Numbers(each().map(|(motion, _)| motion.point.frequency_hz).collect()),
             ),
             (
                 "class",
-                ColumnValues::Words(each().map(|(motion, _)| motion.point.class.name().into()).collect()),
+                ArrayValues::Words(each().map(|(motion, _)| motion.point.class.name().into()).collect()),
             ),
-            ("displacement_m", ColumnValues::Numbers(each().map(|(_, sample)| sample).collect())),
+            ("displacement_m", ArrayValues::Numbers(each().map(|(_, sample)| sample).collect())),
         ]),
     );
     vec![sweep, samples]
 }
 
 /// Spectra of exponents, and their convergence.
-fn exponents(records: &[ExponentRecord]) -> Vec<ColumnTable> {
+fn exponents(records: &[ExponentRecord]) -> Vec<ArrayTable> {
     let number = |of: &dyn Fn(&ExponentRecord) -> Option<f64>| {
-        ColumnValues::Numbers(records.iter().map(|record| or_nan(of(record))).collect())
+        ArrayValues::Numbers(records.iter().map(|record| or_nan(of(record))).collect())
     };
     let exponents: Vec<Vec<f64>> = records
         .iter()
@@ -190,12 +190,12 @@ fn exponents(records: &[ExponentRecord]) -> Vec<ColumnTable> {
         .iter()
         .map(|record| record.spectrum.exponents.iter().map(|one| one.half_width).collect())
         .collect();
-    let spectra = ColumnTable::new(
+    let spectra = ArrayTable::new(
         "spectra",
         named([
             ("frequency_hz", number(&|record| Some(record.frequency_hz))),
-            ("exponents_per_s", ColumnValues::vectors(&exponents)),
-            ("half_widths_per_s", ColumnValues::vectors(&widths)),
+            ("exponents_per_s", ArrayValues::vectors(&exponents)),
+            ("half_widths_per_s", ArrayValues::vectors(&widths)),
             ("sum_per_s", number(&|record| Some(record.spectrum.sum))),
             ("divergence_per_s", number(&|record| Some(record.divergence))),
             ("expected_sum_per_s", number(&|record| record.spectrum.expected_sum)),
@@ -208,31 +208,31 @@ fn exponents(records: &[ExponentRecord]) -> Vec<ColumnTable> {
     let places =
         || records.iter().flat_map(|record| record.spectrum.convergence.iter().map(move |at| (record, at)));
     let along: Vec<Vec<f64>> = places().map(|(_, at)| at.exponents.clone()).collect();
-    let convergence = ColumnTable::new(
+    let convergence = ArrayTable::new(
         "convergence",
         named([
             (
                 "frequency_hz",
-                ColumnValues::Numbers(places().map(|(record, _)| record.frequency_hz).collect()),
+                ArrayValues::Numbers(places().map(|(record, _)| record.frequency_hz).collect()),
             ),
-            ("time_s", ColumnValues::Numbers(places().map(|(_, at)| at.time).collect())),
-            ("exponents_per_s", ColumnValues::vectors(&along)),
+            ("time_s", ArrayValues::Numbers(places().map(|(_, at)| at.time).collect())),
+            ("exponents_per_s", ArrayValues::vectors(&along)),
         ]),
     );
     let points =
         || records.iter().flat_map(|record| record.section.iter().map(move |point| (record, *point)));
-    let section = ColumnTable::new(
+    let section = ArrayTable::new(
         "section",
         named([
             (
                 "frequency_hz",
-                ColumnValues::Numbers(points().map(|(record, _)| record.frequency_hz).collect()),
+                ArrayValues::Numbers(points().map(|(record, _)| record.frequency_hz).collect()),
             ),
             (
                 "displacement_m",
-                ColumnValues::Numbers(points().map(|(_, [displacement, _])| displacement).collect()),
+                ArrayValues::Numbers(points().map(|(_, [displacement, _])| displacement).collect()),
             ),
-            ("velocity_m_s", ColumnValues::Numbers(points().map(|(_, [_, velocity])| velocity).collect())),
+            ("velocity_m_s", ArrayValues::Numbers(points().map(|(_, [_, velocity])| velocity).collect())),
         ]),
     );
     vec![spectra, convergence, section]

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    ColumnTable, branch_table, end_table, event_table, motion_tables, state_table, varied_tables, write_json,
-    write_npz, write_table,
+    ArrayTable, branch_array, motion_tables, piece_arrays, write_json, write_npz, write_table,
 };
 use crate::{
-    export::{ExportError, export_csv, export_states},
+    export::{ExportError, TableLines, export_csv, export_states},
     store::{Store, StoreError},
 };
 
@@ -43,13 +42,15 @@ impl TableFormat {
 ///
 /// # Errors
 /// [`StoreError`].
-pub fn all_tables(store: &Store, with_states: bool) -> Result<Vec<ColumnTable>, StoreError> {
+pub fn all_tables(store: &Store, with_states: bool) -> Result<Vec<ArrayTable>, StoreError> {
     let snapshot = store.snapshot()?;
-    let mut tables = vec![branch_table(store, &[])?, event_table(store, &[])?, end_table(store, &[])?];
-    if with_states {
-        tables.push(state_table(store, &[])?);
+    let mut lines = vec![TableLines::Rows, TableLines::Events, TableLines::Ends];
+    lines.extend(with_states.then_some(TableLines::States));
+    let mut tables = Vec::new();
+    for lines in &lines {
+        tables.extend(branch_array(store, *lines, &[])?);
     }
-    tables.extend(varied_tables(store)?);
+    tables.extend(piece_arrays(store, &lines)?);
     tables.extend(motion_tables(store)?);
     drop(snapshot);
     Ok(tables)
@@ -88,7 +89,7 @@ pub fn export_all(
 /// # Errors
 /// [`ExportError::Write`].
 pub fn write_tables(
-    tables: &[ColumnTable],
+    tables: &[ArrayTable],
     folder: &Path,
     (name, format): (&str, TableFormat),
 ) -> Result<Vec<PathBuf>, ExportError> {

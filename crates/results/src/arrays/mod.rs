@@ -1,15 +1,14 @@
 //! Tables by columns, for programs that take arrays: NumPy, MATLAB, data frames.
 //!
-//! A [`ColumnTable`] holds what a table of the export holds, with numbers as numbers. From it follow records
+//! A [`ArrayTable`] holds what a table of the export holds, with numbers as numbers. From it follow records
 //! in NumPy's layout, which Python takes as they are, and the files of `export` in NPZ and JSON.
 //!
 //! | file | what it does |
 //! |---|---|
 //! | `records.rs` | columns packed as records, and their NumPy file |
 //! | `npz.rs`, `json.rs`, `csv.rs` | tables as files |
-//! | `branches.rs` | branches, their events and ends, states and multipliers |
+//! | `branches.rs` | branches and curves, their events and ends, states and multipliers |
 //! | `export.rs` | all tables of a folder, as files of a format |
-//! | `varied.rs` | branches in other parameters and curves |
 //! | `motions.rs` | motions in time, settled motions, exponents, basins |
 
 mod branches;
@@ -19,22 +18,20 @@ mod json;
 mod motions;
 mod npz;
 mod records;
-mod varied;
 
 use std::borrow::Cow;
 
-pub use branches::{branch_table, end_table, event_table, state_table};
+pub use branches::{branch_array, piece_arrays};
 pub use csv::write_table;
 pub use export::{TableFormat, all_tables, export_all, write_tables};
 pub use json::write_json;
 pub use motions::{motion_tables, request_tables};
 pub use npz::write_npz;
 pub use records::{Records, pack};
-pub use varied::varied_tables;
 
 /// The entries of a column, one for each row.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ColumnValues {
+pub enum ArrayValues {
     /// Numbers; NaN where there is none.
     Numbers(Vec<f64>),
     /// Whole numbers; -1 where there is none.
@@ -59,7 +56,7 @@ pub enum ColumnValues {
     },
 }
 
-impl ColumnValues {
+impl ArrayValues {
     /// Vectors of equal or different lengths, the shorter ones filled up with NaN.
     #[must_use]
     pub fn vectors(rows: &[Vec<f64>]) -> Self {
@@ -98,31 +95,31 @@ fn filled<T: Copy>(rows: &[Vec<T>], width: usize, none: T) -> Vec<T> {
 
 /// A column with its name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TableColumn {
+pub struct ArrayColumn {
     /// Name, with the unit at its end.
     pub name: String,
     /// One entry for each row.
-    pub values: ColumnValues,
+    pub values: ArrayValues,
 }
 
 /// A table by columns of one length.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ColumnTable {
+pub struct ArrayTable {
     /// Name of the table, that of its CSV file without `.csv`.
     pub name: String,
     /// The columns.
-    pub columns: Vec<TableColumn>,
+    pub columns: Vec<ArrayColumn>,
 }
 
-impl ColumnTable {
+impl ArrayTable {
     /// A table of columns of one length.
     ///
     /// # Panics
     /// The lengths differ.
     #[must_use]
-    pub fn new(name: impl Into<String>, columns: Vec<(String, ColumnValues)>) -> Self {
-        let columns: Vec<TableColumn> =
-            columns.into_iter().map(|(name, values)| TableColumn { name, values }).collect();
+    pub fn new(name: impl Into<String>, columns: Vec<(String, ArrayValues)>) -> Self {
+        let columns: Vec<ArrayColumn> =
+            columns.into_iter().map(|(name, values)| ArrayColumn { name, values }).collect();
         let mut lengths = columns.iter().filter_map(|column| column.values.rows());
         let first = lengths.next().unwrap_or(0);
         assert!(lengths.all(|length| length == first), "columns of a table have one length");
@@ -137,7 +134,7 @@ impl ColumnTable {
 }
 
 /// Columns from names that are known.
-pub(crate) fn named<const N: usize>(columns: [(&str, ColumnValues); N]) -> Vec<(String, ColumnValues)> {
+pub(crate) fn named<const N: usize>(columns: [(&str, ArrayValues); N]) -> Vec<(String, ArrayValues)> {
     columns.into_iter().map(|(name, values)| (name.to_owned(), values)).collect()
 }
 

@@ -1,0 +1,339 @@
+//! How one side of a branch or a curve ended: an enum from the solver to the database.
+//!
+//! The sentence for a reader is made where it is shown ([`end_text`](crate::end_text)); here is what programs
+//! ask: the word of the table `ends.csv`, whether the end is one or came early, and the form in which an end
+//! is stored.
+
+use hammerbeam_orbit::{CurveEnd, ResonantMode, StopReason};
+
+/// How one side of a branch or a curve ended. Places are in the unit in which the parameter is named.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BranchEnd {
+    /// The walk along the branch ended by itself.
+    Walk(StopReason),
+    /// So did that along a curve of bifurcations.
+    Curve(CurveEnd),
+    /// The side begins where it leaves a branch of half the period.
+    Crossing {
+        /// Where [Hz].
+        frequency_hz: f64,
+    },
+    /// The side comes upon another branch where that one was lost.
+    Joins {
+        /// Number of the other branch.
+        branch: u32,
+        /// Where that one ended [Hz].
+        frequency_hz: f64,
+    },
+    /// The branch could not be followed from its start.
+    NotStarted {
+        /// Why.
+        message: String,
+    },
+    /// The next solution could not be computed.
+    Failed {
+        /// Why.
+        message: String,
+    },
+}
+
+impl From<StopReason> for BranchEnd {
+    fn from(reason: StopReason) -> Self {
+        Self::Walk(reason)
+    }
+}
+
+impl BranchEnd {
+    /// The word for programs: `range-end`, `closed`, ...; `docs/reference/ends.md` has all of them.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        self.stored().kind
+    }
+
+    /// Where, if there is a place.
+    #[must_use]
+    pub fn place(&self) -> Option<f64> {
+        self.stored().place
+    }
+
+    /// Whether the branch goes to infinity.
+    #[must_use]
+    pub fn is_unbounded(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::Unbounded { .. }))
+    }
+
+    /// Whether more budget lets the walk go on.
+    #[must_use]
+    pub fn is_budget(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::Budget { .. }))
+    }
+
+    /// Whether the branch is closed, so that one walk is all of it.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::Closed) | Self::Curve(CurveEnd::Closed))
+    }
+
+    /// Whether the branch came to one of shorter period.
+    #[must_use]
+    pub fn is_shorter_period(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::ShorterPeriod { .. }))
+    }
+
+    /// Whether the walk ended where it should, and not early.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        let is_end = matches!(
+            self,
+            Self::Walk(StopReason::RangeEnd { .. }) | Self::Crossing { .. } | Self::Joins { .. }
+        );
+        is_end || self.is_closed() || self.is_unbounded() || self.is_shorter_period()
+    }
+}
+
+/// An end as four columns: what it is, where, its numbers, its text.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StoredEnd<'k, 't> {
+    pub kind: &'k str,
+    pub place: Option<f64>,
+    pub numbers: Vec<f64>,
+    pub text: Option<&'t str>,
+}
+
+impl<'k, 't> StoredEnd<'k, 't> {
+    fn plain(kind: &'k str) -> Self {
+        Self { kind, place: None, numbers: Vec::new(), text: None }
+    }
+
+    fn at(kind: &'k str, place: f64) -> Self {
+        Self { place: Some(place), ..Self::plain(kind) }
+    }
+
+    fn with(self, numbers: impl Into<Vec<f64>>) -> Self {
+        Self { numbers: numbers.into(), ..self }
+    }
+
+    fn saying(self, text: &'t str) -> Self {
+        Self { text: Some(text), ..self }
+    }
+}
+
+impl BranchEnd {
+    /// The end as it is stored.
+    pub(crate) fn stored(&self) -> StoredEnd<'static, '_> {
+        match self {
+            Self::Walk(reason) => of_walk(reason),
+            Self::Curve(end) => of_curve(end),
+            Self::Crossing { frequency_hz } => StoredEnd::at("crossing", *frequency_hz),
+            Self::Joins { branch, frequency_hz } => {
+                StoredEnd::at("joins", *frequency_hz).with([f64::from(*branch)])
+            }
+            Self::NotStarted { message } => StoredEnd::plain("not-begun").saying(message),
+            Self::Failed { message } => StoredEnd::plain("failed").saying(message),
+        }
+    }
+
+    /// The end that is stored so; `None` if there is no such end.
+    pub(crate) fn of_stored(stored: &StoredEnd<'_, '_>) -> Option<Self> {
+        let text = || stored.text.map(str::to_owned);
+        let end = match (stored.kind, stored.place, stored.numbers.as_slice()) {
+            ("crossing", Some(frequency_hz), []) => Self::Crossing { frequency_hz },
+            ("joins", Some(frequency_hz), [branch]) => Self::Joins { branch: *branch as u32, frequency_hz },
+            ("not-begun", None, []) => Self::NotStarted { message: text()? },
+            ("failed", None, []) => Self::Failed { message: text()? },
+            _ => return walk_of(stored).map(Self::Walk).or_else(|| curve_of(stored).map(Self::Curve)),
+        };
+        Some(end)
+    }
+}
+
+fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
+    match reason {
+        StopReason::RangeEnd { frequency_hz } => StoredEnd::at("range-end", *frequency_hz),
+        StopReason::Closed => StoredEnd::plain("closed"),
+        StopReason::ShorterPeriod { frequency_hz, grazes } => {
+            StoredEnd::at("shorter-period", *frequency_hz).with([f64::from(u8::from(*grazes))])
+        }
+        StopReason::Budget { solutions } => StoredEnd::plain("budget").with([*solutions as f64]),
+        StopReason::StepTooShort { frequency_hz, step, residual, doubt } => {
+            StoredEnd::at("step-too-short", *frequency_hz).with([*step, *residual]).saying(doubt)
+        }
+        StopReason::RunsBack { frequency_hz, met_arc_length } => {
+            StoredEnd::at("runs-back", *frequency_hz).with([*met_arc_length])
+        }
+        StopReason::ContactSplits { frequency_hz, element, phase } => {
+            StoredEnd::at("contact-splits", *frequency_hz).with([*phase]).saying(element)
+        }
+        StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
+            StoredEnd::at("crawls", *frequency_hz).with([*solutions as f64, *largest_multiplier])
+        }
+        StopReason::Unbounded { frequency_hz, mode } => {
+            let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
+            StoredEnd::at("unbounded", *frequency_hz).with(of_mode.unwrap_or_default())
+        }
+        StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
+            let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
+            StoredEnd::at("too-laborious", *frequency_hz).with(numbers)
+        }
+        StopReason::Motion { frequency_hz, message } => {
+            StoredEnd::at("motion", *frequency_hz).saying(message)
+        }
+    }
+}
+
+fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
+    let text = || stored.text.map(str::to_owned);
+    let reason = match (stored.kind, stored.numbers.as_slice()) {
+        ("closed", []) => return Some(StopReason::Closed),
+        ("budget", [solutions]) => return Some(StopReason::Budget { solutions: *solutions as usize }),
+        (kind, numbers) => (kind, numbers, stored.place?),
+    };
+    Some(match reason {
+        ("range-end", [], frequency_hz) => StopReason::RangeEnd { frequency_hz },
+        ("shorter-period", [grazes], frequency_hz) => {
+            StopReason::ShorterPeriod { frequency_hz, grazes: *grazes != 0.0 }
+        }
+        ("step-too-short", [step, residual], frequency_hz) => {
+            StopReason::StepTooShort { frequency_hz, step: *step, residual: *residual, doubt: text()? }
+        }
+        ("runs-back", [met], frequency_hz) => StopReason::RunsBack { frequency_hz, met_arc_length: *met },
+        ("contact-splits", [phase], frequency_hz) => {
+            StopReason::ContactSplits { frequency_hz, element: text()?, phase: *phase }
+        }
+        ("crawls", [solutions, largest], frequency_hz) => {
+            let solutions = *solutions as u64;
+            StopReason::Crawls { frequency_hz, solutions, largest_multiplier: *largest }
+        }
+        ("unbounded", [], frequency_hz) => StopReason::Unbounded { frequency_hz, mode: None },
+        ("unbounded", [number, at_hz, ratio], frequency_hz) => {
+            let mode = ResonantMode { number: *number as usize, frequency_hz: *at_hz, damping_ratio: *ratio };
+            StopReason::Unbounded { frequency_hz, mode: Some(mode) }
+        }
+        ("too-laborious", [solutions, gets_on], frequency_hz) => {
+            let solutions = *solutions as u64;
+            StopReason::TooLaborious { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
+        }
+        ("motion", [], frequency_hz) => StopReason::Motion { frequency_hz, message: text()? },
+        _ => return None,
+    })
+}
+
+fn of_curve(end: &CurveEnd) -> StoredEnd<'static, '_> {
+    match end {
+        CurveEnd::RangeEnd => StoredEnd::plain("curve-range-end"),
+        CurveEnd::FrequencyRangeEnd => StoredEnd::plain("curve-frequency-range-end"),
+        CurveEnd::Closed => StoredEnd::plain("curve-closed"),
+        CurveEnd::Resonance => StoredEnd::plain("curve-resonance"),
+        CurveEnd::Budget => StoredEnd::plain("curve-budget"),
+        CurveEnd::OwnImage { parameter, mirrored } => {
+            StoredEnd::at("curve-own-image", *parameter).with([f64::from(u8::from(*mirrored))])
+        }
+        CurveEnd::Grazing { parameter, cause } => {
+            StoredEnd { text: cause.as_deref(), ..StoredEnd::at("curve-grazing", *parameter) }
+        }
+        CurveEnd::GrazedAsWell { parameter, element } => {
+            StoredEnd::at("curve-grazed-as-well", *parameter).saying(element)
+        }
+        CurveEnd::ContactSplits { parameter, element, phase } => {
+            StoredEnd::at("curve-contact-splits", *parameter).with([*phase]).saying(element)
+        }
+        CurveEnd::Crawls { parameter, rows } => {
+            StoredEnd::at("curve-crawls", *parameter).with([f64::from(*rows)])
+        }
+        CurveEnd::Stopped { parameter, message } => {
+            StoredEnd::at("curve-stopped", *parameter).saying(message)
+        }
+    }
+}
+
+fn curve_of(stored: &StoredEnd<'_, '_>) -> Option<CurveEnd> {
+    let text = || stored.text.map(str::to_owned);
+    Some(match (stored.kind, stored.place, stored.numbers.as_slice()) {
+        ("curve-range-end", None, []) => CurveEnd::RangeEnd,
+        ("curve-frequency-range-end", None, []) => CurveEnd::FrequencyRangeEnd,
+        ("curve-closed", None, []) => CurveEnd::Closed,
+        ("curve-resonance", None, []) => CurveEnd::Resonance,
+        ("curve-budget", None, []) => CurveEnd::Budget,
+        ("curve-own-image", Some(parameter), [mirrored]) => {
+            CurveEnd::OwnImage { parameter, mirrored: *mirrored != 0.0 }
+        }
+        ("curve-grazing", Some(parameter), []) => CurveEnd::Grazing { parameter, cause: text() },
+        ("curve-grazed-as-well", Some(parameter), []) => {
+            CurveEnd::GrazedAsWell { parameter, element: text()? }
+        }
+        ("curve-contact-splits", Some(parameter), [phase]) => {
+            CurveEnd::ContactSplits { parameter, element: text()?, phase: *phase }
+        }
+        ("curve-crawls", Some(parameter), [rows]) => CurveEnd::Crawls { parameter, rows: *rows as u32 },
+        ("curve-stopped", Some(parameter), []) => CurveEnd::Stopped { parameter, message: text()? },
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// One of every end.
+    pub(crate) fn every_end() -> Vec<BranchEnd> {
+        let frequency_hz = 12.5;
+        let parameter = 12.5;
+        let text = || "x".to_owned();
+        let mode = ResonantMode { number: 2, frequency_hz: 12.0, damping_ratio: 0.0 };
+        let walks = [
+            StopReason::RangeEnd { frequency_hz },
+            StopReason::Closed,
+            StopReason::ShorterPeriod { frequency_hz, grazes: true },
+            StopReason::ShorterPeriod { frequency_hz, grazes: false },
+            StopReason::Budget { solutions: 3 },
+            StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: f64::INFINITY, doubt: text() },
+            StopReason::RunsBack { frequency_hz, met_arc_length: 3.0 },
+            StopReason::ContactSplits { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
+            StopReason::Crawls { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
+            StopReason::Unbounded { frequency_hz, mode: Some(mode) },
+            StopReason::Unbounded { frequency_hz, mode: None },
+            StopReason::TooLaborious { frequency_hz, solutions: 5, gets_on: false },
+            StopReason::Motion { frequency_hz, message: text() },
+        ];
+        let curves = [
+            CurveEnd::RangeEnd,
+            CurveEnd::FrequencyRangeEnd,
+            CurveEnd::Closed,
+            CurveEnd::Resonance,
+            CurveEnd::Budget,
+            CurveEnd::OwnImage { parameter, mirrored: true },
+            CurveEnd::Grazing { parameter, cause: None },
+            CurveEnd::Grazing { parameter, cause: Some(text()) },
+            CurveEnd::GrazedAsWell { parameter, element: text() },
+            CurveEnd::ContactSplits { parameter, element: text(), phase: 0.25 },
+            CurveEnd::Crawls { parameter, rows: 7 },
+            CurveEnd::Stopped { parameter, message: text() },
+        ];
+        let others = [
+            BranchEnd::Crossing { frequency_hz },
+            BranchEnd::Joins { branch: 3, frequency_hz },
+            BranchEnd::NotStarted { message: text() },
+            BranchEnd::Failed { message: text() },
+        ];
+        walks.map(BranchEnd::Walk).into_iter().chain(curves.map(BranchEnd::Curve)).chain(others).collect()
+    }
+
+    #[test]
+    fn every_end_comes_back_from_its_columns() {
+        for end in every_end() {
+            assert_eq!(BranchEnd::of_stored(&end.stored()), Some(end.clone()), "{end:?}");
+        }
+        assert_eq!(BranchEnd::of_stored(&StoredEnd::plain("other")), None);
+        assert_eq!(BranchEnd::of_stored(&StoredEnd::plain("range-end")), None, "without its place");
+    }
+
+    /// An end at the range, at itself, at another branch or at infinity is one; every other came early.
+    #[test]
+    fn only_ends_where_nothing_is_left_are_complete() {
+        let complete: Vec<&str> =
+            ["range-end", "closed", "shorter-period", "crossing", "joins", "unbounded"].into();
+        for end in every_end().iter().filter(|end| !matches!(end, BranchEnd::Curve(_))) {
+            assert_eq!(end.is_complete(), complete.contains(&end.word()), "{end:?}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Rows and ends of branches as values of the database.
+
+use hammerbeam_orbit::EventSet;
+use rusqlite::{Row as SqlRow, types::Value};
+
+use super::{StoreError, blob, stability};
+use crate::{
+    columns::{RowValue, TableColumn},
+    end::{BranchEnd, StoredEnd},
+    row::Row,
+};
+
+/// Names of the stored columns of a row, separated by commas.
+pub(super) fn row_columns() -> String {
+    TableColumn::STORED.map(TableColumn::name).join(", ")
+}
+
+/// What a row has in them.
+pub(super) fn values_of_row(row: &Row) -> Vec<Value> {
+    let value = |column| match row.value(column)? {
+        RowValue::Number(number) => Some(Value::Real(number)),
+        RowValue::Count(count) => Some(Value::Integer(count.into())),
+        RowValue::Stability(known) => Some(Value::Integer(stability::number(known))),
+        RowValue::Events(events) => Some(Value::Integer(events.bits().into())),
+    };
+    TableColumn::STORED.into_iter().filter_map(value).collect()
+}
+
+/// The row of the first columns of a selection.
+pub(super) fn read_row(found: &SqlRow<'_>) -> Result<Row, StoreError> {
+    let mut row = Row::default();
+    for (place, column) in TableColumn::STORED.into_iter().enumerate() {
+        let value = match column {
+            TableColumn::Contacts => RowValue::Count(found.get(place)?),
+            TableColumn::Stable => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),
+            TableColumn::Event => {
+                let bits: u32 = found.get(place)?;
+                let unknown = || StoreError::Unknown { what: "event", found: bits.to_string() };
+                RowValue::Events(EventSet::of_bits(bits).ok_or_else(unknown)?)
+            }
+            _ => RowValue::Number(found.get(place)?),
+        };
+        debug_assert!(row.value(column).is_some(), "{column:?} is one of a row");
+        row.set(column, value);
+    }
+    Ok(row)
+}
+
+/// Columns of an end.
+pub(super) const END_COLUMNS: &str = "end_kind, end_place, end_numbers, end_text";
+
+/// What a walk has in them.
+pub(super) fn values_of_end(end: Option<&BranchEnd>) -> [Value; 4] {
+    let Some(StoredEnd { kind, place, numbers, text }) = end.map(BranchEnd::stored) else {
+        return [Value::Null, Value::Null, Value::Null, Value::Null];
+    };
+    [
+        Value::Text(kind.to_owned()),
+        place.map_or(Value::Null, Value::Real),
+        Value::Blob(blob::pack(&numbers)),
+        text.map_or(Value::Null, |text| Value::Text(text.to_owned())),
+    ]
+}
+
+/// The end in four columns from one on.
+pub(super) fn read_end(found: &SqlRow<'_>, first: usize) -> Result<Option<BranchEnd>, StoreError> {
+    let Some(kind) = found.get::<_, Option<String>>(first)? else { return Ok(None) };
+    let numbers: Vec<u8> = found.get(first + 2)?;
+    let text: Option<String> = found.get(first + 3)?;
+    let stored = StoredEnd {
+        kind: &kind,
+        place: found.get(first + 1)?,
+        numbers: blob::unpack("numbers of an end", &numbers, numbers.len() / 8)?,
+        text: text.as_deref(),
+    };
+    let unknown = || StoreError::Unknown { what: "end of a branch", found: kind.clone() };
+    BranchEnd::of_stored(&stored).ok_or_else(unknown).map(Some)
+}
