@@ -337,7 +337,7 @@ fn lines_of_several_periods_are_named_beside_them() {
     assert_eq!(svg.matches(">1/2 subharmonic<").count(), 2, "in the legend and beside its line");
 }
 
-/// A grazing at the place of a flip has no room, and then no entry in the legend, but the description counts it.
+/// A grazing at the place of a flip has no room, and then no entry in the legend; the description counts it.
 #[test]
 fn the_legend_has_no_mark_that_is_drawn_nowhere() {
     let mut points = folded_branch();
