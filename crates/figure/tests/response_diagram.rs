@@ -336,3 +336,16 @@ fn lines_of_several_periods_are_named_beside_them() {
     let svg = displacement(&diagram(&[(1, &at(1.0)), (2, &at(4.0))])).svg();
     assert_eq!(svg.matches(">1/2 subharmonic<").count(), 2, "in the legend and beside its line");
 }
+
+/// A grazing at the place of a flip has no room, and then no entry in the legend; the description counts it.
+#[test]
+fn the_legend_has_no_mark_that_is_drawn_nowhere() {
+    let mut points = folded_branch();
+    points.retain(|point| !point.grazing);
+    points[1] = ResponsePoint { flip: true, ..points[1] };
+    let beside = ResponsePoint { grazing: true, ..point(30.01, 1.501) };
+    points.insert(2, beside);
+    let figure = displacement(&diagram(&[(1, &points)]));
+    assert!(figure.svg().contains(">flip</text>") && !figure.svg().contains(">grazing</text>"));
+    assert!(figure.description().contains("grazing of maximum displacement: 1, marked at 0 places"));
+}

@@ -45,7 +45,10 @@ pub(super) fn draw(
     if panels.is_empty() {
         return Err(FigureError::NoQuantity);
     }
-    Ok(ResponseLayout::new(diagram, &panels, settings).draw())
+    // Only marks that have room have an entry in the legend, above the plots where that shows.
+    let all = ResponseLayout::new(diagram, &panels, settings, &Mark::ALL);
+    let drawn = all.drawn_marks();
+    Ok(ResponseLayout::new(diagram, &panels, settings, &drawn).draw())
 }
 
 /// Ends of an axis that are in order.
@@ -84,10 +87,12 @@ struct ResponseLayout<'a> {
 }
 
 impl<'a> ResponseLayout<'a> {
+    /// * `marks`: those that are in the legend if there are such events.
     fn new(
         diagram: &'a ResponseDiagram,
         panels: &'a [ResponsePanel],
         settings: &'a ResponseSettings,
+        marks: &[Mark],
     ) -> Self {
         let style = &settings.style;
         let panel_height = panel_share(panels.len()) * points(style.height_mm) - room_below(style);
@@ -102,7 +107,7 @@ impl<'a> ResponseLayout<'a> {
         let room = |panel| room_right(style, (&across(panel), factor), left, TICK_SPACING.0);
         let right = points(style.width_mm) - MARGIN - panels.iter().map(room).fold(0.0, f64::max);
         let title = wrap(&diagram.title, style.label_size, right - left);
-        let legend = Legend::new(entries(panels, diagram), style, right - left);
+        let legend = Legend::new(entries(panels, diagram, marks), style, right - left);
         let mut top = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
         let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
         let plot_height = labels.fold(panel_height - top, f64::max);
@@ -118,6 +123,15 @@ impl<'a> ResponseLayout<'a> {
         }
         let height = plots[plots.len() - 1].area.bottom + room_below(style);
         Self { diagram, style, detail_hz: settings.detail_hz, panels, title, legend, plots, left, height }
+    }
+
+    /// The kinds of marks of which at least one has room.
+    fn drawn_marks(&self) -> Vec<Mark> {
+        let panels = self.panels.iter().zip(&self.plots);
+        let drawn: Vec<(Mark, Vec<PagePoint>)> =
+            panels.flat_map(|(panel, plot)| panel.marks(plot, self.style)).collect();
+        let has_room = |mark: &Mark| drawn.iter().any(|(kind, places)| kind == mark && !places.is_empty());
+        Mark::ALL.into_iter().filter(has_room).collect()
     }
 
     fn draw(&self) -> Figure {
@@ -235,7 +249,7 @@ fn title_height(style: &Style) -> f64 {
 }
 
 /// Entries of the legend, for the lines and marks that are drawn.
-fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram) -> Vec<Vec<LegendEntry>> {
+fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram, marks: &[Mark]) -> Vec<Vec<LegendEntry>> {
     let mut multiples: Vec<u32> = panels.iter().flat_map(ResponsePanel::period_multiples).collect();
     multiples.sort_unstable();
     multiples.dedup();
@@ -249,8 +263,9 @@ fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram) -> Vec<Vec<Legen
         .into_iter()
         .filter(|line| panels.iter().any(|panel| panel.has(*line)))
         .map(|line| LegendEntry { sample: LegendSample::Line { look, line }, name: line.name().to_owned() });
-    let marks = Mark::ALL
-        .into_iter()
+    let marks = marks
+        .iter()
+        .copied()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))
         .map(|mark| LegendEntry { sample: LegendSample::Mark(mark), name: mark_name(mark, panels) });
     let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
