@@ -92,8 +92,9 @@ pub struct StudyInput {
     #[arg(value_name = "STUDY")]
     pub path: PathBuf,
 
-    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm"; elements of
-    /// lists go by name, or by number from 1. May be given several times; results keep the study as it was run
+    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm";
+    /// elements of lists go by name, or by number from 1. May be given several times; results keep the
+    /// study as it was run
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<Setting>,
 }

@@ -397,7 +397,7 @@ fn what_was_probably_meant_is_suggested() {
             "did you mean `density_kg_m3`?",
             "did you mean `length_m`?",
             "did you mean `modal_ratio`?",
-            "allowed: { width_m, height_m } of a rectangle, { outer_diameter_m } of a rod, { outer_diameter_m,",
+            "allowed: { width_m, height_m } of a rectangle, { outer_diameter_m } of a rod, { outer_",
         ],
     );
 }
@@ -414,7 +414,7 @@ fn every_form_of_a_section_is_told_where_it_is_in_none() {
         ("section = { width = \"30 mm\" }", "`height_m` is missing in [structure.section]"),
     ] {
         let output = Workshop::changed(BEAM, section, form).hammerbeam(&["check", "study.toml"]);
-        let forms = "allowed: { width_m, height_m } of a rectangle, { outer_diameter_m } of a rod, { outer_diameter_m,";
+        let forms = "allowed: { width_m, height_m } of a rectangle, { outer_diameter_m } of a rod, { outer_";
         let with_units = "{ width = \"30 mm\", height = \"2 mm\" }, or { area = \"60 mm^2\", \
             second_moment = \"20 mm^4\" }";
         assert_bad_input(&output, &[fault, forms, with_units]);

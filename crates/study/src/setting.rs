@@ -1,9 +1,9 @@
 //! Keys of a study with other values: `--set stop.tip.gap_m=0.2e-3`.
 //!
-//! A path leads through the tables of the file as in `number.rs`: an element of a list is named by its `name`,
-//! or by its number from 1. The value takes the place of the one in the text, which stays as it is otherwise,
-//! so that everything is read, checked and kept as if the file said so. A key that the file does not have is
-//! written into its table; whether there is such a key at all, the readers of the study say.
+//! A path leads through the tables of the file as in `number.rs`: an element of a list is named by its
+//! `name`, or by its number from 1. The value takes the place of the one in the text, which stays as it is
+//! otherwise, so that everything is read, checked and kept as if the file said so. A key that the file does
+//! not have is written into its table; whether there is such a key at all, the readers of the study say.
 
 use std::{ops::Range, str::FromStr};
 
@@ -337,7 +337,8 @@ at = "tip"
         let message = |text: &str| with(&[text]).unwrap_err().to_string();
         assert_eq!(
             message("structure.point.top.at_m=1"),
-            "structure.point.top.at_m cannot be set: structure.point has no element \"top\"; it has tip, tip.2"
+            "structure.point.top.at_m cannot be set: structure.point has no element \"top\"; it has tip, \
+             tip.2"
         );
         assert_eq!(
             message("stop.2.gap_m=1"),
