@@ -445,7 +445,7 @@ fn check_shows_damping_and_small_numbers_with_their_digits() {
         [excitation]\nkind = \"force\"\nat = \"right\"\namplitude_n = 1e-7\nfrequency_hz = [1e5, 2e5]\n\
         [response]\npoint = \"right\"\n";
     let shown = stdout(&Workshop::with(study).hammerbeam(&["check", "study.toml"]));
-    for part in ["EI 2.66666667e-13 N m^2", "4.66e-8 kg/m", "damping      none", "amplitude 1e-7 N"] {
+    for part in ["EI 2.66666667e-13 N m^2", "4.66e-8 kg/m", "damping      none", "amplitude 100 nN"] {
         assert!(shown.contains(part), "\"{part}\" is missing in\n{shown}");
     }
     let damped = study.replace("[excitation]", "[damping]\nmodal_ratio = 0.02\n[excitation]");
