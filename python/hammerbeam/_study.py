@@ -168,12 +168,13 @@ class Study:
 
         * `out`: made if it is not there; a run that was stopped goes on from there.
         * `jobs`: number of threads, all cores by default; results do not depend on it.
-        * `start_from`: results folders of sweeps and basins, at whose motions branches begin as well.
+        * `start_from`: results folders of sweeps and basins, at whose motions branches begin as well; or
+          `FOLDER:POINT` for a special point of its branches, by the number that the page shows.
         * `figures`: whether figures and the page are drawn at the end.
         """
         folder = _check.folder("out", out)
         native = self._placed(folder)
-        folders = [_check.folder("start_from", one) for one in start_from]
+        folders = [str(_check.folder("start_from", one)) for one in start_from]
         asked = (folder, folders, _check.jobs(jobs), bool(figures))
         kept = f"what was computed is kept in {folder}, the same call goes on from there"
         with interruptible(kept), watched(progress) as callbacks:

@@ -93,8 +93,9 @@ pub struct StudyInput {
     #[arg(value_name = "STUDY")]
     pub path: PathBuf,
 
-    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm"; elements of
-    /// lists go by name, or by number from 1. May be given several times; results keep the study as it was run
+    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm";
+    /// elements of lists go by name, or by number from 1. May be given several times; results keep the
+    /// study as it was run
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<Setting>,
 }
@@ -213,7 +214,7 @@ pub struct RunOptions {
     /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
     /// folder and that no branch holds; or at a special point of its branches, by the number that page.html
     /// shows: results:12; may be given several times
-    #[arg(long, value_name = "DIR[:POINT]", value_parser = origin)]
+    #[arg(long, value_name = "DIR[:POINT]", value_parser = |text: &str| Ok::<_, std::convert::Infallible>(RunOrigin::of(text)))]
     pub from: Vec<RunOrigin>,
 
     /// Number of threads [default: all cores]; the results do not depend on it
@@ -526,15 +527,6 @@ fn resolution(text: &str) -> Result<f64, String> {
         Ok(number) if (24.0..=1200.0).contains(&number) => Ok(number),
         _ => Err("must be 24 to 1200 pixels per inch".to_owned()),
     }
-}
-
-/// `DIR`, or `DIR:POINT` for a special point; a folder whose name ends so is meant as a whole.
-fn origin(text: &str) -> Result<RunOrigin, std::convert::Infallible> {
-    let point = text.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
-    Ok(match point.filter(|_| !Path::new(text).is_dir()) {
-        Some((folder, number)) => RunOrigin { folder: folder.into(), special_point: Some(number) },
-        None => RunOrigin { folder: text.into(), special_point: None },
-    })
 }
 
 /// `FROM:TO` in hertz, in order.

@@ -1,6 +1,6 @@
 //! The formats that are read, and by what they are known.
 
-use crate::read::is_binary_output4;
+use crate::read::{is_binary_output4, is_mat};
 
 /// A format of files with matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,11 +17,13 @@ pub enum MatrixFormat {
     Output4,
     /// Harwell-Boeing.
     HarwellBoeing,
+    /// MAT files of version 5.
+    Mat5,
 }
 
 impl MatrixFormat {
     /// Names in study files with their formats.
-    pub const NAMED: [(&'static str, Self); 8] = [
+    pub const NAMED: [(&'static str, Self); 9] = [
         ("matrix-market", Self::MatrixMarket),
         ("calculix", Self::Triplets),
         ("abaqus", Self::Triplets),
@@ -30,6 +32,7 @@ impl MatrixFormat {
         ("nastran-op4", Self::Output4),
         ("harwell-boeing", Self::HarwellBoeing),
         ("calculix-substructure", Self::UserElement),
+        ("mat", Self::Mat5),
     ];
 
     /// All names.
@@ -49,6 +52,9 @@ impl MatrixFormat {
     pub fn of(first: &[u8]) -> Option<Self> {
         if is_binary_output4(first) {
             return Some(Self::Output4);
+        }
+        if is_mat(first) {
+            return Some(Self::Mat5);
         }
         if first.len() >= 14 && first[..14].eq_ignore_ascii_case(b"%%MatrixMarket") {
             return Some(Self::MatrixMarket);

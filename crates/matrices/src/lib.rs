@@ -8,6 +8,7 @@
 //! | Nastran punch files, `DMIG` | `read/punch.rs`, cards in `read/cards.rs` |
 //! | Nastran OUTPUT4 | `read/output4.rs`, `output4_text.rs`, `output4_binary.rs`; the order of rows `read/extrn.rs` |
 //! | Harwell-Boeing | `read/harwell_boeing.rs` |
+//! | MAT files of version 5 | `read/mat5.rs` |
 //! | labels of rows, nodes, lines | `read/tables.rs` |
 //!
 //! Readers go through a file once, a line or a record at a time. An entry takes 16 bytes while it is read and

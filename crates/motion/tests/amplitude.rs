@@ -180,8 +180,8 @@ fn support_motion_changes_with_the_frequency_as_differences_say() {
     }
 }
 
-/// Three loads that depend on the frequency, each in its own way, and one that does not: a table, an unbalance,
-/// and an acceleration with a table.
+/// Three loads that depend on the frequency, each in its own way, and one that does not: a table, an
+/// unbalance, and an acceleration with a table.
 fn several(law: Law, support_ratio: f64) -> System {
     let force = |order, amplitude, shape: [f64; 3]| Load {
         support: Vec::new(),

@@ -56,7 +56,10 @@ pub enum StructureError {
     #[error("a lumped structure is not reduced, choose the reduction \"none\"")]
     LumpedIsNotReduced,
     /// The reduction would keep no elastic mode.
-    #[error("the cut-off frequency is {cut_off_hz} Hz, below the first elastic mode at {} Hz", six(*first_hz))]
+    #[error(
+        "the cut-off frequency is {cut_off_hz} Hz, below the first elastic mode at {} Hz",
+        six(*first_hz)
+    )]
     CutOffBelowFirstMode { cut_off_hz: f64, first_hz: f64 },
     /// A damping ratio is missing or too much.
     #[error("{found} modal damping ratios are given, the structure has {modes} modes")]

@@ -65,8 +65,8 @@ impl Modes {
         self.frequencies.iter().map(|w| w / TAU).collect()
     }
 
-    /// The same, with what is a rigid-body motion of a larger structure with that highest frequency: a reduced one
-    /// may have nothing else to measure rounding by.
+    /// The same, with what is a rigid-body motion of a larger structure with that highest frequency: a
+    /// reduced one may have nothing else to measure rounding by.
     pub fn rigid_beside(mut self, highest: f64) -> Self {
         for w in &mut self.frequencies {
             if *w <= RIGID * highest {

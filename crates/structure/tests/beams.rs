@@ -118,8 +118,8 @@ fn frequencies_of_a_stepped_cantilever_solve_its_frequency_equation() {
     assert_eq!(signs.windows(2).filter(|pair| pair[0] != pair[1]).count(), 4);
 }
 
-/// `f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A + m))` with `I = pi/64 (D^4 - d^4)`: a steel tube of 25 x 2 mm
-/// and 0.8 m, empty and with water in it (0.3464 kg/m).
+/// `f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A + m))` with `I = pi/64 (D^4 - d^4)`: a steel tube of 25 x 2
+/// mm and 0.8 m, empty and with water in it (0.3464 kg/m).
 #[test]
 fn tube_full_of_water_is_slower_by_the_root_of_its_mass() {
     let (outer, inner, length): (f64, f64, f64) = (0.025, 0.021, 0.8);
@@ -156,8 +156,8 @@ fn zero(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Three equal spans on four supports: wavenumbers of a span, `pi` first, then those of the equation. The error
-/// of 20 elements a span, `(beta l)^4 / 2880`, is 3.4e-6 at the fourth.
+/// Three equal spans on four supports: wavenumbers of a span, `pi` first, then those of the equation. The
+/// error of 20 elements a span, `(beta l)^4 / 2880`, is 3.4e-6 at the fourth.
 #[test]
 fn beam_on_four_supports_has_the_frequencies_of_a_continuous_beam() {
     let mut continuous = beam(60, &[span(1.0, 1.0, 1.0); 3], End::Pinned, End::Pinned);

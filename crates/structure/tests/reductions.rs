@@ -39,8 +39,8 @@ fn guyan_needs_an_interface_that_holds_the_structure() {
     assert_eq!(found.model.natural_frequencies, [0.0, 0.0]);
 }
 
-/// Without a moving support the kept modes are eigenmodes in either form, and the residual mode brings the static
-/// flexibility; MacNeal's has no inertia, so it stands at a hundred times the highest frequency.
+/// Without a moving support the kept modes are eigenmodes in either form, and the residual mode brings the
+/// static flexibility; MacNeal's has no inertia, so it stands at a hundred times the highest frequency.
 #[test]
 fn macneal_keeps_the_static_answer_of_the_residual_modes_alone() {
     let beam = paper_beam().structure().unwrap();

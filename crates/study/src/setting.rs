@@ -1,9 +1,9 @@
 //! Keys of a study with other values: `--set stop.tip.gap_m=0.2e-3`.
 //!
-//! A path leads through the tables of the file as in `number.rs`: an element of a list is named by its `name`,
-//! or by its number from 1. The value takes the place of the one in the text, which stays as it is otherwise,
-//! so that everything is read, checked and kept as if the file said so. A key that the file does not have is
-//! written into its table; whether there is such a key at all, the readers of the study say.
+//! A path leads through the tables of the file as in `number.rs`: an element of a list is named by its
+//! `name`, or by its number from 1. The value takes the place of the one in the text, which stays as it is
+//! otherwise, so that everything is read, checked and kept as if the file said so. A key that the file does
+//! not have is written into its table; whether there is such a key at all, the readers of the study say.
 
 use std::{ops::Range, str::FromStr};
 
@@ -12,7 +12,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use crate::document::unit::without_unit;
+use crate::document::unit::{measured, without_unit};
 
 /// A key and the value that it is given.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -111,7 +111,12 @@ impl Setting {
                 Found::Value(span) => return Ok(replaced(text, span, &self.toml())),
             }
         }
-        Ok(place.with_value(rest, &self.toml()))
+        // A text with a unit stands under the key without one.
+        let name = match without_unit(rest) {
+            Some((stem, _)) if measured(self.value.trim_matches(['"', '\''])).is_some() => stem,
+            _ => rest,
+        };
+        Ok(place.with_value(name, &self.toml()))
     }
 
     /// Goes into a table, or into an element of a list and on into its table.
@@ -312,6 +317,8 @@ at = "tip"
     fn a_key_with_its_unit_and_one_without_are_one() {
         assert_written("structure.length_m=0.3", "length = \"258 mm\"", "length_m = 0.3");
         assert_written("structure.length=30 cm", "\"258 mm\"", "\"30 cm\"");
+        assert_written("structure.length_m=30 cm", "\"258 mm\"", "\"30 cm\"");
+        assert_written("structure.point.1.at_m=20 cm", "at_m = 0.25", "at = \"20 cm\"");
         assert_written("structure.section.width=2 cm", "width_m = 0.02", "width = \"2 cm\"");
     }
 
@@ -337,7 +344,8 @@ at = "tip"
         let message = |text: &str| with(&[text]).unwrap_err().to_string();
         assert_eq!(
             message("structure.point.top.at_m=1"),
-            "structure.point.top.at_m cannot be set: structure.point has no element \"top\"; it has tip, tip.2"
+            "structure.point.top.at_m cannot be set: structure.point has no element \"top\"; it has tip, \
+             tip.2"
         );
         assert_eq!(
             message("stop.2.gap_m=1"),

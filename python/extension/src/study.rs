@@ -16,7 +16,7 @@ use hammerbeam::{
     modes_document,
     orbits::orbits,
     pool::threads,
-    run::{RunOutcome, RunRequest, WholeRun, run_study},
+    run::{RunOrigin, RunOutcome, RunRequest, WholeRun, run_study},
     simulate::{DurationTooLong, SimulationRequest, SimulationTime, simulate},
     sweep::{SweepRequest, SweepStarts, sweep},
 };
@@ -58,7 +58,7 @@ fn effort((skipped, periods, longest, averaged): EffortNumbers) -> Effort {
 /// A run without its drawing, or with it.
 fn run(
     study: &Study,
-    (out, from, jobs, drawn): (&Path, &[PathBuf], Option<u16>, bool),
+    (out, from, jobs, drawn): (&Path, &[RunOrigin], Option<u16>, bool),
     observer: &mut PythonObserver,
 ) -> Result<(String, bool), DrawingError> {
     let threads = threads(jobs);
@@ -144,10 +144,11 @@ impl NativeStudy {
     fn run(
         &self,
         py: Python<'_>,
-        asked: (PathBuf, Vec<PathBuf>, Option<u16>, bool),
+        asked: (PathBuf, Vec<String>, Option<u16>, bool),
         callbacks: (Callback, Callback),
     ) -> PyResult<(String, bool)> {
         let (out, from, jobs, drawn) = asked;
+        let from: Vec<RunOrigin> = from.iter().map(|text| RunOrigin::of(text)).collect();
         let asked = (out.as_path(), from.as_slice(), jobs, drawn);
         let done = PythonObserver::run(py, callbacks, |observer| run(&self.study, asked, observer))?;
         done.map_err(|error| drawing_exception(py, error))

@@ -84,8 +84,8 @@ impl Equations {
     /// * `model`: what the library made of it, for the modes of a beam.
     ///
     /// # Errors
-    /// A shaken beam, a lumped structure with modal damping, a longer table of amplitudes, or a law that is not
-    /// known here.
+    /// A shaken beam, a lumped structure with modal damping, a longer table of amplitudes, or a law that is
+    /// not known here.
     pub fn read(study: &Table, model: &Model) -> Result<Self, Failure> {
         let (mut this, springs, dampers) = if text(table(study, "structure")?, "kind")? == "beam" {
             let this = Self::of_modes(study, model)?;

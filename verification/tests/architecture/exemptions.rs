@@ -16,7 +16,7 @@ pub const CIRCLES: &[(&str, usize, &str)] = &[
     ("crates/jobs", 41, MOVED),
     ("crates/matrices", 2, "not untangled yet"),
     ("crates/motion", 55, KERNEL),
-    ("crates/structure", 7, "not untangled yet"),
+    ("crates/structure", 4, "not untangled yet"),
     ("crates/study", 13, "not untangled yet"),
     ("verification", 3, "not untangled yet"),
 ];

@@ -10,8 +10,8 @@ use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::{
     Study, UndampedInContact, UndampedMode,
     file::{
-        ActingForce, Amplitude, Approach, Beam, BeamSpan, Damping, End, Excitation, ExcitationKind, FixedTo,
-        ForcePlace, ForceSize, Load, Lumped, Matrices, ModalRatio, MovingSupport, Place, Reduction,
+        ActingForce, Amplitude, Approach, Beam, BeamSpanEntry, Damping, End, Excitation, ExcitationKind,
+        FixedTo, ForcePlace, ForceSize, Load, Lumped, Matrices, ModalRatio, MovingSupport, Place, Reduction,
         ReductionMethod, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
     },
     readable,
@@ -111,7 +111,7 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
 }
 
 fn beam_text(beam: &Beam) -> String {
-    let profile = |span: &BeamSpan| {
+    let profile = |span: &BeamSpanEntry| {
         let profile = span.profile;
         let shear = if profile.poisson_ratio.is_some() { ", with shear" } else { "" };
         let stiffness = readable(profile.bending_stiffness(), "N m^2");

@@ -5,7 +5,7 @@ use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
     Study,
     file::{
-        ActingForce, Amplitude, Approach, Beam, BeamPoint, BeamSpan, End, Excitation, ExcitationKind,
+        ActingForce, Amplitude, Approach, Beam, BeamPoint, BeamSpanEntry, End, Excitation, ExcitationKind,
         FixedTo, ForcePlace, ForceSize, GapMeasured, Load, Lumped, Matrices, MatrixFiles, MovingSupport,
         Place, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
     },
@@ -38,7 +38,7 @@ fn matrix_words(matrices: &Matrices) -> Vec<String> {
 }
 
 fn beam_words(beam: &Beam) -> Vec<String> {
-    let profile = |span: &BeamSpan| {
+    let profile = |span: &BeamSpanEntry| {
         let (stiffness, mass) = (span.profile.bending_stiffness(), span.profile.mass_per_length());
         let shear = if span.profile.poisson_ratio.is_some() { ", with shear" } else { "" };
         format!("bending stiffness {} N m², {} kg/m{shear}.", number(stiffness), number(mass))
@@ -46,7 +46,8 @@ fn beam_words(beam: &Beam) -> Vec<String> {
     let mut lines: Vec<String> = match beam.spans.as_slice() {
         [only] => vec![format!("Beam: {}", profile(only))],
         spans => {
-            let line = |span: &BeamSpan| format!("{} mm: {}", number(1e3 * span.length_m), profile(span));
+            let line =
+                |span: &BeamSpanEntry| format!("{} mm: {}", number(1e3 * span.length_m), profile(span));
             let spans = spans.iter().take(LISTED).enumerate();
             spans.map(|(index, span)| format!("Span {}, {}", index + 1, line(span))).collect()
         }

@@ -27,6 +27,18 @@ pub struct RunOrigin {
     pub special_point: Option<u32>,
 }
 
+impl RunOrigin {
+    /// `DIR`, or `DIR:POINT` for a special point; a folder whose name ends so is meant as a whole.
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        let point = text.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
+        match point.filter(|_| !Path::new(text).is_dir()) {
+            Some((folder, number)) => Self { folder: folder.into(), special_point: Some(number) },
+            None => Self { folder: text.into(), special_point: None },
+        }
+    }
+}
+
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct RunRequest<'a> {

@@ -2,7 +2,11 @@
 
 use faer::Mat;
 
-use super::{BeamPoint, End, element, mesh, timoshenko};
+use super::{
+    element, mesh,
+    point::{BeamPoint, End},
+    timoshenko,
+};
 use crate::{
     Section, Structure, StructureError,
     error::{not_negative, positive},

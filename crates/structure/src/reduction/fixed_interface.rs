@@ -10,7 +10,7 @@
 
 use faer::Mat;
 
-use super::{Basis, interface::places};
+use super::{basis::Basis, interface::places};
 use crate::{Structure, StructureError, modes::Modes};
 
 /// Basis of the relative motion of a structure.

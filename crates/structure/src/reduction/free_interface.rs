@@ -10,13 +10,13 @@
 //!
 //! # Source
 //! Craig, "A review of time-domain and frequency-domain component mode synthesis methods", 1985; Rubin,
-//! AIAA J. 13 (1975), 995-1006, whose residual modes these are, first order; MacNeal, Computers and Structures 1
-//! (1971), 581-601.
+//! AIAA J. 13 (1975), 995-1006, whose residual modes these are, first order; MacNeal, Computers and
+//! Structures 1 (1971), 581-601.
 
 use faer::{Mat, MatRef};
 
 use super::{
-    Basis, FAR_ABOVE, ResidualInertia,
+    basis::{Basis, FAR_ABOVE, ResidualInertia},
     interface::{joined, places},
 };
 use crate::{Structure, StructureError, modes::Modes};

@@ -1,14 +1,15 @@
 //! Static condensation: constraint modes of the interface points, and nothing else.
 //!
-//! A unit displacement of one interface point, the others held, bends the rest into `psi = -K_ii^-1 K_ib`. These
-//! shapes hold the stiffness at the interface exactly, and the mass as far as the rest follows statically.
+//! A unit displacement of one interface point, the others held, bends the rest into `psi = -K_ii^-1 K_ib`.
+//! These shapes hold the stiffness at the interface exactly, and the mass as far as the rest follows
+//! statically.
 //!
 //! # Source
 //! Guyan, AIAA J. 3 (1965), 380.
 
 use faer::Mat;
 
-use super::{Basis, interface::places};
+use super::{basis::Basis, interface::places};
 use crate::{Structure, StructureError, modes::Modes};
 
 /// Basis of the relative motion of a structure.

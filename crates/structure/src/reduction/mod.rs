@@ -3,12 +3,13 @@
 //! Every method gives a basis `B` of that motion, zero at the prescribed coordinates; the reduced modes
 //! are those of `B^T K B` and `B^T M B`.
 
+mod basis;
 mod fixed_interface;
 mod free_interface;
 mod guyan;
 mod interface;
 
-use faer::Mat;
+pub(crate) use basis::{Basis, FAR_ABOVE, ResidualInertia};
 
 use crate::{Structure, StructureError, error::positive, modes::Modes, structure::Kind};
 
@@ -50,28 +51,6 @@ pub enum Reduction {
         cut_off_hz: f64,
     },
 }
-
-/// What a method hands over.
-pub(crate) struct Basis {
-    /// `B`, rows over the free coordinates of the structure.
-    pub relative: Mat<f64>,
-    /// Frequencies [Hz] of the component's modes that are kept.
-    pub kept_hz: Vec<f64>,
-    /// `B^T M B`, where it is not that of the structure.
-    pub mass: Option<Mat<f64>>,
-}
-
-/// What of the residual modes' inertia counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ResidualInertia {
-    /// All of it (Rubin).
-    Kept,
-    /// None (MacNeal).
-    Neglected,
-}
-
-/// Frequency of a residual mode without inertia, over the highest frequency that is kept.
-pub(crate) const FAR_ABOVE: f64 = 100.0;
 
 impl Reduction {
     /// Cut-off frequency [Hz], if modes are cut off.

@@ -47,8 +47,8 @@ pub(super) struct FixedInterface<'a> {
     pub limit_bytes: u64,
 }
 
-/// Constraint modes, a row each, made orthonormal in `K`: `Psi L = X L^-T` with the flexibility `F = W^T X = L
-/// L^T` of the interface, since `Psi^T K Psi = F^-1`.
+/// Constraint modes, a row each, made orthonormal in `K`: `Psi L = X L^-T` with the flexibility `F = W^T X
+/// = L L^T` of the interface, since `Psi^T K Psi = F^-1`.
 ///
 /// # Errors
 /// Points that depend on one another.

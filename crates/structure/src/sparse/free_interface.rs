@@ -1,5 +1,5 @@
-//! Free-interface modes with residual flexibility, after Rubin; without the inertia of the residual modes, after
-//! MacNeal.
+//! Free-interface modes with residual flexibility, after Rubin; without the inertia of the residual modes,
+//! after MacNeal.
 //!
 //! The basis `T = [Phi_k Psi]` has the kept modes and, for each interface load, what the deleted modes answer
 //! to it, made orthonormal in `K`. In it `K` is `diag(w_k^2, 1)` and `M` is `diag(1, H)`, `H = Psi^T M Psi`.

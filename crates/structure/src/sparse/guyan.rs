@@ -1,8 +1,8 @@
 //! Static condensation (Guyan): the constraint modes of the interface, and nothing else.
 //!
-//! The structure takes the static shape of its interface displacements at every time. `K` is condensed exactly,
-//! `M` by these shapes, so frequencies come out too high, and useful where they are far below those of the
-//! structure with its interface held.
+//! The structure takes the static shape of its interface displacements at every time. `K` is condensed
+//! exactly, `M` by these shapes, so frequencies come out too high, and useful where they are far below
+//! those of the structure with its interface held.
 //!
 //! # Source
 //! R. Guyan, AIAA J. 3 (1965), 380.

@@ -118,8 +118,8 @@ pub fn hertz(text: &str) -> Option<f64> {
         .map(|measured| measured.value)
 }
 
-/// A number with its unit to nine digits at most, in a unit in which it is neither tiny nor huge: `25.8 um` for
-/// 2.58e-5 m, `8.1e-9 N m^2` where no prefix fits.
+/// A number with its unit to nine digits at most, in a unit in which it is neither tiny nor huge: `25.8 um`
+/// for 2.58e-5 m, `8.1e-9 N m^2` where no prefix fits.
 ///
 /// * `unit`: in SI.
 #[must_use]

@@ -7,7 +7,7 @@ use crate::document::{Reading, Table};
 
 use super::{
     beam_point::{self, BeamPoint, END_KINDS, End},
-    beam_span::{self, BeamSpan},
+    beam_span::{self, BeamSpanEntry},
     names::Names,
 };
 
@@ -20,7 +20,7 @@ pub struct Beam {
     pub elements: u32,
     /// The spans from left to right, at least one.
     #[serde(flatten, serialize_with = "as_written")]
-    pub spans: Vec<BeamSpan>,
+    pub spans: Vec<BeamSpanEntry>,
     /// Support at x = 0.
     pub left: End,
     /// Support at x = length.
@@ -30,10 +30,10 @@ pub struct Beam {
 }
 
 /// A single span as keys of the structure, several as a list.
-fn as_written<S: Serializer>(spans: &[BeamSpan], serializer: S) -> Result<S::Ok, S::Error> {
+fn as_written<S: Serializer>(spans: &[BeamSpanEntry], serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Several<'a> {
-        span: &'a [BeamSpan],
+        span: &'a [BeamSpanEntry],
     }
     match spans {
         [only] => only.profile.serialize(serializer),
@@ -44,7 +44,7 @@ fn as_written<S: Serializer>(spans: &[BeamSpan], serializer: S) -> Result<S::Ok,
 impl Beam {
     /// The only span, where there is one, and it bends after Euler and Bernoulli without added mass.
     #[must_use]
-    pub fn uniform(&self) -> Option<&BeamSpan> {
+    pub fn uniform(&self) -> Option<&BeamSpanEntry> {
         let [only] = self.spans.as_slice() else { return None };
         (only.profile.added_mass_kg_m == 0.0 && only.profile.poisson_ratio.is_none()).then_some(only)
     }
@@ -67,7 +67,7 @@ impl Beam {
     pub fn descriptor(&self) -> Result<linear::SteppedBeam, StructureError> {
         Ok(linear::SteppedBeam {
             elements: self.elements as usize,
-            spans: self.spans.iter().map(BeamSpan::descriptor).collect::<Result<_, _>>()?,
+            spans: self.spans.iter().map(BeamSpanEntry::descriptor).collect::<Result<_, _>>()?,
             left: self.left.descriptor(),
             right: self.right.descriptor(),
             points: self.points.iter().map(BeamPoint::descriptor).collect(),

@@ -9,7 +9,7 @@ use super::beam_section::{self, GivenSection, Section};
 
 /// A stretch of a beam with one section and one material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct BeamSpan {
+pub struct BeamSpanEntry {
     /// Length [m].
     pub length_m: f64,
     /// Section and material.
@@ -53,7 +53,7 @@ impl BeamProfile {
     }
 }
 
-impl BeamSpan {
+impl BeamSpanEntry {
     /// The span in the terms of the structure crate.
     ///
     /// # Errors
@@ -170,7 +170,7 @@ impl GivenProfile {
 ///
 /// # Returns
 /// Length of all spans [m], and the spans; each `None` where something of it is wrong.
-pub(super) fn read(table: &Table<'_>, reading: &Reading) -> (Option<f64>, Option<Vec<BeamSpan>>) {
+pub(super) fn read(table: &Table<'_>, reading: &Reading) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
     let theories = [("euler-bernoulli", false), ("timoshenko", true)];
     let has_shear = table.optional("theory").map_or(Some(false), |value| value.choice(&theories));
     let has_shear_or_not = has_shear.unwrap_or(table.has("poisson_ratio"));
@@ -182,13 +182,13 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading) -> (Option<f64>, Option
     (length, has_shear.and(spans))
 }
 
-fn read_one(table: &Table<'_>, has_shear: bool) -> (Option<f64>, Option<Vec<BeamSpan>>) {
+fn read_one(table: &Table<'_>, has_shear: bool) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
     let length = table.required("length_m").and_then(|value| value.number(&quantity::LENGTH));
     let reader = ProfileReader { table, outer: None, is_needed: true, has_shear };
     let profile = reader.read(length).whole(has_shear);
     // Known, so that a key that is nearly it is suggested.
     table.optional("span");
-    let span = length.zip(profile).map(|(length_m, profile)| vec![BeamSpan { length_m, profile }]);
+    let span = length.zip(profile).map(|(length_m, profile)| vec![BeamSpanEntry { length_m, profile }]);
     (length, span)
 }
 
@@ -196,7 +196,7 @@ fn read_several(
     table: &Table<'_>,
     reading: &Reading,
     has_shear: bool,
-) -> (Option<f64>, Option<Vec<BeamSpan>>) {
+) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
     if table.has("length_m") {
         table.optional("length_m");
         let help = vec!["allowed: `length_m` of each span, and none of the beam".to_owned()];
@@ -217,8 +217,8 @@ fn read_several(
             ProfileReader { table: &span, outer: Some((table, &common)), is_needed: true, has_shear };
         let profile = reader.read(length).whole(has_shear);
         span.finish();
-        Some(BeamSpan { length_m: length_m?, profile: profile? })
+        Some(BeamSpanEntry { length_m: length_m?, profile: profile? })
     };
-    let read: Vec<Option<BeamSpan>> = spans.into_iter().zip(lengths).map(read).collect();
+    let read: Vec<Option<BeamSpanEntry>> = spans.into_iter().zip(lengths).map(read).collect();
     (length, if reading.count() == before { read.into_iter().collect() } else { None })
 }

@@ -40,7 +40,7 @@ pub use amplitude::Amplitude;
 pub use beam::Beam;
 pub use beam_point::{BeamPoint, End};
 pub use beam_section::Section;
-pub use beam_span::{BeamProfile, BeamSpan};
+pub use beam_span::{BeamProfile, BeamSpanEntry};
 pub use continuation::{Continuation, Segments};
 pub use damping::{Damping, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};

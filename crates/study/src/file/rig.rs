@@ -43,6 +43,16 @@ pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<
         let help = vec!["allowed: supports that all move alike, with `at = [...]`".to_owned()];
         value.problem("a rig has one table, but the supports move differently".to_owned(), help);
     }
+    let has_no_amplitude = |excitation: &Excitation| {
+        excitation.harmonic().is_some_and(|harmonic| harmonic.amplitude().is_none())
+    };
+    if excitation.is_some_and(|one| !one.supports_differ() && has_no_amplitude(one)) {
+        let help = vec!["allowed: one force with `at` and `amplitude_n`".to_owned()];
+        value.problem(
+            "a rig has one table, but the forces are several, a pair or an unbalance".to_owned(),
+            help,
+        );
+    }
     let table = value.table()?;
     // What differs from this study is read when the rig is built.
     let changes = table.required("changes").and_then(|value| value.table());

@@ -34,7 +34,8 @@ impl Reference {
     }
 }
 
-/// Numbers of nodes before the points of a beam and the borders of its spans: where they change, the mesh does, and the modes jump.
+/// Numbers of nodes before the points of a beam and the borders of its spans: where they change, the mesh
+/// does, and the modes jump.
 pub(super) fn nodes_before_points(study: &Study, outline: &[OutlinePoint]) -> Vec<usize> {
     let Structure::Beam(beam) = &study.structure else { return Vec::new() };
     let before = |at: f64| outline.iter().filter(|node| node.at < at - SAME_PLACE * beam.length_m).count();
