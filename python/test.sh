@@ -32,11 +32,13 @@ if [ "${1:-}" = wheel ]; then
 fi
 
 cargo build --workspace --locked --examples --lib --bins
-library="$target/debug/libhammerbeam_native"
 case "$(uname)" in
-    Darwin) cp "$library.dylib" python/hammerbeam/_native.abi3.so ;;
-    *) cp "$library.so" python/hammerbeam/_native.abi3.so ;;
+    Darwin) library="$target/debug/libhammerbeam_native.dylib" ;;
+    *) library="$target/debug/libhammerbeam_native.so" ;;
 esac
+# Moved to its place: a process that has the old one loaded keeps it.
+cp "$library" python/hammerbeam/.native.new
+mv -f python/hammerbeam/.native.new python/hammerbeam/_native.abi3.so
 
 export PYTHONPATH="$PWD/python" MPLBACKEND=agg JUPYTER_PLATFORM_DIRS=1
 "$tools/bin/mypy"

@@ -182,7 +182,9 @@ def test_a_warning_is_one() -> None:
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
     script = f"""
-import hammerbeam, sys
+import hammerbeam, signal, sys
+# A shell that starts the tests in the background lets its children ignore Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 study = hammerbeam.Study.read({str(STUDIES / "beam-with-stop.toml")!r})
 print("started", flush=True)
 try:

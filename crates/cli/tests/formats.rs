@@ -34,7 +34,11 @@ fn json_and_npz_hold_the_tables_of_the_csv() {
     let rows = workshop.table("export/branches.csv");
     for column in ["frequency_hz", "max_abs_displacement_m", "leading_multiplier_re", "residual"] {
         let expected: Vec<f64> = rows.iter().map(|row| number(row, column)).collect();
-        assert_eq!(numbers(&document["branches"][column]), expected, "{column}");
+        let found = numbers(&document["branches"][column]);
+        assert_eq!(found.len(), expected.len());
+        // As far as the reader of JSON has all digits: a number may be off by its last one.
+        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= 2.0 * f64::EPSILON * b.abs();
+        assert!(found.iter().zip(&expected).all(is_same), "{column}");
     }
     let events = document["events"]["event"].as_array().unwrap();
     assert_eq!(events.iter().filter(|event| **event == "fold").count(), 2);

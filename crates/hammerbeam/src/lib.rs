@@ -12,7 +12,8 @@
 //! | settled motions over the frequency | [`Study::sweep`] |
 //! | Lyapunov exponents | [`Study::exponents`] |
 //! | basins of attraction | [`Study::basins`] |
-//! | stored orbits by branch, frequency or event; the motion of an orbit | [`chosen_orbits`], [`orbit_waveform`] |
+//! | stored orbits by branch, frequency or event | [`chosen_orbits`] |
+//! | the motion of an orbit over its period | [`orbit_waveform`] |
 //! | everything in a results folder as columns of numbers, NPZ, JSON | [`results::arrays`] |
 //! | figures of a results folder, and its page | [`drawing`] |
 //!

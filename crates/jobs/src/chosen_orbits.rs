@@ -138,7 +138,7 @@ pub fn orbit_table(orbits: &[ChosenOrbit]) -> ArrayTable {
 
 fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ArrayTable {
     let joined = |of: &dyn Fn(&OrbitWaveform) -> &[f64]| {
-        ArrayValues::Numbers(waveforms.iter().flat_map(|waveform| of(waveform)).copied().collect())
+        ArrayValues::Numbers(waveforms.iter().flat_map(of).copied().collect())
     };
     let numbers =
         waveforms.iter().zip(1..).flat_map(|(waveform, k)| std::iter::repeat_n(k, waveform.time.len()));

@@ -1,5 +1,5 @@
-//! Whose fault it is that a job has no result: what the exit codes of the command and the classes of exceptions
-//! in Python follow.
+//! Whose fault it is that a job has no result: what the exit codes of the command and the classes of
+//! exceptions in Python follow.
 
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_results::{StoreError, export::ExportError, whole_file::WriteError};

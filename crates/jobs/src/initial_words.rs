@@ -43,7 +43,8 @@ fn of_points(text: &str) -> Result<InitialState, InitialWordsError> {
         let found = format!("found {part:?}");
         InitialWordsError {
             message: format!(
-                "{found}; allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND, separated by commas, each number from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+                "{found}; allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND, separated by commas, \
+                 each number from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
             ),
         }
     };
@@ -86,7 +87,9 @@ impl InitialWordsError {
     #[must_use]
     pub fn not_numbers(found: &str, size: usize) -> Self {
         let allowed = format!(
-            "rest, linear, branch:N with --results, POINT.y=METRES,POINT.v=METRES_PER_SECOND, or {size} numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+            "rest, linear, branch:N with --results, POINT.y=METRES,POINT.v=METRES_PER_SECOND, or {size} \
+             numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to \
+             {MOST_OF_A_STATE:e}"
         );
         Self { message: format!("{found}; allowed: {allowed}") }
     }

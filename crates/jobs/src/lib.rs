@@ -5,7 +5,8 @@
 //! | `prepared` | a study with its model, which every job takes |
 //! | `observer` | what a job reports while it works, and how it is stopped |
 //! | [`pool`] | the threads of all jobs |
-//! | `request`, `initial`, `initial_words` | where the results of a motion are kept, and the state at which it begins |
+//! | `request` | where the results of a motion are kept |
+//! | `initial`, `initial_words` | the state at which a motion begins, and what it is called |
 //! | [`check`] | what is known of a study before anything is computed |
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
@@ -14,7 +15,8 @@
 //! | `walk` | one side of a branch or curve in stretches that are committed together, and taken up again |
 //! | `branch` | the same row by row, for whoever follows a branch by hand |
 //! | [`orbits`] | all periodic solutions at one frequency |
-//! | [`chosen_orbits`], `orbit_waveform` | stored orbits by branch, frequency or event; the motion of an orbit over its period |
+//! | [`chosen_orbits`] | stored orbits by branch, frequency or event |
+//! | `orbit_waveform` | the motion of an orbit over its period |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::matrix_document;
 
-/// What `modes` says with `--json`: eigenfrequencies before and after the reduction [Hz], and shapes at points.
+/// What `modes` says with `--json`: eigenfrequencies before and after the reduction [Hz], shapes at points.
 #[must_use]
 pub fn modes_document(model: &Model) -> Value {
     let tables = &model.tables;
@@ -14,7 +14,10 @@ pub fn modes_document(model: &Model) -> Value {
     let shapes: serde_json::Map<String, Value> =
         points.iter().map(|point| (point.name.clone(), json!(point.shape))).collect();
     let errors: Vec<f64> = tables.frequency_errors.iter().map(|error| error.relative).collect();
-    let flexibility = |error: &FlexibilityError| json!({ "point": error.point, "full_m_n": error.full, "reduced_m_n": error.reduced, "relative": error.relative });
+    let flexibility = |error: &FlexibilityError| {
+        let (full, reduced) = (error.full, error.reduced);
+        json!({ "point": error.point, "full_m_n": full, "reduced_m_n": reduced, "relative": error.relative })
+    };
     json!({
         "clamped_hz": tables.clamped_hz,
         "free_interface_hz": tables.free_interface_hz,

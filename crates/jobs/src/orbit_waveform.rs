@@ -111,11 +111,12 @@ impl Serialize for OrbitWaveform {
             });
             (point.point.clone(), motion)
         };
+        let force = |(name, forces): &(String, Vec<f64>)| (name.clone(), json!(forces));
         let document = json!({
             "time_s": self.time,
             "phase_cycles": self.phase_cycles,
             "points": self.points.iter().map(point).collect::<Map<String, Value>>(),
-            "forces_n": self.forces.iter().map(|(name, forces)| (name.clone(), json!(forces))).collect::<Map<String, Value>>(),
+            "forces_n": self.forces.iter().map(force).collect::<Map<String, Value>>(),
             "states": self.states,
         });
         document.serialize(serializer)
