@@ -99,8 +99,8 @@ fn tables(folder: &TempDir) -> Vec<(String, String)> {
     tables
 }
 
-/// A branch over a parameter goes on in its middle. Without the curve: a side of one is stored whole, so stops
-/// that come before its end would let it never get on.
+/// A branch over a parameter goes on in its middle. Without the curve: a side of one is stored whole, so
+/// stops that come before its end would let it never get on.
 #[test]
 fn branches_over_parameters_that_are_stopped_anywhere_end_with_the_same_bytes() {
     let (branches, _) = STUDY.split_once("[[curve]]").unwrap();
