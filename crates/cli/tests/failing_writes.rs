@@ -93,7 +93,7 @@ fn chosen(count: usize, most: usize, random: &mut Random) -> Vec<usize> {
     }
     // One from each of so many equal parts.
     let part = count as f64 / most as f64;
-    (0..most).map(|k| 1 + ((k as f64 + random.next()) * part) as usize).collect()
+    (0..most).map(|k| 1 + ((k as f64 + random.number()) * part) as usize).collect()
 }
 
 /// The most calls that a thread of the undisturbed command makes.

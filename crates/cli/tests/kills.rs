@@ -32,7 +32,7 @@ fn killed_at_random_instants_and_begun_again_every_command_leaves_the_same_files
     while killed.iter().sum::<usize>() < wanted {
         for (writer, killed) in writers.iter().zip(&mut killed) {
             if writer.cost == Cost::Small || round % LARGE == 0 {
-                *killed += usize::from(kill_once(writer, random.next()));
+                *killed += usize::from(kill_once(writer, random.number()));
             }
         }
         round += 1;

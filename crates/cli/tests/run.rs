@@ -42,7 +42,7 @@ fn killed_at_random_instants_and_resumed_it_ends_with_the_same_bytes() {
     let (expected, duration) = undisturbed(&study);
     let mut random = Random(20);
     for _ in 0..kills {
-        let part = random.next();
+        let part = random.number();
         let workshop = killed(&study, duration.mul_f64(0.98 * part));
         assert_success(&workshop.hammerbeam(&RUN));
         assert!(workshop.csv("results") == expected, "the rows differ after a kill at {part}");

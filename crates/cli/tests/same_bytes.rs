@@ -87,7 +87,7 @@ fn three_threads_killed_at_ten_instants_and_resumed_end_with_the_same_bytes() {
     let workshop = Workshop::with(&with_continuation(""));
     let (mut random, mut killed) = (Random(20), 0);
     for _ in 0..10 {
-        let part = random.next();
+        let part = random.number();
         let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(["run", "study.toml", "--out", "results", "--jobs", "3"])
             .current_dir(workshop.path(""))

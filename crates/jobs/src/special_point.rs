@@ -13,11 +13,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings},
 };
 use hammerbeam_orbit::{BranchEventKind, states_at_phase};
-use hammerbeam_results::{
-    Store, StoreError,
-    row::Row,
-    store::BranchRecord,
-};
+use hammerbeam_results::{Store, StoreError, row::Row, store::BranchRecord};
 
 use crate::settled::SettledState;
 

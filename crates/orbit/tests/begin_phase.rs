@@ -7,7 +7,6 @@
 
 use std::f64::consts::PI;
 
-use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
@@ -17,6 +16,7 @@ use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side, StopReason,
     SurveyEffort, find_orbits, find_start, recompute, states_at_phase, survey,
 };
+use hammerbeam_testkit::structures::unit_mass;
 
 const RANGE: (f64, f64) = (0.1, 0.4);
 const PLAIN: f64 = -2.2;

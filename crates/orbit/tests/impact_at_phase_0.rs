@@ -13,9 +13,9 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::RigidStop};
 use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
+use hammerbeam_testkit::structures::unit_mass;
 
 const GAP: f64 = 0.1;
 const RESTITUTION: f64 = 0.6;

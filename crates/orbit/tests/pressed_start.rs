@@ -8,7 +8,6 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
     law::{HertzStop, RestitutionModel, RestitutionStop, RigidStop},
@@ -16,6 +15,7 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{
     OrbitError, OrbitSettings, Response, SurveyEffort, find_orbits, find_start, harmonic_trials, survey,
 };
+use hammerbeam_testkit::structures::unit_mass;
 
 const DAMPING: f64 = 0.4;
 const WEIGHT: f64 = 30.0;

@@ -1,11 +1,11 @@
 //! A walk that is stored and taken up again goes on with the same bits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use hammerbeam_testkit::structures::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, Response, Segments, Side, find_start,
 };
+use hammerbeam_testkit::structures::unit_mass;
 
 /// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a Hertz stop at a gap, driven by a force.
 fn oscillator() -> (System, Response) {

@@ -41,6 +41,7 @@ pub fn paper_rig_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
 /// A branch, both sides joined: the lower end first, as walked upwards.
 #[derive(Debug)]
 pub struct Walked {
+    /// The rows.
     pub rows: Vec<BranchRow>,
     /// Index of the start.
     pub start: usize,
@@ -100,4 +101,3 @@ pub fn walk_both(rig: &Rig, start_hz: f64, range_hz: (f64, f64), settings: &Orbi
     rows.extend(upper.into_iter().skip(1));
     Walked { rows, start: index, reasons: [down, up], evaluations: [down_evaluations, up_evaluations] }
 }
-

@@ -118,4 +118,3 @@ pub fn modal_damping(natural_frequencies: &[f64], ratio: f64) -> Mat<f64> {
     let values: Vec<f64> = natural_frequencies.iter().map(|frequency| 2.0 * ratio * frequency).collect();
     diagonal(&values)
 }
-

@@ -58,7 +58,12 @@ pub fn modal_beam() -> System {
 }
 
 /// `x'' + c x' + k x = F cos(2 pi f t + phase) + f(x)` of unit mass, with the force `f` of a law.
-pub fn oscillator(stiffness: f64, damper: f64, (amplitude, phase): (f64, f64), law: Law) -> (System, Response) {
+pub fn oscillator(
+    stiffness: f64,
+    damper: f64,
+    (amplitude, phase): (f64, f64),
+    law: Law,
+) -> (System, Response) {
     let load = forced(vec![force(&[1.0], 1, amplitude, phase)]);
     let elements = vec![element(&[1.0], 0.0, law)];
     let system = System::new(unit_mass(stiffness, damper), &load, elements).unwrap();

@@ -12,13 +12,14 @@ use std::{
 
 use hammerbeam_attractor::InOrder;
 use hammerbeam_motion::{LocalElement, System};
+use hammerbeam_testkit::systems::{force, forced};
+#[allow(unused_imports, reason = "the benches use some of them")]
 pub use hammerbeam_testkit::{
     extensive,
     laws::hertz,
     structures::modes as model,
     systems::{element, modal_beam as paper_beam, modal_beam_with as beam_with},
 };
-use hammerbeam_testkit::systems::{force, forced};
 
 /// A mass of 1 kg on a spring of `stiffness` with damping `damping`, driven by `amplitude cos(W t)`, with
 /// elements that act on it.

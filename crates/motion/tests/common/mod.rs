@@ -12,6 +12,7 @@ use hammerbeam_motion::{
     general::{GeneralSettings, advance},
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
+#[allow(unused_imports, reason = "the benches use some of them")]
 pub use hammerbeam_testkit::{
     laws::{cubic, damped, formula, hertz, hunt_crossley, remembering, rigid},
     structures::{diagonal, modal_damping, modes as model, paper_modes as beam_model},

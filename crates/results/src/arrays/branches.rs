@@ -17,7 +17,11 @@ use crate::{
 ///
 /// # Errors
 /// [`StoreError`]: solutions are missing or damaged.
-pub fn branch_array(store: &Store, lines: TableLines, branches: &[u32]) -> Result<Vec<ArrayTable>, StoreError> {
+pub fn branch_array(
+    store: &Store,
+    lines: TableLines,
+    branches: &[u32],
+) -> Result<Vec<ArrayTable>, StoreError> {
     let all = Branches::of(store)?;
     BranchTable::of(TableOver::Frequency, lines).map(|table| array(store, &all, table, branches)).collect()
 }
@@ -31,9 +35,7 @@ pub fn branch_array(store: &Store, lines: TableLines, branches: &[u32]) -> Resul
 pub fn piece_arrays(store: &Store, lines: &[TableLines]) -> Result<Vec<ArrayTable>, StoreError> {
     let all = Branches::of(store)?;
     let wanted = |table: &&BranchTable| {
-        table.over != TableOver::Frequency
-            && lines.contains(&table.lines)
-            && !all.over(table.over).is_empty()
+        table.over != TableOver::Frequency && lines.contains(&table.lines) && !all.over(table.over).is_empty()
     };
     BranchTable::ALL.iter().filter(wanted).map(|table| array(store, &all, table, &[])).collect()
 }
@@ -77,9 +79,14 @@ impl ColumnBuilder {
         use TableColumn as C;
         let entries = match column {
             C::Branch | C::PeriodMultiple | C::Piece | C::RowNumber | C::Contacts => Entries::Whole(vec![]),
-            C::Of | C::ParameterName | C::Side | C::Event | C::Status | C::ContactChange | C::End | C::Message => {
-                Entries::Words(vec![])
-            }
+            C::Of
+            | C::ParameterName
+            | C::Side
+            | C::Event
+            | C::Status
+            | C::ContactChange
+            | C::End
+            | C::Message => Entries::Words(vec![]),
             C::SymmetryBreaking => Entries::Flags(vec![]),
             C::Stable => Entries::Stability(vec![]),
             C::Direction | C::State => Entries::Vectors(vec![]),

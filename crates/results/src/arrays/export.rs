@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{
-    ArrayTable, branch_array, motion_tables, piece_arrays, write_json, write_npz, write_table,
-};
+use super::{ArrayTable, branch_array, motion_tables, piece_arrays, write_json, write_npz, write_table};
 use crate::{
     export::{ExportError, TableLines, export_csv, export_states},
     store::{Store, StoreError},

@@ -96,8 +96,7 @@ mod tests {
             ("z", ArrayValues::complex(&[vec![[1.0, -2.0]], vec![[0.5, 0.0]]])),
         ]);
         let mut out = Vec::new();
-        write(&[ArrayTable::new("one", columns), ArrayTable::new("two", Vec::new())][..1], &mut out)
-            .unwrap();
+        write(&[ArrayTable::new("one", columns), ArrayTable::new("two", Vec::new())][..1], &mut out).unwrap();
         let found: serde_json::Value = serde_json::from_slice(&out).unwrap();
         let expected = serde_json::json!({ "one": {
             "row": [0, null],

@@ -211,10 +211,7 @@ fn exponents(records: &[ExponentRecord]) -> Vec<ArrayTable> {
     let convergence = ArrayTable::new(
         "convergence",
         named([
-            (
-                "frequency_hz",
-                ArrayValues::Numbers(places().map(|(record, _)| record.frequency_hz).collect()),
-            ),
+            ("frequency_hz", ArrayValues::Numbers(places().map(|(record, _)| record.frequency_hz).collect())),
             ("time_s", ArrayValues::Numbers(places().map(|(_, at)| at.time).collect())),
             ("exponents_per_s", ArrayValues::vectors(&along)),
         ]),
@@ -224,10 +221,7 @@ fn exponents(records: &[ExponentRecord]) -> Vec<ArrayTable> {
     let section = ArrayTable::new(
         "section",
         named([
-            (
-                "frequency_hz",
-                ArrayValues::Numbers(points().map(|(record, _)| record.frequency_hz).collect()),
-            ),
+            ("frequency_hz", ArrayValues::Numbers(points().map(|(record, _)| record.frequency_hz).collect())),
             (
                 "displacement_m",
                 ArrayValues::Numbers(points().map(|(_, [displacement, _])| displacement).collect()),

@@ -4,7 +4,7 @@
 //! number, `|b1` a flag, `<U` words of equal width in UCS-4, `(w,)<f8` and `(w,)<c16` vectors. A file `.npy`
 //! is these bytes behind a header that describes them (NumPy Enhancement Proposal 1).
 
-use super::{ArrayTable, ArrayValues, ArrayColumn};
+use super::{ArrayColumn, ArrayTable, ArrayValues};
 
 /// Rows that are packed together, so that what is written stays in the cache.
 const BLOCK: usize = 256;
