@@ -3,9 +3,9 @@
 use std::{collections::BTreeMap, f64::consts::TAU};
 
 use hammerbeam_structure::{
-    Along, Beam, BeamPoint, Connection, Damping, Direction, End, Entry, GROUND, Lumped, LumpedMass, Matrices,
-    MatrixComponent, MatrixPoint, MatrixSupport, PointPlace, Reduced, ReducedModel, Reduction, RowLabel,
-    RowSet, Section, Structure, StructureError, SupportRows, SymmetricMatrix,
+    Along, Connection, Damping, Direction, Entry, GROUND, Lumped, LumpedMass, Matrices, MatrixComponent,
+    MatrixPoint, MatrixSupport, PointPlace, Reduced, ReducedModel, Reduction, RowLabel, RowSet, Structure,
+    StructureError, SupportRows, SymmetricMatrix,
 };
 
 fn matrix(size: usize, entries: &[(usize, usize, f64)]) -> SymmetricMatrix {
