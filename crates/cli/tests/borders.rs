@@ -54,14 +54,14 @@ fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
     let workshop = two_masses("[0.129, 0.132]", "1e-5", stop);
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     let connection = crate::common::database(workshop.path("results/results.db"));
-    let corner = "SELECT id FROM solution WHERE events & 1 AND events & 16";
+    let corner = "SELECT id FROM solution WHERE event & 1 AND event & 16";
     let corner: i64 = connection.query_row(corner, [], |row| row.get(0)).expect("no fold at a grazing");
     let verify = || workshop.hammerbeam(&["verify", "results", "--all"]);
     assert_success(&verify());
     // Neither is the row before it a fold, nor any where nothing touches.
     for other in [corner - 1, corner - 20] {
         let claim = |sign: char| {
-            let claim = format!("UPDATE solution SET events = events {sign} 1 WHERE id = {other}");
+            let claim = format!("UPDATE solution SET event = event {sign} 1 WHERE id = {other}");
             assert_eq!(connection.execute(&claim, []).unwrap(), 1);
         };
         claim('+');

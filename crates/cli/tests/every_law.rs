@@ -74,6 +74,11 @@ fn rows(text: &str) -> Vec<HashMap<String, String>> {
     lines.map(|line| columns.iter().cloned().zip(line).collect()).collect()
 }
 
+/// The rows of `[[vary]]` branches, once they are exported.
+fn parameter_rows(workshop: &Workshop) -> Vec<HashMap<String, String>> {
+    rows(&fs::read_to_string(workshop.path("exported/parameter_branches.csv")).unwrap())
+}
+
 fn number(row: &HashMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap()
 }
@@ -92,7 +97,7 @@ fn followed_and_verified(law: &str, study: &str, loses: bool) {
     assert_success(&verify);
     let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
     assert_eq!((&document["agree"], &document["disagreements"]), (&true.into(), &json!([])), "{law}");
-    let all = solutions.len();
+    let all = solutions.len() + parameter_rows(&workshop).len();
     assert_eq!((&document["sampled"], &document["stored"]), (&all.into(), &all.into()), "{law}");
 }
 
@@ -154,7 +159,7 @@ fn the_contact_begins_in_closed_form(law: &str, workshop: &Workshop) {
 
 /// At 5.9 Hz there are three orbits, and so many branches over what varies, each to both ends of its range.
 fn the_parameter_goes_from_end_to_end(law: &str, workshop: &Workshop) {
-    let found = rows(&fs::read_to_string(workshop.path("exported/parameter_branches.csv")).unwrap());
+    let found = parameter_rows(workshop);
     let ends = if law == "two-sided" { [4.5, 5.5] } else { [0.015, 0.022] };
     let mut reached: HashMap<&str, [f64; 2]> = HashMap::new();
     for row in &found {

@@ -1,12 +1,12 @@
 //! The motion of a periodic solution over its period: every point of the structure, every local element and
 //! the modal state, at equally spaced phases.
 
-use hammerbeam_attractor::{AttractorError, Simulation};
+use hammerbeam_attractor::AttractorError;
 use hammerbeam_motion::{
-    PointMotion,
+    PointMotion, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
 };
-use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
+use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::Model;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
@@ -39,7 +39,11 @@ pub struct OrbitWaveform {
     pub states: Vec<Vec<f64>>,
 }
 
-/// Goes over the period of a solution.
+/// Samples of an excitation period that may be asked for.
+const MOST_SAMPLES: usize = 1_000_000;
+
+/// Goes over the period of a solution: from each of its nodes to the next one, so that also an orbit that is left
+/// fast is followed, and one that begins at another phase since a contact is closed at phase 0.
 ///
 /// * `samples`: in each excitation period, at most a million.
 ///
@@ -50,13 +54,11 @@ pub fn orbit_waveform(
     orbit: &PeriodicSolution,
     samples: usize,
 ) -> Result<OrbitWaveform, AttractorError> {
+    if samples > MOST_SAMPLES {
+        let (what, found) = ("samples per period", samples as f64);
+        return Err(AttractorError::Input { what, found, allowed: "at most a million" });
+    }
     let (system, frequency_hz) = (&model.system, orbit.frequency_hz);
-    let settings = ExactSettings::default();
-    let mut integrator = ExactIntegrator::new(system.clone(), settings)?;
-    // The first node of an orbit need not be at phase 0, where a simulation begins.
-    let states = states_at_phase(&mut integrator, orbit, 0.0)?;
-    let first = states.first().map_or(&[][..], Vec::as_slice);
-    let mut simulation = Simulation::new(system.clone(), frequency_hz, first, settings)?;
     let motions: Vec<PointMotion> = system
         .model()
         .points
@@ -64,21 +66,47 @@ pub fn orbit_waveform(
         .map(|point| system.point_motion(frequency_hz, &point.shape, &point.support_ratios))
         .collect();
     let mut found = empty(model);
-    for period in 0..orbit.period_multiple {
-        for sample in simulation.period(samples)?.0 {
-            found.time.push(sample.time);
-            found.phase_cycles.push(f64::from(period) + sample.phase);
-            for (point, motion) in found.points.iter_mut().zip(&motions) {
-                let [displacement, velocity, acceleration] =
-                    motion.at(sample.phase, &sample.state, &sample.forces);
-                point.displacement.push(displacement);
-                point.velocity.push(velocity);
-                point.acceleration.push(acceleration);
-            }
-            for ((_, forces), force) in found.forces.iter_mut().zip(&sample.forces) {
-                forces.push(*force);
-            }
-            found.states.push(sample.state);
+    for (place, (state, forces)) in states(system, orbit, samples)?.into_iter().enumerate() {
+        let cycles = place as f64 / samples as f64;
+        found.time.push(cycles / frequency_hz);
+        found.phase_cycles.push(cycles);
+        for (point, motion) in found.points.iter_mut().zip(&motions) {
+            let [displacement, velocity, acceleration] = motion.at(cycles.fract(), &state, &forces);
+            point.displacement.push(displacement);
+            point.velocity.push(velocity);
+            point.acceleration.push(acceleration);
+        }
+        for ((_, of_element), force) in found.forces.iter_mut().zip(&forces) {
+            of_element.push(*force);
+        }
+        found.states.push(state);
+    }
+    Ok(found)
+}
+
+/// A modal state with the forces of the local elements.
+type Loaded = (Vec<f64>, Vec<f64>);
+
+/// States and forces at equal steps from phase 0 on.
+fn states(system: &System, orbit: &PeriodicSolution, samples: usize) -> Result<Vec<Loaded>, AttractorError> {
+    let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
+    let (begin, periods) = (orbit.phase, f64::from(orbit.period_multiple));
+    let count = samples * orbit.period_multiple as usize;
+    let first = (begin * samples as f64).ceil() as usize;
+    let phase = |k: usize| k as f64 / samples as f64;
+    let node_phase = |node: usize| begin + periods * node as f64 / orbit.nodes.len() as f64;
+    let (mut found, mut next) = (vec![Loaded::default(); count], first);
+    for (node, state) in orbit.nodes.iter().enumerate() {
+        let stretch =
+            Stretch { frequency_hz: orbit.frequency_hz, start: node_phase(node), end: node_phase(node + 1) };
+        let is_last = node + 1 == orbit.nodes.len();
+        let within: Vec<usize> =
+            (next..first + count).take_while(|&k| is_last || phase(k) < stretch.end).collect();
+        next += within.len();
+        let phases: Vec<f64> = within.iter().map(|&k| phase(k).clamp(stretch.start, stretch.end)).collect();
+        let trace = integrator.trace(&stretch, state, &phases)?;
+        for ((k, state), forces) in within.into_iter().zip(trace.samples).zip(trace.forces) {
+            found[k % count] = (state, forces);
         }
     }
     Ok(found)
