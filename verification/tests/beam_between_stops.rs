@@ -6,7 +6,7 @@
 //! number is printed anywhere.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-use crate::common::{Rig, paper_beam_with};
+use crate::common::{ObservedSystem, paper_beam_with};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use hammerbeam_motion::{
     Law, Stretch,
@@ -23,11 +23,11 @@ fn spring(gap: f64) -> Law {
     Law::Linear(LinearStop::with_gap(STIFFNESS, gap).unwrap())
 }
 
-fn between(gap_above: f64, gap_below: f64) -> Rig {
+fn between(gap_above: f64, gap_below: f64) -> ObservedSystem {
     paper_beam_with(0.015, &[(1.0, spring(gap_above)), (-1.0, spring(gap_below))])
 }
 
-fn orbit(rig: &Rig, frequency_hz: f64) -> PeriodicSolution {
+fn orbit(rig: &ObservedSystem, frequency_hz: f64) -> PeriodicSolution {
     find_start(&rig.system, &rig.response, frequency_hz, 1, &OrbitSettings::default()).unwrap()
 }
 
@@ -37,7 +37,7 @@ const SYMMETRIC_HZ: [f64; 4] = [16.0, 18.0, 20.0, 26.0];
 /// Largest displacement of the contact point relative to the support, and impulse of the stop, to one side.
 ///
 /// The trapezoidal rule over a force that sets in linearly, some hundred points a contact.
-fn to_one_side(rig: &Rig, orbit: &PeriodicSolution, sign: f64) -> (f64, f64) {
+fn to_one_side(rig: &ObservedSystem, orbit: &PeriodicSolution, sign: f64) -> (f64, f64) {
     const POINTS: u32 = 20_000;
     let phases: Vec<f64> = (0..POINTS).map(|k| f64::from(k) / f64::from(POINTS)).collect();
     let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };

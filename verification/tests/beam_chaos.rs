@@ -6,7 +6,7 @@
 //! windows in between. docs/validation/chaos.md has the table.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-use crate::common::{Rig, extensive, paper_beam, walk};
+use crate::common::{ObservedSystem, extensive, paper_beam, walk};
 use hammerbeam_attractor::{
     Class, Classified, Effort, LyapunovSettings, Observable, Patience, SectionMap, SweepSettings, Sweeper,
     SystemMap, classify, lyapunov,
@@ -15,7 +15,7 @@ use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Side, find_start};
 use hammerbeam_verification::results::Results;
 
-fn map(rig: &Rig, frequency_hz: f64) -> SystemMap {
+fn map(rig: &ObservedSystem, frequency_hz: f64) -> SystemMap {
     SystemMap::new(rig.system.clone(), frequency_hz, 1, ExactSettings::default()).unwrap()
 }
 
@@ -23,7 +23,7 @@ fn effort() -> Effort {
     Effort { patience: Patience { skipped: 300, periods: 700, longest: 24 }, ..Effort::default() }
 }
 
-fn from_rest(rig: &Rig, frequency_hz: f64) -> Classified {
+fn from_rest(rig: &ObservedSystem, frequency_hz: f64) -> Classified {
     let rest = vec![0.0; 2 * rig.system.dof()];
     classify(&mut map(rig, frequency_hz), 1, &rest, &effort()).unwrap()
 }
@@ -83,7 +83,12 @@ fn no_orbit_of_the_branches_is_stable_where_chaos_is_found() {
 }
 
 /// The orbit at the upper end of a branch that is walked from `start_hz`.
-fn orbit_at(rig: &Rig, period_multiple: u32, start_hz: f64, frequency_hz: f64) -> PeriodicSolution {
+fn orbit_at(
+    rig: &ObservedSystem,
+    period_multiple: u32,
+    start_hz: f64,
+    frequency_hz: f64,
+) -> PeriodicSolution {
     let settings = OrbitSettings { max_step_hz: 0.02, ..OrbitSettings::default() };
     let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
     let (rows, _, _) = walk(rig, &start, Side::Up, (start_hz - 0.01, frequency_hz), &settings);

@@ -10,7 +10,7 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::common::{Rig, element_at, force_at, response_of, single_mass};
+use crate::common::{ObservedSystem, element_at, force_at, response_of, single_mass};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
@@ -20,12 +20,15 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, find_start, free_orbit};
 
 /// Unit mass on `soft` N/m, `stiff` N/m where x > 0, with the damper and the force `amplitude cos W t`.
-fn oscillator(soft: f64, stiff: f64, damper: f64, amplitude: f64) -> Rig {
+fn oscillator(soft: f64, stiff: f64, damper: f64, amplitude: f64) -> ObservedSystem {
     let model = single_mass(1.0, soft, damper, false);
     let forces = if amplitude == 0.0 { vec![] } else { vec![force_at(&model, "mass", 1, amplitude)] };
     let stop = element_at(&model, "mass", Law::Linear(LinearStop::with_gap(stiff - soft, 0.0).unwrap()));
     let response = response_of(&model, "mass");
-    Rig { system: System::new(model, &Load { support: vec![], forces }, vec![stop]).unwrap(), response }
+    ObservedSystem {
+        system: System::new(model, &Load { support: vec![], forces }, vec![stop]).unwrap(),
+        response,
+    }
 }
 
 fn bilinear_frequency(soft: f64, stiff: f64) -> f64 {
@@ -70,7 +73,7 @@ fn each_side_takes_half_a_period_of_its_own_frequency() {
 }
 
 /// The orbit at another frequency, close to a known one.
-fn moved(rig: &Rig, near: &PeriodicSolution, frequency_hz: f64) -> PeriodicSolution {
+fn moved(rig: &ObservedSystem, near: &PeriodicSolution, frequency_hz: f64) -> PeriodicSolution {
     let guess = PeriodicSolution { frequency_hz, ..near.clone() };
     let range = (0.5 * frequency_hz, 2.0 * frequency_hz);
     let settings = OrbitSettings::default();

@@ -6,26 +6,26 @@
 //! is asserted is that orbits found afresh at the peaks have them, and their order.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-use crate::common::{Rig, hertz, paper_beam_with};
+use crate::common::{ObservedSystem, hertz, paper_beam_with};
 use hammerbeam_motion::{
     Law,
     law::{HertzStop, RestitutionModel, RestitutionStop},
 };
 use hammerbeam_orbit::{OrbitSettings, find_start};
 
-fn with_restitution(e: f64) -> Rig {
+fn with_restitution(e: f64) -> ObservedSystem {
     let elastic = HertzStop::with_gap(4.5e9, 0.0).unwrap();
     let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, e).unwrap();
     paper_beam_with(0.003, &[(-1.0, Law::Restitution(law))])
 }
 
 /// Largest displacement [mm] of the stable harmonic orbit at a frequency.
-fn peak(rig: &Rig, frequency_hz: f64) -> f64 {
+fn peak(rig: &ObservedSystem, frequency_hz: f64) -> f64 {
     subharmonic_peak(rig, frequency_hz, 1)
 }
 
 /// The same of an orbit of that many periods.
-fn subharmonic_peak(rig: &Rig, frequency_hz: f64, period_multiple: u32) -> f64 {
+fn subharmonic_peak(rig: &ObservedSystem, frequency_hz: f64, period_multiple: u32) -> f64 {
     let settings = OrbitSettings::default();
     let orbit = find_start(&rig.system, &rig.response, frequency_hz, period_multiple, &settings).unwrap();
     assert!(orbit.stable());

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, element_at, hertz, masses, paper_beam, response_of};
+use crate::common::{ObservedSystem, element_at, hertz, masses, paper_beam, response_of};
 use approx::assert_relative_eq;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Stretch, System,
@@ -18,7 +18,7 @@ const GRAVITY: f64 = 9.81;
 const MASS: f64 = 0.7;
 
 /// A mass that lies or bounces on a vibrating table and is braked by a damper to it; nothing else holds it.
-fn bouncing(law: Law, amplitude: f64) -> Rig {
+fn bouncing(law: Law, amplitude: f64) -> ObservedSystem {
     let model = masses(&[("mass", MASS)], &[], &[("mass", GROUND, 4.0)], true);
     // The displacement is counted downwards, towards the table.
     let weight = HarmonicForce {
@@ -28,10 +28,10 @@ fn bouncing(law: Law, amplitude: f64) -> Rig {
     let load =
         Load { support: vec![Harmonic { order: 1, amplitude, phase: 0.0 }.into()], forces: vec![weight] };
     let (table, response) = (element_at(&model, "mass", law), response_of(&model, "mass"));
-    Rig { system: System::new(model, &load, vec![table]).unwrap(), response }
+    ObservedSystem { system: System::new(model, &load, vec![table]).unwrap(), response }
 }
 
-fn orbit(rig: &Rig, frequency_hz: f64, period_multiple: u32) -> PeriodicSolution {
+fn orbit(rig: &ObservedSystem, frequency_hz: f64, period_multiple: u32) -> PeriodicSolution {
     let settings = OrbitSettings::default();
     find_start(&rig.system, &rig.response, frequency_hz, period_multiple, &settings).unwrap()
 }
@@ -78,7 +78,7 @@ struct Values {
 /// Orbits are sampled at equal phases first, then more densely between those on either side of what is
 /// sought.
 struct Sampler<'a> {
-    rig: &'a Rig,
+    rig: &'a ObservedSystem,
     orbit: &'a PeriodicSolution,
 }
 
@@ -170,7 +170,7 @@ impl Sampler<'_> {
 }
 
 /// Orbits of the paper's beam from one contact to many, stable and unstable.
-fn beam_orbits(rig: &Rig) -> Vec<PeriodicSolution> {
+fn beam_orbits(rig: &ObservedSystem) -> Vec<PeriodicSolution> {
     let found = [(33.6, 1), (36.2, 1), (32.34, 1), (27.55, 1), (29.0, 1), (66.0, 2), (53.0, 2), (99.5, 3)];
     found.map(|(frequency_hz, multiple)| orbit(rig, frequency_hz, multiple)).to_vec()
 }

@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, element_at, force_at, response_of, single_mass, walk_both};
+use crate::common::{ObservedSystem, element_at, force_at, response_of, single_mass, walk_both};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use hammerbeam_motion::{Law, Load, System, law::PowerSpring};
 use hammerbeam_orbit::OrbitSettings;
@@ -25,12 +25,12 @@ struct Duffing {
 }
 
 impl Duffing {
-    fn rig(self) -> Rig {
+    fn rig(self) -> ObservedSystem {
         let model = single_mass(1.0, 1.0, 2.0 * self.damping, false);
         let spring = element_at(&model, "mass", Law::Power(PowerSpring::cubic(self.cubic).unwrap()));
         let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, self.force)] };
         let response = response_of(&model, "mass");
-        Rig { system: System::new(model, &load, vec![spring]).unwrap(), response }
+        ObservedSystem { system: System::new(model, &load, vec![spring]).unwrap(), response }
     }
 
     /// Circular frequencies and amplitudes of the folds, ascending, by the walk along the branch.

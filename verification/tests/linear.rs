@@ -16,7 +16,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, Walked, element_at, force_at, masses, response_of, shaken, single_mass, walk_both};
+use crate::common::{
+    ObservedSystem, Walked, element_at, force_at, masses, response_of, shaken, single_mass, walk_both,
+};
 use approx::assert_abs_diff_eq;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, System, law::LinearStop};
 use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, find_start};
@@ -51,23 +53,23 @@ fn out_of_reach() -> Law {
     Law::Linear(LinearStop::with_gap(STIFFNESS, 1e3).unwrap())
 }
 
-fn rig(model: ReducedModel, load: &Load, law: Law) -> Rig {
+fn rig(model: ReducedModel, load: &Load, law: Law) -> ObservedSystem {
     let (element, response) = (element_at(&model, "mass", law), response_of(&model, "mass"));
-    Rig { system: System::new(model, load, vec![element]).unwrap(), response }
+    ObservedSystem { system: System::new(model, load, vec![element]).unwrap(), response }
 }
 
-fn forced(law: Law, extra: Option<HarmonicForce>) -> Rig {
+fn forced(law: Law, extra: Option<HarmonicForce>) -> ObservedSystem {
     let model = single_mass(MASS, STIFFNESS, DAMPER, false);
     let forces = std::iter::once(force_at(&model, "mass", 1, FORCE)).chain(extra).collect();
     rig(model, &Load { support: vec![], forces }, law)
 }
 
-fn walked(rig: &Rig) -> Walked {
+fn walked(rig: &ObservedSystem) -> Walked {
     walk_both(rig, 2.0, (0.5, 8.0), &OrbitSettings::default())
 }
 
 /// Displacement and velocity of the mass at phase 0.
-fn at_phase_0(rig: &Rig, orbit: &PeriodicSolution) -> [f64; 2] {
+fn at_phase_0(rig: &ObservedSystem, orbit: &PeriodicSolution) -> [f64; 2] {
     [orbit.nodes[0][0] * rig.response.shape[0], orbit.nodes[0][1] * rig.response.shape[0]]
 }
 

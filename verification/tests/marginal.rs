@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, Walked, element_at, force_at, masses, response_of, walk, walk_both};
+use crate::common::{ObservedSystem, Walked, element_at, force_at, masses, response_of, walk, walk_both};
 use hammerbeam_motion::{
     Law, Load, System,
     law::{LinearStop, RigidStop},
@@ -14,11 +14,11 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{OrbitMaxima, OrbitSettings, PeriodicSolution, Side, Stability};
 use hammerbeam_structure::{GROUND, ReducedModel};
 
-fn rig(model: ReducedModel, (at, law): (&str, Law), force: f64) -> Rig {
+fn rig(model: ReducedModel, (at, law): (&str, Law), force: f64) -> ObservedSystem {
     let forces = vec![force_at(&model, "mass", 1, force)];
     let (element, response) = (element_at(&model, at, law), response_of(&model, "mass"));
     let load = Load { support: vec![], forces };
-    Rig { system: System::new(model, &load, vec![element]).unwrap(), response }
+    ObservedSystem { system: System::new(model, &load, vec![element]).unwrap(), response }
 }
 
 fn settings(range_hz: (f64, f64)) -> OrbitSettings {

@@ -15,7 +15,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{Rig, element_at, force_at, response_of, single_mass};
+use crate::common::{ObservedSystem, element_at, force_at, response_of, single_mass};
 use hammerbeam_motion::{
     Law, Load, System,
     law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop},
@@ -42,12 +42,12 @@ fn rigid(e: f64) -> [f64; 3] {
 }
 
 /// The oscillator with this stop, driven by `force cos(w t)`.
-fn rig(law: Law, force: f64) -> Rig {
+fn rig(law: Law, force: f64) -> ObservedSystem {
     let model = single_mass(1.0, 1.0, 0.0, false);
     let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, force)] };
     let stop = element_at(&model, "mass", law);
     let response = response_of(&model, "mass");
-    Rig { system: System::new(model, &load, vec![stop]).unwrap(), response }
+    ObservedSystem { system: System::new(model, &load, vec![stop]).unwrap(), response }
 }
 
 /// The same of an orbit that was found.

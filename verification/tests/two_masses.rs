@@ -15,7 +15,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, force_at, masses, response_of};
+use crate::common::{ObservedSystem, force_at, masses, response_of};
 use approx::assert_abs_diff_eq;
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
@@ -34,7 +34,7 @@ const GAP: f64 = 2e-3;
 /// Displacements and velocities `[x1, x2, v1, v2]`.
 type State = [f64; 4];
 
-fn rig(stiffness: f64) -> Rig {
+fn rig(stiffness: f64) -> ObservedSystem {
     let model = masses(
         &[("first", MASSES[0]), ("second", MASSES[1])],
         &[("first", GROUND, SPRINGS[0]), ("second", GROUND, SPRINGS[1])],
@@ -50,15 +50,15 @@ fn rig(stiffness: f64) -> Rig {
     };
     let load = Load { support: vec![], forces: vec![force_at(&model, "first", 1, FORCE)] };
     let response = response_of(&model, "first");
-    Rig { system: System::new(model, &load, vec![between]).unwrap(), response }
+    ObservedSystem { system: System::new(model, &load, vec![between]).unwrap(), response }
 }
 
-fn orbit(rig: &Rig, frequency_hz: f64) -> PeriodicSolution {
+fn orbit(rig: &ObservedSystem, frequency_hz: f64) -> PeriodicSolution {
     find_start(&rig.system, &rig.response, frequency_hz, 1, &OrbitSettings::default()).unwrap()
 }
 
 /// Physical state of a modal one.
-fn physical(rig: &Rig, state: &[f64]) -> State {
+fn physical(rig: &ObservedSystem, state: &[f64]) -> State {
     let read = |name: &str, part: &[f64]| -> f64 {
         rig.system.model().point(name).unwrap().shape.iter().zip(part).map(|(phi, q)| phi * q).sum()
     };

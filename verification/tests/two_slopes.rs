@@ -9,7 +9,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{Rig, element_at, force_at, masses, response_of, single_mass, walk_both};
+use crate::common::{ObservedSystem, element_at, force_at, masses, response_of, single_mass, walk_both};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
@@ -89,12 +89,15 @@ impl Stop {
 }
 
 /// 1 kg on 1 N/m with a damper, a force `amplitude cos W t`, and the laws above it.
-fn oscillator(laws: &[Law], damper: f64, amplitude: f64) -> Rig {
+fn oscillator(laws: &[Law], damper: f64, amplitude: f64) -> ObservedSystem {
     let model = single_mass(1.0, 1.0, damper, false);
     let forces = if amplitude == 0.0 { vec![] } else { vec![force_at(&model, "mass", 1, amplitude)] };
     let elements = laws.iter().map(|law| element_at(&model, "mass", law.clone())).collect();
     let response = response_of(&model, "mass");
-    Rig { system: System::new(model, &Load { support: vec![], forces }, elements).unwrap(), response }
+    ObservedSystem {
+        system: System::new(model, &Load { support: vec![], forces }, elements).unwrap(),
+        response,
+    }
 }
 
 fn integrator(system: &System) -> ExactIntegrator {

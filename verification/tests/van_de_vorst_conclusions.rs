@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Rig, hertz, paper_beam, paper_beam_model, paper_beam_with, shaken, walk};
+use crate::common::{ObservedSystem, hertz, paper_beam, paper_beam_model, paper_beam_with, shaken, walk};
 use hammerbeam_motion::{
     LocalElement, Stretch, System,
     general::{GeneralSettings, sample},
@@ -16,7 +16,7 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{BranchRow, OrbitSettings, PeriodicSolution, Response, Side, find_start};
 
 /// A branch in steps of 0.05 Hz, from the lower end of a range to the upper one.
-fn branch(rig: &Rig, start_hz: f64, period_multiple: u32, range_hz: (f64, f64)) -> Vec<BranchRow> {
+fn branch(rig: &ObservedSystem, start_hz: f64, period_multiple: u32, range_hz: (f64, f64)) -> Vec<BranchRow> {
     let settings = OrbitSettings { max_step_hz: 0.05, ..OrbitSettings::default() };
     let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
     let (mut rows, _, _) = walk(rig, &start, Side::Down, range_hz, &settings);
@@ -63,7 +63,7 @@ fn third_subharmonic_peaks_are_11_24_mm_at_99_5_hz_and_16_26_mm_at_108_hz() {
 
 /// Amplitudes of the harmonics of an orbit of two periods, in the displacement relative to the support: order
 /// k at k f/2.
-fn harmonics(rig: &Rig, orbit: &PeriodicSolution) -> Vec<f64> {
+fn harmonics(rig: &ObservedSystem, orbit: &PeriodicSolution) -> Vec<f64> {
     const SAMPLES: u32 = 4096;
     let phases: Vec<f64> = (0..SAMPLES).map(|k| 2.0 * f64::from(k) / f64::from(SAMPLES)).collect();
     let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 2.0 };
@@ -112,7 +112,7 @@ fn half_subharmonic_acceleration_near_53_hz_is_an_eighth_of_the_harmonic_one() {
     assert!(least.maxima.displacement > 1.4 * harmonic.maxima.displacement, "though it moves further");
 }
 
-fn shaken_by(amplitude: f64) -> Rig {
+fn shaken_by(amplitude: f64) -> ObservedSystem {
     let model = paper_beam_model(0.015);
     let point = model.point("contact").unwrap().clone();
     let stop = LocalElement {
@@ -122,7 +122,7 @@ fn shaken_by(amplitude: f64) -> Rig {
         law: hertz(4.5e9, 0.0),
     };
     let system = System::new(model, &shaken(amplitude), vec![stop]).unwrap();
-    Rig { system, response: Response { shape: point.shape, support_ratios: point.support_ratios } }
+    ObservedSystem { system, response: Response { shape: point.shape, support_ratios: point.support_ratios } }
 }
 
 /// With no gap only the exponent 3/2 of the contact makes the response anything but proportional to the

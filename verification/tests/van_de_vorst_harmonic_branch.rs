@@ -19,7 +19,7 @@
 use std::sync::OnceLock;
 
 use crate::common::{
-    Rig, Walked, paper_beam,
+    ObservedSystem, Walked, paper_beam,
     spectrum::{harmonics, strongest_harmonic},
     walk_both,
 };
@@ -31,8 +31,8 @@ const RANGE_HZ: (f64, f64) = (19.0, 110.0);
 const F2: usize = 1;
 const F3: usize = 2;
 
-fn rig() -> &'static Rig {
-    static RIG: OnceLock<Rig> = OnceLock::new();
+fn rig() -> &'static ObservedSystem {
+    static RIG: OnceLock<ObservedSystem> = OnceLock::new();
     RIG.get_or_init(paper_beam)
 }
 

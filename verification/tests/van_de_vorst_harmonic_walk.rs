@@ -9,7 +9,7 @@
 use std::sync::OnceLock;
 
 use crate::common::{
-    Rig, Walked,
+    ObservedSystem, Walked,
     crossings::{crossings, distance},
     extensive, folds, paper_beam, walk, walk_both,
 };
@@ -20,8 +20,8 @@ const RANGE_HZ: (f64, f64) = (19.0, 110.0);
 /// told apart by their number.
 const SAME_FOLD_HZ: f64 = 1e-6;
 
-fn rig() -> &'static Rig {
-    static RIG: OnceLock<Rig> = OnceLock::new();
+fn rig() -> &'static ObservedSystem {
+    static RIG: OnceLock<ObservedSystem> = OnceLock::new();
     RIG.get_or_init(paper_beam)
 }
 

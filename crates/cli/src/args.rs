@@ -214,7 +214,7 @@ pub struct RunOptions {
     /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
     /// folder and that no branch holds; or at a special point of its branches, by the number that page.html
     /// shows: results:12; may be given several times
-    #[arg(long, value_name = "DIR[:POINT]", value_parser = |text: &str| Ok::<_, std::convert::Infallible>(RunOrigin::of(text)))]
+    #[arg(long, value_name = "DIR[:POINT]", value_parser = origin)]
     pub from: Vec<RunOrigin>,
 
     /// Number of threads [default: all cores]; the results do not depend on it
@@ -527,6 +527,10 @@ fn resolution(text: &str) -> Result<f64, String> {
         Ok(number) if (24.0..=1200.0).contains(&number) => Ok(number),
         _ => Err("must be 24 to 1200 pixels per inch".to_owned()),
     }
+}
+
+fn origin(text: &str) -> Result<RunOrigin, std::convert::Infallible> {
+    Ok(RunOrigin::of(text))
 }
 
 /// `FROM:TO` in hertz, in order.

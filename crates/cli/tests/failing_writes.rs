@@ -20,7 +20,7 @@ use std::{
 use rusqlite::{Connection, OpenFlags};
 
 use crate::common::{
-    Random, Workshop, extensive, stderr,
+    SeededNumbers, Workshop, extensive, stderr,
     writers::{Cost, Writer, writers},
 };
 
@@ -61,7 +61,7 @@ fn writes_that_fail_end_with_a_sentence_and_the_command_done_again_leaves_the_sa
     if !traces {
         eprintln!("skipped: strace cannot make calls fail here; files are limited alone");
     }
-    let mut random = Random(7);
+    let mut random = SeededNumbers(7);
     for (place, writer) in writers(Cost::Small).into_iter().enumerate() {
         let largest = writer.expected.values().map(Vec::len).max().unwrap();
         for number in chosen(largest / 512, most.min(20), &mut random) {
@@ -87,7 +87,7 @@ fn writes_that_fail_end_with_a_sentence_and_the_command_done_again_leaves_the_sa
 }
 
 /// So many numbers from 1 to `count`, or all of them.
-fn chosen(count: usize, most: usize, random: &mut Random) -> Vec<usize> {
+fn chosen(count: usize, most: usize, random: &mut SeededNumbers) -> Vec<usize> {
     if most >= count {
         return (1..=count).collect();
     }

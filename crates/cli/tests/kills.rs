@@ -14,7 +14,7 @@ use std::{
 };
 
 use crate::common::{
-    Random, extensive,
+    SeededNumbers, extensive,
     writers::{Cost, Writer, writers},
 };
 
@@ -28,7 +28,7 @@ fn killed_at_random_instants_and_begun_again_every_command_leaves_the_same_files
     let writers = writers(cost);
     let small = writers.iter().filter(|writer| writer.cost == Cost::Small).count();
     let wanted = asked.unwrap_or(if extensive() { 1000 } else { 2 * small });
-    let (mut random, mut killed, mut round) = (Random(20), vec![0_usize; writers.len()], 0_usize);
+    let (mut random, mut killed, mut round) = (SeededNumbers(20), vec![0_usize; writers.len()], 0_usize);
     while killed.iter().sum::<usize>() < wanted {
         for (writer, killed) in writers.iter().zip(&mut killed) {
             if writer.cost == Cost::Small || round % LARGE == 0 {

@@ -9,7 +9,8 @@ use std::{
 };
 
 use crate::common::{
-    Random, TWO_MASSES, Workshop, assert_success, extensive, short_run, short_study, stderr, stdout, told,
+    SeededNumbers, TWO_MASSES, Workshop, assert_success, extensive, short_run, short_study, stderr, stdout,
+    told,
 };
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
@@ -40,7 +41,7 @@ fn killed_at_random_instants_and_resumed_it_ends_with_the_same_bytes() {
     let whole = format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.002\n");
     let (study, kills) = if extensive() { (whole, 10) } else { (long_study(), 3) };
     let (expected, duration) = undisturbed(&study);
-    let mut random = Random(20);
+    let mut random = SeededNumbers(20);
     for _ in 0..kills {
         let part = random.number();
         let workshop = killed(&study, duration.mul_f64(0.98 * part));

@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{Random, Workshop, assert_success, stdout};
+use crate::common::{SeededNumbers, Workshop, assert_success, stdout};
 
 /// A bilinear oscillator with superharmonic and subharmonic branches and doublings of them: a second or two.
 const STUDY: &str = r#"
@@ -85,7 +85,7 @@ fn one_two_and_three_threads_give_the_same_bytes() {
 fn three_threads_killed_at_ten_instants_and_resumed_end_with_the_same_bytes() {
     let (expected, duration) = undisturbed();
     let workshop = Workshop::with(&with_continuation(""));
-    let (mut random, mut killed) = (Random(20), 0);
+    let (mut random, mut killed) = (SeededNumbers(20), 0);
     for _ in 0..10 {
         let part = random.number();
         let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))

@@ -6,16 +6,16 @@ mod irregular;
 mod measured;
 mod orbits;
 mod shape;
+mod solution;
 mod varied;
 
-use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
-use hammerbeam_orbit::{BranchEventKind, Stability};
+use hammerbeam_figure::{MultiplierRecords, Page, PageBranch};
 use hammerbeam_results::{
     Store, StoreError,
-    row::Row,
     store::{BranchRecord, PlacedRow, RequestKind, WalkRecord},
 };
 use hammerbeam_study::{Model, StudyFile};
+use solution::solution;
 
 use super::{Album, Drawn, motions};
 use crate::DrawingError;
@@ -139,28 +139,6 @@ fn branch(record: &BranchRecord, places: &[PlacedRow]) -> PageBranch {
         over: 0,
         ends: [end(&record.down), end(&record.up)],
         solutions: places.iter().map(|placed| solution(&placed.row)).collect(),
-    }
-}
-
-fn solution(row: &Row) -> PageSolution {
-    let has = |kind| row.events.has(kind);
-    PageSolution {
-        frequency_hz: row.frequency_hz,
-        parameter: row.parameter,
-        energy_j: f64::NAN,
-        displacement_m: row.maxima.displacement,
-        acceleration_m_s2: row.maxima.acceleration,
-        force_n: row.maxima.contact_force,
-        impact_velocity_m_s: row.maxima.impact_velocity,
-        contacts: row.maxima.contacts,
-        leading_multiplier: row.leading_multiplier,
-        stable: row.stability.may_be_stable(),
-        marginal: row.stability == Stability::Marginal,
-        fold: has(BranchEventKind::Fold),
-        flip: has(BranchEventKind::Flip),
-        neimark_sacker: has(BranchEventKind::NeimarkSacker),
-        branch_point: has(BranchEventKind::BranchPoint),
-        grazing: has(BranchEventKind::Grazing),
     }
 }
 

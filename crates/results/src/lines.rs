@@ -1,5 +1,5 @@
-//! The lines of all tables of branches: the one place that walks over what is stored and says what a line has in
-//! a column. CSV and arrays are made of these.
+//! The lines of all tables of branches: the one place that walks over what is stored and says what a line has
+//! in a column. CSV and arrays are made of these.
 
 use std::borrow::Cow;
 

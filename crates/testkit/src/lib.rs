@@ -4,13 +4,13 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its model is wrong")]
 
 pub mod laws;
+mod observed_system;
 mod random;
-mod rig;
 pub mod structures;
 pub mod systems;
 
-pub use random::Random;
-pub use rig::{Rig, Walked, folds, paper_rig, paper_rig_with, walk, walk_both};
+pub use observed_system::{ObservedSystem, Walked, folds, paper_rig, paper_rig_with, walk, walk_both};
+pub use random::SeededNumbers;
 
 /// Whether whole sets are asked for instead of samples: `HAMMERBEAM_EXTENSIVE=1`.
 pub fn extensive() -> bool {

@@ -2,9 +2,9 @@
 
 /// Numbers from 0 to 1, the same ones for the same seed.
 #[derive(Debug, Clone)]
-pub struct Random(pub u64);
+pub struct SeededNumbers(pub u64);
 
-impl Random {
+impl SeededNumbers {
     /// The next number, at least 0 and below 1.
     pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -4,7 +4,7 @@ pub mod crossings;
 pub mod spectrum;
 
 pub use hammerbeam_testkit::{
-    Rig, Walked, extensive, folds,
+    ObservedSystem, Walked, extensive, folds,
     laws::hertz,
     paper_rig as paper_beam, paper_rig_with as paper_beam_with,
     structures::{masses, paper_beam_model, single_mass},

@@ -8,10 +8,10 @@ use hammerbeam_motion::{
 };
 use hammerbeam_orbit::PeriodicSolution;
 
-use super::Rig;
+use super::ObservedSystem;
 
 /// Amplitudes of the harmonics `0..=highest` of a mode over one orbit of one excitation period.
-pub fn harmonics(rig: &Rig, orbit: &PeriodicSolution, mode: usize, highest: u32) -> Vec<f64> {
+pub fn harmonics(rig: &ObservedSystem, orbit: &PeriodicSolution, mode: usize, highest: u32) -> Vec<f64> {
     const SAMPLES: u32 = 128;
     let phases: Vec<f64> = (0..SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES)).collect();
     let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };
@@ -30,7 +30,7 @@ pub fn harmonics(rig: &Rig, orbit: &PeriodicSolution, mode: usize, highest: u32)
 }
 
 /// Order of the strongest harmonic of a mode, from `lowest` to 13.
-pub fn strongest_harmonic(rig: &Rig, orbit: &PeriodicSolution, mode: usize, lowest: u32) -> u32 {
+pub fn strongest_harmonic(rig: &ObservedSystem, orbit: &PeriodicSolution, mode: usize, lowest: u32) -> u32 {
     let amplitudes = harmonics(rig, orbit, mode, 13);
     (lowest..=13).max_by(|&a, &b| amplitudes[a as usize].total_cmp(&amplitudes[b as usize])).unwrap()
 }

@@ -14,7 +14,7 @@ use std::{
 };
 
 use assert_cmd::Command;
-pub use hammerbeam_testkit::{Random, extensive};
+pub use hammerbeam_testkit::{SeededNumbers, extensive};
 use serde_json::Value;
 use tempfile::TempDir;
 

@@ -6,7 +6,7 @@ use hammerbeam_results::{
     store::{BranchRecord, PieceRecord},
 };
 
-use super::solution;
+use super::solution::solution;
 use crate::parameter::axis_label;
 
 /// Adds the branches of every `[[vary]]` of the study, with their leading multipliers.

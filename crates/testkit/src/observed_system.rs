@@ -13,7 +13,7 @@ use crate::{
 
 /// A system and the displacement that is observed.
 #[derive(Debug, Clone)]
-pub struct Rig {
+pub struct ObservedSystem {
     /// The system.
     pub system: System,
     /// The displacement.
@@ -21,13 +21,13 @@ pub struct Rig {
 }
 
 /// The beam of the paper with its Hertz stop.
-pub fn paper_rig() -> Rig {
+pub fn paper_rig() -> ObservedSystem {
     paper_rig_with(0.015, &[(-1.0, hertz(4.5e9, 0.0))])
 }
 
 /// The shaken beam with the stops `laws`, each below (`sign` -1) or above (+1) the contact point and riding
 /// on the support.
-pub fn paper_rig_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
+pub fn paper_rig_with(damping_ratio: f64, laws: &[(f64, Law)]) -> ObservedSystem {
     let model = paper_beam_model(damping_ratio);
     let response = response_of(&model, "contact");
     let stop = |(sign, law): &(f64, Law)| {
@@ -35,7 +35,7 @@ pub fn paper_rig_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
         element(&shape, 0.0, law.clone())
     };
     let system = System::new(model, &shaken(0.5015e-3), laws.iter().map(stop).collect()).unwrap();
-    Rig { system, response }
+    ObservedSystem { system, response }
 }
 
 /// A branch, both sides joined: the lower end first, as walked upwards.
@@ -76,7 +76,7 @@ pub fn folds(rows: &[BranchRow]) -> Vec<f64> {
 
 /// Walks one side to its end: the start row first.
 pub fn walk(
-    rig: &Rig,
+    rig: &ObservedSystem,
     start: &PeriodicSolution,
     side: Side,
     range_hz: (f64, f64),
@@ -92,7 +92,12 @@ pub fn walk(
 }
 
 /// Finds the harmonic orbit at `start_hz` and walks both ways.
-pub fn walk_both(rig: &Rig, start_hz: f64, range_hz: (f64, f64), settings: &OrbitSettings) -> Walked {
+pub fn walk_both(
+    rig: &ObservedSystem,
+    start_hz: f64,
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> Walked {
     let start = find_start(&rig.system, &rig.response, start_hz, 1, settings).unwrap();
     let (mut rows, down, down_evaluations) = walk(rig, &start, Side::Down, range_hz, settings);
     rows.reverse();
