@@ -42,8 +42,8 @@ pub struct OrbitWaveform {
 /// Samples of an excitation period that may be asked for.
 const MOST_SAMPLES: usize = 1_000_000;
 
-/// Goes over the period of a solution: from each of its nodes to the next one, so that also an orbit that is left
-/// fast is followed, and one that begins at another phase since a contact is closed at phase 0.
+/// Goes over the period of a solution: from each of its nodes to the next one, so that also an orbit that is
+/// left fast is followed, and one that begins at another phase since a contact is closed at phase 0.
 ///
 /// * `samples`: in each excitation period, at most a million.
 ///
