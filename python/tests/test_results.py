@@ -140,18 +140,16 @@ def test_what_run_reported_is_there(folder: Path) -> None:
     assert again.report is not None and again.report["branches"][0]["folds"] == 2
 
 
-def test_a_million_rows_come_into_numpy_fast() -> None:
-    import time
-
+def test_rows_come_into_numpy_without_a_copy() -> None:
     from hammerbeam._tables import array
 
-    rows = np.zeros(1_000_000, dtype=[("branch", "<i8"), ("frequency_hz", "<f8"), ("event", "<U4")])
+    rows = np.zeros(1000, dtype=[("branch", "<i8"), ("frequency_hz", "<f8"), ("event", "<U4")])
     fields: list[tuple[str, str, int | None]] = [
         ("branch", "<i8", None),
         ("frequency_hz", "<f8", None),
         ("event", "<U4", None),
     ]
     data = bytearray(rows.tobytes())
-    started = time.perf_counter()
     table = array(("branches", fields, len(rows), data))
-    assert time.perf_counter() - started < 0.2 and len(table) == len(rows)
+    assert len(table) == len(rows)
+    assert np.shares_memory(table, np.frombuffer(data, dtype=np.uint8))
