@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
+use hammerbeam_orbit::BranchEventKind;
 use hammerbeam_results::arrays::TableFormat;
 use hammerbeam_study::{Setting, StudyError, StudyFile, file::DrawnOrbit};
 
@@ -295,8 +296,8 @@ pub struct ExportOptions {
 
     /// Write the orbits with this event in the same way: fold, flip, neimark-sacker, branch-point, grazing,
     /// start or end; may be given several times
-    #[arg(long, value_name = "NAME", value_parser = event_name)]
-    pub event: Vec<String>,
+    #[arg(long, value_name = "NAME", value_parser = event_kind)]
+    pub event: Vec<BranchEventKind>,
 
     /// Only orbits of this branch; may be given several times
     #[arg(long, value_name = "N")]
@@ -311,14 +312,12 @@ pub struct ExportOptions {
     pub out: Option<PathBuf>,
 }
 
-/// The name of an event.
-fn event_name(text: &str) -> Result<String, String> {
-    let known = hammerbeam_jobs::chosen_orbits::event_names();
-    known
-        .iter()
-        .find(|name| *name == text)
-        .cloned()
-        .ok_or_else(|| format!("must be one of {}", known.join(", ")))
+/// An event by its name.
+fn event_kind(text: &str) -> Result<BranchEventKind, String> {
+    BranchEventKind::of_branches(text).ok_or_else(|| {
+        let known = BranchEventKind::OF_BRANCHES.map(BranchEventKind::name);
+        format!("must be one of {}", known.join(", "))
+    })
 }
 
 #[derive(Debug, Args)]

@@ -77,6 +77,12 @@ fn orbits_are_chosen_by_frequency_and_event_and_come_with_their_motion() {
             assert!((force + x.powi(3)).abs() < 1e-6 * (1.0 + force.abs()), "{force} at {x}");
         }
     }
+    // Both ends of the one branch, which are the ends of the range.
+    assert_success(&export(&workshop, "csv", &["--event", "start", "--event", "end", "--samples", "8"]));
+    let ends = workshop.table("export/orbits.csv");
+    let ends: Vec<_> =
+        ends.iter().map(|orbit| (orbit["event"].as_str(), number(orbit, "frequency_hz"))).collect();
+    assert_eq!(ends, [("start", 0.2), ("end", 0.3)]);
     let nothing = export(&workshop, "json", &["--event", "grazing"]);
     assert_eq!(nothing.status.code(), Some(1));
     let unknown = export(&workshop, "json", &["--event", "jump"]);

@@ -65,7 +65,9 @@ pub use hammerbeam_jobs::{
     comparison, exponents, modes_document, orbit_waveform, orbits, pool, rig, run, simulate, sweep, update,
     verify,
 };
-pub use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, Stability, StopReason};
+pub use hammerbeam_orbit::{
+    BranchEventKind, BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, Stability, StopReason,
+};
 pub use hammerbeam_results::{self as results, Store};
 pub use hammerbeam_study::{self as study_file, StudyError, StudyFile};
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_orbit::{Events, PeriodicSolution};
+use hammerbeam_orbit::{BranchEventKind, PeriodicSolution};
 use hammerbeam_results::arrays::{ArrayTable, ArrayValues};
 use hammerbeam_study::Model;
 
@@ -15,9 +15,8 @@ pub struct OrbitChoice {
     pub branches: Vec<u32>,
     /// Orbits in which branches cross these frequencies [Hz].
     pub frequencies_hz: Vec<f64>,
-    /// Solutions with an event of these names: `fold`, `flip`, `neimark-sacker`, `branch-point`, `grazing`,
-    /// `start`, `end`.
-    pub events: Vec<String>,
+    /// Solutions with an event of these kinds.
+    pub events: Vec<BranchEventKind>,
 }
 
 /// An orbit of a results folder.
@@ -53,29 +52,15 @@ pub fn chosen_orbits(
     }
     for branch in stored.branches().iter().filter(|branch| is_wanted(branch.record.id)) {
         for placed in &branch.rows {
-            let event = placed.row.events.label();
-            if event.split('+').any(|name| choice.events.iter().any(|wanted| wanted == name)) {
+            let events = placed.row.events;
+            if choice.events.iter().any(|wanted| events.has(*wanted)) {
+                let event = events.label();
                 let solution = stored.solution(branch, placed)?;
                 found.push(ChosenOrbit { branch: Some(branch.record.id), event, solution });
             }
         }
     }
     Ok(found)
-}
-
-/// Names of all events that rows may have.
-#[must_use]
-pub fn event_names() -> Vec<String> {
-    let all = Events {
-        fold: true,
-        flip: true,
-        neimark_sacker: true,
-        branch_point: true,
-        grazing: true,
-        start: true,
-        end: true,
-    };
-    all.label().split('+').map(str::to_owned).collect()
 }
 
 /// Orbits as two tables: `orbits`, one row for each with its numbers, state and multipliers, and `waveforms`,

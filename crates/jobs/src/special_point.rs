@@ -86,12 +86,5 @@ fn find(store: &Store, number: u32) -> Result<Result<(BranchRecord, usize), u32>
 }
 
 fn is_special(row: &Row) -> bool {
-    let kinds = [
-        BranchEventKind::Fold,
-        BranchEventKind::Flip,
-        BranchEventKind::NeimarkSacker,
-        BranchEventKind::BranchPoint,
-        BranchEventKind::Grazing,
-    ];
-    kinds.into_iter().any(|kind| row.events.has(kind))
+    row.events.is_bifurcation() || row.events.has(BranchEventKind::Grazing)
 }

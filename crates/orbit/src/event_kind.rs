@@ -90,6 +90,23 @@ impl BranchEventKind {
         Self::Resonance14,
     ];
 
+    /// Those that rows of branches have; the others are on curves.
+    pub const OF_BRANCHES: [Self; 7] = [
+        Self::Fold,
+        Self::Flip,
+        Self::NeimarkSacker,
+        Self::BranchPoint,
+        Self::Grazing,
+        Self::Start,
+        Self::End,
+    ];
+
+    /// That of branches with this name.
+    #[must_use]
+    pub fn of_branches(name: &str) -> Option<Self> {
+        Self::OF_BRANCHES.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// Its name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {

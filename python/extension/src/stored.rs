@@ -6,8 +6,8 @@ use std::{
 };
 
 use hammerbeam::{
-    Store, Study,
-    chosen_orbits::{OrbitChoice, chosen_orbits, event_names},
+    BranchEventKind, Store, Study,
+    chosen_orbits::{OrbitChoice, chosen_orbits},
     drawing::{DrawSettings, DrawingError, FigureFormat, FigureKind, FigureSelection, draw, draw_into},
     results::{
         arrays::{
@@ -159,11 +159,13 @@ impl NativeResults {
         events: Vec<String>,
     ) -> PyResult<NativeOrbits> {
         self.check_open(py)?;
-        let known = event_names();
-        if let Some(event) = events.iter().find(|event| !known.contains(event)) {
-            let message = format!("there is no event {event:?}; allowed: {}", known.join(", "));
-            return Err(bad_input(py, "BadInput", message));
-        }
+        let kind = |name: &String| {
+            BranchEventKind::of_branches(name).ok_or_else(|| {
+                let known = BranchEventKind::OF_BRANCHES.map(BranchEventKind::name).join(", ");
+                bad_input(py, "BadInput", format!("there is no event {name:?}; allowed: {known}"))
+            })
+        };
+        let events = events.iter().map(kind).collect::<PyResult<_>>()?;
         let choice = OrbitChoice { branches, frequencies_hz, events };
         let found = py.detach(|| chosen_orbits(&self.study, &self.folder, &choice));
         Ok(NativeOrbits::new(self.study.clone(), found.map_err(|error| exception(py, error))?))

@@ -187,18 +187,16 @@ impl Store {
         Ok(())
     }
 
-    /// All rows of a branch end to end, as they are stored, each with its place.
+    /// All rows of a branch end to end, each with its place.
     ///
     /// # Errors
     /// Solutions are missing or damaged, or the database refuses.
     pub fn placed_rows(&self, branch: &BranchRecord) -> Result<Vec<PlacedRow>, StoreError> {
         let mut rows = Vec::new();
-        for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
-            self.each_row_of_walk::<StoreError>(walk_id(branch.start, side), order, |number, row| {
-                rows.push(PlacedRow { side, number, row });
-                Ok(())
-            })?;
-        }
+        self.each_placed_row::<StoreError>(branch, |placed| {
+            rows.push(placed);
+            Ok(())
+        })?;
         Ok(rows)
     }
 
