@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_jobs::{run::RunOrigin, verify::TOLERANCE};
 use hammerbeam_orbit::BranchEventKind;
 use hammerbeam_results::arrays::TableFormat;
-use hammerbeam_study::{Setting, StudyError, StudyFile, file::DrawnOrbit};
+use hammerbeam_study::Setting;
 
 use crate::{
     compare_args::{CompareOptions, RigOptions},
+    figure_args::FigureOptions,
+    input_args::{StudyInput, excitation_frequency, positive},
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     overlay_args::OverlayOptions,
     signal_args::SignalCommand,
@@ -85,27 +86,6 @@ pub enum Command {
     Completions(CompletionsOptions),
     /// Print the manual page, or write the pages of all commands into a folder
     Man(ManOptions),
-}
-
-/// A study file, and keys of it that get other values.
-#[derive(Debug, Args)]
-pub struct StudyInput {
-    /// Study file
-    #[arg(value_name = "STUDY")]
-    pub path: PathBuf,
-
-    /// Give a key of the study another value, as in stop.1.gap_m=0.2e-3 or structure.length="258 mm";
-    /// elements of lists go by name, or by number from 1. May be given several times; results keep the
-    /// study as it was run
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<Setting>,
-}
-
-impl StudyInput {
-    /// Reads the study.
-    pub fn read(&self) -> Result<StudyFile, StudyError> {
-        StudyFile::read_with(&self.path, &self.set)
-    }
 }
 
 #[derive(Debug, Args)]
@@ -321,138 +301,6 @@ fn event_kind(text: &str) -> Result<BranchEventKind, String> {
 }
 
 #[derive(Debug, Args)]
-pub struct FigureOptions {
-    /// Results folder
-    pub results: PathBuf,
-
-    /// Folder to draw into, made if it is not there [default: RESULTS]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-
-    /// Draw these alone; may be given several times [default: all]
-    #[arg(long, value_enum, value_delimiter = ',')]
-    pub kind: Vec<KindName>,
-
-    /// Formats of the figures; may be given several times
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::USUAL)]
-    pub format: Vec<FormatName>,
-
-    /// Scale of the vertical axis of response diagrams
-    #[arg(long, value_enum, default_value_t = ScaleName::Automatic)]
-    pub scale: ScaleName,
-
-    /// Draw a crowded part of the frequency axis of response diagrams again below, larger: 84:93
-    #[arg(long, value_name = "FROM:TO", value_parser = detail)]
-    pub detail: Option<(f64, f64)>,
-
-    /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may
-    /// be given several times [default: those of the study]
-    #[arg(long, value_name = "HZ[:N]", value_parser = orbit)]
-    pub orbit: Vec<DrawnOrbit>,
-
-    /// Resolution of the PNG files, in pixels per inch
-    #[arg(long, value_name = "PPI", default_value_t = RESOLUTION, value_parser = resolution)]
-    pub resolution: f64,
-
-    /// Draw accelerations of orbits behind a low-pass filter as well [default: that of the study]
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
-    pub low_pass: Option<f64>,
-
-    /// Number of threads [default: all cores]; the files do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: Option<u16>,
-}
-
-/// Format of a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FormatName {
-    /// Scalable Vector Graphics
-    Svg,
-    /// Portable Network Graphics, of pixels
-    Png,
-    /// Portable Document Format
-    Pdf,
-}
-
-impl FormatName {
-    /// What is drawn where none is asked for.
-    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
-}
-
-impl From<FormatName> for FigureFormat {
-    fn from(name: FormatName) -> Self {
-        match name {
-            FormatName::Svg => Self::Svg,
-            FormatName::Png => Self::Png,
-            FormatName::Pdf => Self::Pdf,
-        }
-    }
-}
-
-/// Scale of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ScaleName {
-    /// Logarithmic where the values are positive and span a factor of more than 40
-    Automatic,
-    /// Linear
-    Linear,
-    /// Logarithmic
-    Logarithmic,
-}
-
-/// What a figure shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum KindName {
-    /// The structure with its stops, its modes, the error of its reduction, the amplitude of its excitation
-    Structure,
-    /// Branches: maximum displacement, acceleration, contact force and impact velocity over the frequency
-    Response,
-    /// Branches over another parameter than the frequency
-    Vary,
-    /// Curves of bifurcations in two parameters
-    Curves,
-    /// Floquet multipliers of each branch, over the frequency and in the complex plane
-    Multipliers,
-    /// Orbits at the frequencies of --orbit, else at those of the study
-    Orbits,
-    /// Settled motions of sweeps over the frequency
-    Sweeps,
-    /// Lyapunov exponents, their convergence, and stroboscopic sections
-    Exponents,
-    /// Basins of attraction
-    Basins,
-    /// One HTML file to look through all of it, page.html
-    Page,
-}
-
-impl From<ScaleName> for FigureScale {
-    fn from(name: ScaleName) -> Self {
-        match name {
-            ScaleName::Automatic => Self::Automatic,
-            ScaleName::Linear => Self::Linear,
-            ScaleName::Logarithmic => Self::Logarithmic,
-        }
-    }
-}
-
-impl From<KindName> for FigureKind {
-    fn from(name: KindName) -> Self {
-        match name {
-            KindName::Structure => Self::Structure,
-            KindName::Response => Self::Response,
-            KindName::Vary => Self::Vary,
-            KindName::Curves => Self::Curves,
-            KindName::Multipliers => Self::Multipliers,
-            KindName::Orbits => Self::Orbits,
-            KindName::Sweeps => Self::Sweeps,
-            KindName::Exponents => Self::Exponents,
-            KindName::Basins => Self::Basins,
-            KindName::Page => Self::Page,
-        }
-    }
-}
-
-#[derive(Debug, Args)]
 pub struct VerifyOptions {
     /// Results folder
     pub results: PathBuf,
@@ -498,59 +346,8 @@ impl From<Format> for TableFormat {
     }
 }
 
-/// A number of hertz, or a frequency with its unit.
-fn hertz(text: &str) -> Option<f64> {
-    text.parse().ok().or_else(|| hammerbeam_study::hertz(text))
-}
-
-/// A frequency of the excitation: a time of its period is a number, and so is what follows from it.
-pub fn excitation_frequency(text: &str) -> Result<f64, String> {
-    match hertz(text) {
-        Some(number) if (1e-10..=1e10).contains(&number) => Ok(number),
-        _ => {
-            Err("must be a number of hertz from 1e-10 to 1e10, or one with its unit: \"31.4 rad/s\""
-                .to_owned())
-        }
-    }
-}
-
-pub fn positive(text: &str) -> Result<f64, String> {
-    match hertz(text) {
-        Some(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("must be a finite number of hertz, more than 0, or one with its unit".to_owned()),
-    }
-}
-
-fn resolution(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (24.0..=1200.0).contains(&number) => Ok(number),
-        _ => Err("must be 24 to 1200 pixels per inch".to_owned()),
-    }
-}
-
 fn origin(text: &str) -> Result<RunOrigin, std::convert::Infallible> {
     Ok(RunOrigin::of(text))
-}
-
-/// `FROM:TO` in hertz, in order.
-fn detail(text: &str) -> Result<(f64, f64), String> {
-    let ends = text.split_once(':').and_then(|(from, to)| Some((hertz(from)?, hertz(to)?)));
-    match ends {
-        Some((from, to)) if 0.0 < from && from < to && to.is_finite() => Ok((from, to)),
-        _ => Err("must be two frequencies in hertz, the lower one first: 84:93".to_owned()),
-    }
-}
-
-/// `HZ`, or `HZ:N` for an orbit of N excitation periods.
-fn orbit(text: &str) -> Result<DrawnOrbit, String> {
-    let (frequency, multiple) = text.split_once(':').unwrap_or((text, "1"));
-    let frequency_hz = positive(frequency)?;
-    match multiple.parse::<u32>() {
-        Ok(period_multiple) if (1..=64).contains(&period_multiple) => {
-            Ok(DrawnOrbit { frequency_hz, period_multiple })
-        }
-        _ => Err("must be a frequency, or a frequency and a whole number from 1 to 64: 53:2".to_owned()),
-    }
 }
 
 fn percent(text: &str) -> Result<f64, String> {

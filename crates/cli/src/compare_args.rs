@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::{
-    args::{StudyInput, positive},
+    input_args::{StudyInput, positive},
     numbers::{above_one, number, positive_number},
 };
 

@@ -6,7 +6,7 @@ use clap::Args;
 use hammerbeam_attractor::{Effort, Patience};
 use hammerbeam_jobs::MOST_OF_A_STATE;
 
-use crate::args::{StudyInput, excitation_frequency};
+use crate::input_args::{StudyInput, excitation_frequency};
 
 const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers q1,..,qn,v1,..,vn of the modal state; POINT.y=METRES,POINT.v=METRES_PER_SECOND,... for points in space, everything else moving as little as possible; or `branch:N` for the orbit in which that branch of --results crosses the frequency";
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::{
-    args::positive,
+    input_args::positive,
     numbers::{not_zero, positive_number, within},
     signal_args::{InputOptions, Sensor},
 };

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use hammerbeam_signal::exponent::StraightPart;
 
 use crate::{
-    args::positive,
+    input_args::positive,
     numbers::{not_negative, number, overlap, part, straight_part},
 };
 

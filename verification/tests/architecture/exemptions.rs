@@ -11,7 +11,7 @@ const UNBROKEN: &str = "not broken yet";
 
 /// Files in circles of modules below a folder.
 pub const CIRCLES: &[(&str, usize, &str)] = &[
-    ("crates/cli", 7, "not untangled yet"),
+    ("crates/cli", 2, "not untangled yet"),
     ("crates/drawing", 11, MOVED),
     ("crates/jobs", 41, MOVED),
     ("crates/matrices", 2, "not untangled yet"),

@@ -11,7 +11,9 @@ use hammerbeam_results::Store;
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
 
-use crate::{args::FigureOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
+use crate::{
+    failure::Failure, figure_args::FigureOptions, interrupt::Interrupt, output::Output, watch::Watch,
+};
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
