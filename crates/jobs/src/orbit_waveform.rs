@@ -3,13 +3,15 @@
 
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_motion::{
-    PointMotion, Stretch, System,
+    PointMotion,
     exact::{ExactIntegrator, ExactSettings},
 };
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::Model;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
+
+use crate::orbit_course::{OrbitInstant, orbit_course};
 
 /// The motion of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,8 +68,10 @@ pub fn orbit_waveform(
         .map(|point| system.point_motion(frequency_hz, &point.shape, &point.support_ratios))
         .collect();
     let mut found = empty(model);
-    for (place, (state, forces)) in states(system, orbit, samples)?.into_iter().enumerate() {
-        let cycles = place as f64 / samples as f64;
+    let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
+    for OrbitInstant { cycles, state, forces, .. } in
+        orbit_course(&mut integrator, orbit, (samples, 0))?.instants
+    {
         found.time.push(cycles / frequency_hz);
         found.phase_cycles.push(cycles);
         for (point, motion) in found.points.iter_mut().zip(&motions) {
@@ -80,34 +84,6 @@ pub fn orbit_waveform(
             of_element.push(*force);
         }
         found.states.push(state);
-    }
-    Ok(found)
-}
-
-/// A modal state with the forces of the local elements.
-type Loaded = (Vec<f64>, Vec<f64>);
-
-/// States and forces at equal steps from phase 0 on.
-fn states(system: &System, orbit: &PeriodicSolution, samples: usize) -> Result<Vec<Loaded>, AttractorError> {
-    let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
-    let (begin, periods) = (orbit.phase, f64::from(orbit.period_multiple));
-    let count = samples * orbit.period_multiple as usize;
-    let first = (begin * samples as f64).ceil() as usize;
-    let phase = |k: usize| k as f64 / samples as f64;
-    let node_phase = |node: usize| begin + periods * node as f64 / orbit.nodes.len() as f64;
-    let (mut found, mut next) = (vec![Loaded::default(); count], first);
-    for (node, state) in orbit.nodes.iter().enumerate() {
-        let stretch =
-            Stretch { frequency_hz: orbit.frequency_hz, start: node_phase(node), end: node_phase(node + 1) };
-        let is_last = node + 1 == orbit.nodes.len();
-        let within: Vec<usize> =
-            (next..first + count).take_while(|&k| is_last || phase(k) < stretch.end).collect();
-        next += within.len();
-        let phases: Vec<f64> = within.iter().map(|&k| phase(k).clamp(stretch.start, stretch.end)).collect();
-        let trace = integrator.trace(&stretch, state, &phases)?;
-        for ((k, state), forces) in within.into_iter().zip(trace.samples).zip(trace.forces) {
-            found[k % count] = (state, forces);
-        }
     }
     Ok(found)
 }

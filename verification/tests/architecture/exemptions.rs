@@ -36,7 +36,6 @@ pub const NAMES: &[(&str, usize, &str)] = &[
     ("Beam", 2, SHARED),
     ("BeamPoint", 2, SHARED),
     ("Continuation", 2, SHARED),
-    ("Course", 2, SHARED),
     ("Damping", 2, SHARED),
     ("Direction", 2, SHARED),
     ("Effort", 2, SHARED),

@@ -1,7 +1,5 @@
 //! The orbits that a page carries, each computed from its stored nodes over one orbit period.
 
-mod samples;
-
 mod spectrum;
 
 use std::{
@@ -14,6 +12,7 @@ use std::{
 };
 
 use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
+use hammerbeam_jobs::orbit_course::{OrbitCourse, OrbitImpact, OrbitInstant, orbit_course};
 use hammerbeam_motion::{
     PointMotion,
     exact::{ExactIntegrator, ExactSettings, MotionError},
@@ -25,7 +24,6 @@ use hammerbeam_results::{
 };
 use hammerbeam_study::Model;
 
-use samples::{Course, Impulse, Instant};
 use spectrum::spectrum;
 
 use super::{Album, Drawn, choice};
@@ -38,6 +36,8 @@ const PART: usize = 64;
 const ROUND: usize = 8;
 /// Parts that are under way for each thread.
 const UNDER_WAY: usize = 2;
+/// Samples in each of the steps in which a contact is integrated, unless as many regular ones lie in it.
+const IN_A_STEP: usize = 6;
 /// Modes whose coordinates are carried: what is seen of a structure in motion.
 const DRAWN_MODES: usize = 8;
 /// Relative size from which a mode is worth drawing.
@@ -143,7 +143,8 @@ impl OrbitDrawing {
     ) -> Result<PageOrbit, MotionError> {
         let (samples, stride) = sampling(solution.period_multiple);
         let count = samples * solution.period_multiple as usize;
-        let Course { instants, impulses } = samples::of_orbit(integrator, solution, samples)?;
+        let OrbitCourse { instants, impulses } =
+            orbit_course(integrator, solution, (2 * samples, IN_A_STEP))?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
         let response = model.response_motion(frequency_hz);
         let mut orbit = PageOrbit {
@@ -155,7 +156,7 @@ impl OrbitDrawing {
             ..PageOrbit::default()
         };
         let (mut regular, mut states) = (Vec::new(), Vec::new());
-        for Instant { cycles, place, state, forces } in &instants {
+        for OrbitInstant { cycles, place, state, forces } in &instants {
             let [displacement, velocity, acceleration] = response.at(*cycles, state, forces);
             let step = ((cycles * samples as f64) as usize).min(count - 1);
             widen(&mut orbit.acceleration_m_s2[step], acceleration);
@@ -191,8 +192,8 @@ impl OrbitDrawing {
     }
 }
 
-fn page_impulse(impulse: &Impulse, response: &PointMotion) -> PageImpulse {
-    let Impulse { element, cycles, impulse_n_s, before, after } = impulse;
+fn page_impulse(impulse: &OrbitImpact, response: &PointMotion) -> PageImpulse {
+    let OrbitImpact { element, cycles, impulse_n_s, before, after } = impulse;
     let [displacement_m, velocity, _] = response.at(*cycles, before, &[]);
     let [_, velocity_after, _] = response.at(*cycles, after, &[]);
     PageImpulse {
