@@ -17,7 +17,10 @@ use hammerbeam_jobs::{
 };
 use hammerbeam_results::whole_file::{WriteError, replace};
 
-use crate::{DrawingError, FigureFormat, RESOLUTION};
+use crate::{DrawingError, FigureFormat};
+
+/// Resolution of the PNG files, in pixels per inch, where none is asked for.
+pub const RESOLUTION: f64 = 300.0;
 
 /// What figures are put into: files, or the page.
 pub trait Album {
@@ -184,6 +187,23 @@ impl Drawn<'_> {
     /// Notes why there is no figure.
     pub fn refuse(&mut self, name: &str, reason: String) {
         self.refused.push((name.to_owned(), reason));
+    }
+
+    /// Where a stored solution is missing or cannot be read, the figures that need it are named with the
+    /// reason, and the others are drawn.
+    pub(crate) fn unless_damaged<T>(
+        &mut self,
+        result: Result<T, impl Into<DrawingError>>,
+        name: &str,
+    ) -> Result<Option<T>, DrawingError> {
+        match result.map_err(Into::into) {
+            Ok(found) => Ok(Some(found)),
+            Err(error) if error.is_of_solutions() => {
+                self.refuse(name, error.to_string());
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
     }
 
     /// Writes a file that is no figure.

@@ -8,15 +8,30 @@ use hammerbeam_figure::{
 };
 use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{
-    Model, Study,
+    Model, Study, StudyFile,
     file::{ActingForce, End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure},
 };
+
+use crate::{Album, structure::sketch};
 
 /// Rows of the amplitude over the frequency range.
 const ROWS: u32 = 200;
 
+/// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
+pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
+    let (study, tables) = (&file.study, &model.tables);
+    drawn.add("structure", sketch(study, drawn.frequency_unit()));
+    drawn.add("modes", modes(study, model, &drawn.narrow()));
+    if !tables.frequency_errors.is_empty() {
+        drawn.add_unless_empty("reduction", reduction(&study.title, tables, &drawn.narrow()));
+    }
+    if let Some(harmonic) = study.excitation.harmonic() {
+        drawn.add("excitation", excitation(&study.title, harmonic, &drawn.narrow()));
+    }
+}
+
 /// The mode shapes.
-pub fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureError> {
+fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureError> {
     let at = |name: &str| position(study, name);
     let points: Vec<(f64, String)> = match &study.structure {
         Structure::Beam(beam) => beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect(),
@@ -99,7 +114,7 @@ fn position(study: &Study, name: &str) -> Option<f64> {
 }
 
 /// The error of the reduction.
-pub fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figure, FigureError> {
+fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figure, FigureError> {
     let mode = |error: &FrequencyError| ReducedMode {
         full_hz: error.full_hz,
         relative_error: error.relative,
@@ -110,11 +125,7 @@ pub fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figu
 }
 
 /// The amplitude of the excitation: of the acceleration of supports, `A (2 pi m f)^2`, or of a force.
-pub fn excitation(
-    title: &str,
-    excitation: &HarmonicExcitation,
-    style: &Style,
-) -> Result<Figure, FigureError> {
+fn excitation(title: &str, excitation: &HarmonicExcitation, style: &Style) -> Result<Figure, FigureError> {
     let [low, high] = excitation.frequency_hz;
     let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
     let frequencies: Vec<f64> = (0..=ROWS).map(frequency).collect();

@@ -15,8 +15,7 @@ use hammerbeam_results::{
 };
 use hammerbeam_study::{Model, StudyFile};
 
-use super::Album;
-use crate::DrawingError;
+use crate::{Album, DrawingError};
 
 /// Draws the settled motions of every sweep.
 pub fn draw_sweeps(store: &Store, drawn: &mut impl Album) -> Result<(), DrawingError> {

@@ -4,8 +4,7 @@ use hammerbeam_figure::{MultiplierDiagram, Multipliers};
 use hammerbeam_orbit::Stability;
 use hammerbeam_results::{Store, StoreError, row::Row, store::BranchRecord};
 
-use super::{Album, Drawn, unless_damaged};
-use crate::DrawingError;
+use crate::{Album, DrawingError, Drawn};
 
 /// Solutions of a branch that are drawn at least, where it has so many, besides all bifurcations.
 const DRAWN: usize = 4000;
@@ -18,7 +17,7 @@ pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> Result<(), DrawingError> {
         }
         let title = format!("{}, branch {}", store.about("title")?, branch.id);
         let name = format!("multipliers-{}", branch.id);
-        let found = unless_damaged(solutions(store, &branch), &name, drawn)?;
+        let found = drawn.unless_damaged(solutions(store, &branch), &name)?;
         let Some(solutions) = found else { continue };
         let diagram = MultiplierDiagram { title, solutions };
         let moduli = diagram.draw_moduli(&drawn.wide());

@@ -14,8 +14,7 @@ use hammerbeam_study::{
     file::{DrawnOrbit, Excitation},
 };
 
-use super::{Album, Drawn, unless_damaged};
-use crate::DrawingError;
+use crate::{Album, DrawingError, Drawn};
 use course::{SAMPLES, course};
 
 /// Order of the low-pass filter.
@@ -55,7 +54,7 @@ pub fn draw_stored(
         let name = format!("orbit_{frequency_hz}Hz_period{period_multiple}");
         let crossings =
             branches.crossings(model, frequency_hz, |record| record.period_multiple == period_multiple);
-        let Some(crossings) = unless_damaged(crossings, &name, drawn)? else { continue };
+        let Some(crossings) = drawn.unless_damaged(crossings, &name)? else { continue };
         let mut found: Vec<PeriodicSolution> = crossings.into_iter().map(|(_, orbit)| orbit).collect();
         found.sort_by(|a, b| {
             let size = |orbit: &PeriodicSolution| orbit.maxima.displacement;

@@ -3,12 +3,11 @@
 use hammerbeam_figure::{ResponseCurve, ResponseDiagram};
 use hammerbeam_results::{Store, StoreError, store::PieceRecord};
 
-use super::{
-    Album,
+use crate::{
+    Album, DrawingError, FigureScale,
     parameter::{axis_label, file_name},
-    point, quantities, settings,
+    response::{point, quantities, settings},
 };
-use crate::{DrawingError, FigureScale};
 
 /// Draws every `[[vary]]` of the study.
 pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> Result<(), DrawingError> {

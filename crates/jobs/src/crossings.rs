@@ -1,6 +1,7 @@
 //! Where the stored branches cross a frequency, and which of them holds a given periodic motion.
 
 mod images;
+mod mirror;
 
 pub use images::MirrorImage;
 
@@ -15,8 +16,7 @@ use hammerbeam_results::{
 };
 use hammerbeam_study::{Model, StudyFile, identity::differences};
 
-/// Distance of a motion from an orbit of a branch, relative to it, up to which they are the same.
-const SAME: f64 = 1e-4;
+use images::SAME;
 
 /// The stored branches of a study.
 #[derive(Debug)]

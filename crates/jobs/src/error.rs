@@ -8,9 +8,9 @@ use hammerbeam_signal::SignalError;
 use hammerbeam_study::{Drift, StudyError};
 
 use crate::{
-    basins::CoordinateError,
     comparison::{ComparisonError, MeasuredError, ObservationError, OverlayError},
-    initial::InitialStateError,
+    grid_coordinate::CoordinateError,
+    initial_error::InitialStateError,
     rig::RigError,
     run::RunError,
     simulate::SimulationTooLarge,

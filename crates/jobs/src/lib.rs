@@ -3,6 +3,7 @@
 //! | room | what it knows |
 //! |---|---|
 //! | `prepared` | a study with its model, which every job takes |
+//! | `one_call` | each of them in one call, without reports |
 //! | `observer` | what a job reports while it works, and how it is stopped |
 //! | [`pool`] | the threads of all jobs |
 //! | `request` | where the results of a motion are kept |
@@ -39,11 +40,14 @@ mod crossings;
 mod error;
 pub mod exponents;
 mod failure_kind;
+mod grid_coordinate;
 mod initial;
+mod initial_error;
 mod initial_words;
 mod matrix_document;
 mod modes_document;
 mod observer;
+mod one_call;
 pub mod orbit_course;
 mod orbit_solver;
 mod orbit_waveform;
@@ -66,7 +70,8 @@ pub use branch::BranchRows;
 pub use crossings::{MirrorImage, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
 pub use failure_kind::FailureKind;
-pub use initial::{InitialState, InitialStateError};
+pub use initial::InitialState;
+pub use initial_error::InitialStateError;
 pub use initial_words::{InitialWordsError, MOST_OF_A_STATE};
 pub use matrix_document::matrix_document;
 pub use modes_document::modes_document;

@@ -1,6 +1,6 @@
 //! The formats that are read, and by what they are known.
 
-use crate::read::{is_binary_output4, is_mat};
+use crate::read::{mat5::is_mat, output4_binary};
 
 /// A format of files with matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl MatrixFormat {
     /// The format of a file by its first bytes.
     #[must_use]
     pub fn of(first: &[u8]) -> Option<Self> {
-        if is_binary_output4(first) {
+        if output4_binary::encoding(first).is_some() {
             return Some(Self::Output4);
         }
         if is_mat(first) {

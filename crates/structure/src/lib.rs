@@ -59,6 +59,7 @@
 //! # Ok::<(), hammerbeam_structure::StructureError>(())
 //! ```
 
+mod assembly;
 mod beam;
 mod damping;
 mod error;

@@ -4,10 +4,11 @@ use faer::Mat;
 
 use crate::{
     Structure, StructureError,
+    assembly::Assembly,
     error::{not_negative, positive},
     names::check_names,
     strain::Strains,
-    structure::{Assembly, Kind, NamedCoordinate, Place},
+    structure::{Kind, NamedCoordinate, Place},
 };
 
 /// Name of the surroundings in which springs and dampers may end.

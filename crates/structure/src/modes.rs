@@ -9,7 +9,10 @@ use std::f64::consts::TAU;
 
 use faer::{Mat, MatRef, Side};
 
-use crate::{StructureError, structure::Assembly};
+use crate::{
+    StructureError,
+    assembly::{Assembly, times},
+};
 
 /// Modes whose frequency is below this part of the highest one are rigid-body modes.
 ///
@@ -122,7 +125,7 @@ impl Modes {
             .map(|mode| self.shapes.col(mode).iter().zip(load).map(|(shape, force)| shape * force).sum())
             .collect();
         let amplitudes = static_amplitudes(&self.frequencies, &modal)?;
-        Ok(crate::structure::times(&self.shapes, &amplitudes))
+        Ok(times(&self.shapes, &amplitudes))
     }
 }
 

@@ -7,11 +7,12 @@ use faer::Mat;
 use crate::{
     Damping, FlexibilityError, ModeTables, PointOutput, ReducedModel, Reduction, Structure, StructureError,
     SupportInput,
+    assembly::times,
     error::finite,
     modes::Modes,
     orient::orient,
     reduction::Basis,
-    structure::{Kind, Place, times},
+    structure::{Kind, Place},
     tables::{flexibility, frequency_errors, relative_error},
 };
 

@@ -2,26 +2,17 @@
 
 use faer::Mat;
 
-use crate::{StructureError, modes::Modes, strain::Strains};
+use crate::{
+    StructureError,
+    assembly::{Assembly, times},
+    modes::Modes,
+};
 
 /// Which descriptor a structure came from; lumped ones are not reduced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Beam,
     Lumped,
-}
-
-/// Matrices over all coordinates, before anything is held: `M`, `K = G^T G`, `C = D^T D`.
-#[derive(Debug, Clone)]
-pub(crate) struct Assembly {
-    /// `M` [kg, kg m, kg m^2].
-    pub mass: Mat<f64>,
-    /// Rows of `G`.
-    pub stiffness: Strains,
-    /// Rows of `D`, discrete dampers only.
-    pub damping: Strains,
-    /// 1 for transverse displacements, 0 for rotations: the motion in a uniform translation.
-    pub translation: Vec<f64>,
 }
 
 /// A name and the transverse displacement it stands for.
@@ -228,15 +219,4 @@ impl Structure {
         }
         shapes
     }
-}
-
-/// `matrix * vector`.
-pub(crate) fn times(matrix: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
-    let mut product = vec![0.0; matrix.nrows()];
-    for (column, factor) in vector.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-        for (row, sum) in product.iter_mut().enumerate() {
-            *sum += matrix[(row, column)] * factor;
-        }
-    }
-    product
 }

@@ -28,6 +28,7 @@
 //! assert!(fault.to_string().contains("mass_kg"), "{fault}");
 //! ```
 
+pub mod changed;
 pub mod document;
 pub mod file;
 pub mod identity;

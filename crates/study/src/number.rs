@@ -1,4 +1,4 @@
-//! Numbers of a study file by their key paths, and the file with other numbers in their places.
+//! Numbers of a study file by their key paths, and its text with other numbers in their places.
 //!
 //! A path leads through the tables of the file. An element of a list of tables is named by its `name`, or by
 //! its number from 1: `structure.point.contact.mass_kg` and `structure.point.1.mass_kg` are the same. Numbers
@@ -11,7 +11,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use crate::{StudyError, StudyFile, document::unit::measured};
+use crate::document::unit::measured;
 
 /// Tables that say how something is computed, and what.
 const NOT_OF_THE_MODEL: [&str; 8] =
@@ -20,9 +20,6 @@ const NOT_OF_THE_MODEL: [&str; 8] =
 const NOT_A_QUANTITY: [&str; 4] = ["elements", "order", "frequency_hz", "frequency"];
 /// Keys of names, which may look like quantities.
 const NAMES: [&str; 5] = ["name", "title", "between", "fixed_to", "kind"];
-
-/// Part of a number that stands for next to nothing.
-const SMALL: f64 = 1e-6;
 
 /// A number in the text of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,41 +108,6 @@ fn extended(keys: &[String], names: &[String]) -> Vec<String> {
     names.iter().flat_map(|name| keys.iter().map(move |key| format!("{key}.{name}"))).collect()
 }
 
-/// The study with other numbers in their places; the rest of its text stays as it is.
-///
-/// # Errors
-/// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
-pub fn with_numbers(file: &StudyFile, numbers: &[Number], values: &[f64]) -> Result<StudyFile, StudyError> {
-    StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
-}
-
-/// The model alone of the study with other numbers, without branches in other parameters and curves: their
-/// ranges hold the values of the study as it is.
-///
-/// # Errors
-/// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
-pub fn model_with(file: &StudyFile, numbers: &[Number], values: &[f64]) -> Result<StudyFile, StudyError> {
-    StudyFile::parse_model(&file.name, replaced(&file.text, numbers, values))
-}
-
-/// Values that the study file allows for a number, as far as they do not hang on others: whether it may be
-/// negative or zero, and whether it may exceed one.
-pub fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
-    let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };
-    let allowed = |value: f64| with_numbers(file, std::slice::from_ref(number), &[value]).is_ok();
-    let low = match (allowed(-SMALL * size), allowed(0.0)) {
-        (true, _) => f64::NEG_INFINITY,
-        (false, true) => 0.0,
-        (false, false) => SMALL * size,
-    };
-    let high = if (0.0..=1.0).contains(&number.value) && allowed(1.0) && !allowed(1.0 + SMALL) {
-        1.0
-    } else {
-        f64::INFINITY
-    };
-    (low, high)
-}
-
 /// The text with other numbers in their places.
 pub fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
@@ -171,12 +133,8 @@ mod tests {
 
     const STUDY: &str = include_str!("../../../studies/beam-with-stop.toml");
 
-    fn beam() -> StudyFile {
-        StudyFile::parse("beam.toml", STUDY.to_owned()).unwrap()
-    }
-
     fn value(key: &str) -> Option<f64> {
-        let all = numbers(&beam().text);
+        let all = numbers(STUDY);
         all.iter().find(|number| number.keys.iter().any(|known| known == key)).map(|number| number.value)
     }
 
@@ -201,7 +159,7 @@ mod tests {
 
     #[test]
     fn only_the_numbers_change() {
-        let all = numbers(&beam().text);
+        let all = numbers(STUDY);
         let chosen: Vec<Number> = all
             .into_iter()
             .filter(|number| {
@@ -216,21 +174,6 @@ mod tests {
             .replace("4.5e9            #", "1.25e9            #");
         assert_ne!(expected, STUDY);
         assert_eq!(text, expected);
-    }
-
-    fn limits_of(key: &str) -> (f64, f64) {
-        let (file, all) = (beam(), numbers(&beam().text));
-        limits(&file, all.iter().find(|number| number.keys.iter().any(|known| known == key)).unwrap())
-    }
-
-    #[test]
-    fn limits_are_those_of_the_study_file() {
-        assert_eq!(limits_of("structure.point.contact.rotary_inertia_kg_m2"), (0.0, f64::INFINITY));
-        assert_eq!(limits_of("damping.modal_ratio"), (0.0, 1.0));
-        let (low, high) = limits_of("structure.youngs_modulus_pa");
-        assert!(low > 0.0 && high.is_infinite());
-        // The end of the beam is no limit: it may move, too.
-        assert_eq!(limits_of("structure.point.contact.at_m").1, f64::INFINITY);
     }
 
     #[test]

@@ -2,8 +2,6 @@
 
 use hammerbeam_study::Model;
 
-use super::equations::place;
-
 /// Coordinates of the equations of motion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Coordinates {
@@ -33,4 +31,9 @@ impl Coordinates {
             }
         }
     }
+}
+
+/// The place of a name among others.
+pub(super) fn place(names: &[String], name: &str) -> Option<usize> {
+    names.iter().position(|known| known == name)
 }

@@ -6,7 +6,7 @@ use hammerbeam_study::Model;
 use toml::{Table, Value};
 
 use super::{
-    coordinates::Coordinates,
+    coordinates::{Coordinates, place},
     keys::{list, needed, number, table, text},
     stops::{Law, Stop},
 };
@@ -79,33 +79,8 @@ impl Ground {
 }
 
 impl Equations {
-    /// Reads a study.
-    ///
-    /// * `model`: what the library made of it, for the modes of a beam.
-    ///
-    /// # Errors
-    /// A shaken beam, a lumped structure with modal damping, a longer table of amplitudes, or a law that is
-    /// not known here.
-    pub fn read(study: &Table, model: &Model) -> Result<Self, Failure> {
-        let (mut this, springs, dampers) = if text(table(study, "structure")?, "kind")? == "beam" {
-            let this = Self::of_modes(study, model)?;
-            (this, Vec::new(), Vec::new())
-        } else {
-            Self::of_masses(study)?
-        };
-        this.shake(study, springs, dampers)?;
-        for load in list(study, "load") {
-            this.load(load)?;
-        }
-        for stop in list(study, "stop") {
-            let stop = this.stop(stop)?;
-            this.stops.extend(stop);
-        }
-        Ok(this)
-    }
-
     /// `q'' + C q' + W^2 q` of a beam.
-    fn of_modes(study: &Table, model: &Model) -> Result<Self, Failure> {
+    pub(super) fn of_modes(study: &Table, model: &Model) -> Result<Self, Failure> {
         let squares: Vec<f64> =
             model.system.model().natural_frequencies.iter().map(|frequency| frequency.powi(2)).collect();
         let damping: Vec<f64> = match study.get("damping").and_then(Value::as_table) {
@@ -131,7 +106,7 @@ impl Equations {
     }
 
     /// The matrices of masses, and what joins each to the ground.
-    fn of_masses(study: &Table) -> Result<(Self, Vec<f64>, Vec<f64>), Failure> {
+    pub(super) fn of_masses(study: &Table) -> Result<(Self, Vec<f64>, Vec<f64>), Failure> {
         let structure = table(study, "structure")?;
         let masses = list(structure, "mass");
         let names: Vec<String> =
@@ -159,7 +134,12 @@ impl Equations {
         Ok((this, springs, dampers))
     }
 
-    fn shake(&mut self, study: &Table, springs: Vec<f64>, dampers: Vec<f64>) -> Result<(), Failure> {
+    pub(super) fn shake(
+        &mut self,
+        study: &Table,
+        springs: Vec<f64>,
+        dampers: Vec<f64>,
+    ) -> Result<(), Failure> {
         let excitation = table(study, "excitation")?;
         let (order, phase) = (number(excitation, "order", 1.0)?, number(excitation, "phase_rad", 0.0)?);
         match text(excitation, "kind")? {
@@ -185,7 +165,7 @@ impl Equations {
         Ok(())
     }
 
-    fn load(&mut self, load: &Table) -> Result<(), Failure> {
+    pub(super) fn load(&mut self, load: &Table) -> Result<(), Failure> {
         let harmonic = match text(load, "kind")? {
             "gravity" if matches!(self.coordinates, Coordinates::Modes(_)) => {
                 return Err("no weight of a beam here".into());
@@ -329,8 +309,4 @@ pub(super) fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(super) fn place(names: &[String], name: &str) -> Option<usize> {
-    names.iter().position(|known| known == name)
 }

@@ -11,6 +11,7 @@ mod coordinates;
 mod equations;
 mod keys;
 mod motion;
+mod reading;
 mod stops;
 
 pub use coordinates::Coordinates;

@@ -4,8 +4,7 @@ use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, PageFigure, PageFigu
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
 
-use super::super::{Album, Drawn, draw_curves, draw_linear, motions, unless_damaged, varied};
-use crate::{DrawingError, FigureScale};
+use crate::{Album, DrawingError, Drawn, FigureScale, curves, linear::draw_linear, motions, varied};
 
 /// The figures of a results folder. Those that say most come first, since there is not room for any number.
 pub fn figures(
@@ -19,14 +18,14 @@ pub fn figures(
     gallery.heading = "Branches over another parameter";
     varied::draw(store, FigureScale::Automatic, &mut gallery)?;
     gallery.heading = "Curves of bifurcations in two parameters";
-    draw_curves(store, &mut gallery)?;
+    curves::draw(store, &mut gallery)?;
     gallery.heading = "Sweeps";
     motions::draw_sweeps(store, &mut gallery)?;
     gallery.heading = "Lyapunov exponents";
     motions::draw_exponents(store, &mut gallery)?;
     gallery.heading = "Basins of attraction";
     let basins = motions::draw_basins(store, (file, model), &mut gallery);
-    unless_damaged(basins, "basins on the page", gallery.drawn)?;
+    gallery.drawn.unless_damaged(basins, "basins on the page")?;
     gallery.heading = "Convergence of Lyapunov exponents";
     motions::draw_convergence(store, &mut gallery)?;
     Ok(gallery.figures)

@@ -7,7 +7,14 @@ use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::{SignalError, filter::periodic_low_pass};
 use hammerbeam_study::Model;
 
-use super::Filter;
+/// A low-pass filter of an instrument: Butterworth, analogue.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    /// Order.
+    pub order: usize,
+    /// Cut-off, at half the power [Hz].
+    pub cut_off_hz: f64,
+}
 
 /// Why an orbit cannot be sampled.
 #[derive(Debug, thiserror::Error)]

@@ -5,7 +5,7 @@ use hammerbeam_signal::{
     points::{MeasuredKind, MeasuredPoint},
 };
 
-use super::{Curves, Hit, Shift, curve, period_of};
+use super::{Curves, Hit, Shift, curve, fit::period_of};
 
 /// A branch, and the point over it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -53,108 +53,39 @@
 pub mod course;
 mod curve;
 mod document;
+mod error;
 mod fit;
 mod judge;
 mod measured;
+mod measured_error;
 mod observed;
 mod overlay;
 mod records;
+mod shift;
 mod tables;
 mod whole;
 
-use hammerbeam_signal::{
-    MeasuredQuantity,
-    points::{MeasuredKind, MeasuredPoint},
-};
+use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 
+pub use course::Filter;
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub(crate) use document::comparison_document;
 pub use document::{CompareReport, ComparedQuantity};
-pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, SecondMinimum};
+pub use error::ComparisonError;
+pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, Residual, SecondMinimum};
 pub use judge::{Match, PointOutcome, Verdict};
-pub use measured::{MeasuredError, MeasuredPoints, read_measured};
+pub use measured::{MeasuredPoints, read_measured};
+pub use measured_error::MeasuredError;
 pub(crate) use observed::thinned;
-pub use observed::{Filter, Observation, ObservationError, curves};
+pub use observed::{Observation, ObservationError, curves};
 pub use overlay::{
     Alike, LaidWaveform, Overlay, OverlayAdvice, OverlayError, OverlayNote, OverlaySettings, Sought,
     nothing_alike, overlay,
 };
 pub use records::frequency_in_name;
+pub use shift::{FrequencyShift, Shift};
 pub use tables::{ExcitationAmplitudes, write_amplitudes, write_points};
 pub use whole::{compare_results, write_compared};
-
-/// Why there is no comparison.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "each message names its fields")]
-#[non_exhaustive]
-pub enum ComparisonError {
-    /// The quantity was not measured.
-    #[error("no point has a measured {quantity}")]
-    NothingMeasured { quantity: &'static str },
-    /// Too few points for what is to be fitted.
-    #[error(
-        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the best shift and factor that were tried, {met} meet a stable branch of their period and only {near} of them lie within a factor of {} of it; are frequency and unit right? Give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more",
-        to_digits(*ratio)
-    )]
-    TooFewPoints {
-        quantity: &'static str,
-        fitted: usize,
-        measured: usize,
-        met: usize,
-        near: usize,
-        ratio: f64,
-    },
-    /// A number that makes no sense.
-    #[error("{what} is {found}, must be {allowed}")]
-    Input { what: &'static str, found: f64, allowed: &'static str },
-}
-
-/// A number rounded to six significant digits.
-fn to_digits(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
-}
-
-/// How measured frequencies become those of the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FrequencyShift {
-    /// `f' = c f`.
-    Factor(f64),
-    /// `f' = f + d` [Hz].
-    Offset(f64),
-}
-
-impl FrequencyShift {
-    /// The frequency of the model [Hz].
-    #[must_use]
-    pub fn apply(self, frequency_hz: f64) -> f64 {
-        match self {
-            Self::Factor(factor) => factor * frequency_hz,
-            Self::Offset(offset_hz) => frequency_hz + offset_hz,
-        }
-    }
-}
-
-/// Shift of frequencies and factor on values.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shift {
-    /// Of the frequencies.
-    pub frequency: FrequencyShift,
-    /// Factor on measured values.
-    pub amplitude_factor: f64,
-}
-
-/// How well points lie on branches.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Residual {
-    /// Periodic points that meet a stable branch of their period.
-    pub met: usize,
-    /// Of those, points within the reach.
-    pub within: usize,
-    /// Root mean square of the logarithmic differences of all that meet one; 0 without any.
-    pub rms: f64,
-    /// The same of those within the reach.
-    pub rms_within: f64,
-}
 
 /// A comparison of one quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,13 +132,4 @@ pub fn compare(
         points: outcomes.collect(),
         fit,
     })
-}
-
-/// Whether a point takes part in a fit, and the period that its branch must have.
-fn period_of(kind: MeasuredKind) -> Option<Option<u32>> {
-    match kind {
-        MeasuredKind::Periodic { period_multiple } => Some(period_multiple),
-        MeasuredKind::Unknown => Some(None),
-        MeasuredKind::Aperiodic | MeasuredKind::Doubtful => None,
-    }
 }

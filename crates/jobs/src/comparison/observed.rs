@@ -12,18 +12,9 @@ use hammerbeam_study::Model;
 
 use super::{
     BranchCurve, CurvePoint, Curves,
-    course::{Course, LEFT, NoneSampled, course, largest, largest_behind, sampled},
+    course::{Course, Filter, LEFT, NoneSampled, course, largest, largest_behind, sampled},
 };
 use crate::{StoredBranch, StoredBranches};
-
-/// A low-pass filter of an instrument: Butterworth, analogue.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Filter {
-    /// Order.
-    pub order: usize,
-    /// Cut-off, at half the power [Hz].
-    pub cut_off_hz: f64,
-}
 
 /// What of an orbit is observed.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,10 +8,10 @@
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{PeriodicSolution, mirror_image, states_at_phase};
-use hammerbeam_results::StoreError;
 use hammerbeam_study::Model;
 
-use super::{SAME, StoredBranch, StoredBranches};
+/// Distance of a motion from an orbit of a branch, relative to it, up to which they are the same.
+pub(super) const SAME: f64 = 1e-4;
 
 /// Where the mirror image of a branch is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,9 +25,9 @@ pub enum MirrorImage {
 }
 
 /// An orbit and its states at phase 0.
-struct Placed {
-    branch: u32,
-    states: Vec<Vec<f64>>,
+pub(super) struct Placed {
+    pub branch: u32,
+    pub states: Vec<Vec<f64>>,
 }
 
 /// Adds the images that none of the orbits at a frequency is, under the numbers of the branches that they are
@@ -63,7 +63,12 @@ fn image_of(
 }
 
 /// The branch of which an orbit has one of these states.
-fn holder(placed: &[Placed], states: &[Vec<f64>], model: &Model, frequency_hz: f64) -> Option<u32> {
+pub(super) fn holder(
+    placed: &[Placed],
+    states: &[Vec<f64>],
+    model: &Model,
+    frequency_hz: f64,
+) -> Option<u32> {
     let scales = state_scales(&model.system, frequency_hz);
     let same = |known: &&Placed| {
         known.states.len() == states.len()
@@ -72,41 +77,6 @@ fn holder(placed: &[Placed], states: &[Vec<f64>], model: &Model, frequency_hz: f
     placed.iter().find(same).map(|known| known.branch)
 }
 
-fn integrator(model: &Model) -> Option<ExactIntegrator> {
+pub(super) fn integrator(model: &Model) -> Option<ExactIntegrator> {
     ExactIntegrator::new(model.system.clone(), ExactSettings::default()).ok()
-}
-
-impl StoredBranches {
-    /// Where the mirror image of a branch is; `None` of a system without symmetry, and of a branch whose
-    /// motion cannot be computed.
-    ///
-    /// # Errors
-    /// The store refuses.
-    pub fn mirror_image_of(
-        &self,
-        model: &Model,
-        branch: &StoredBranch,
-    ) -> Result<Option<MirrorImage>, StoreError> {
-        let Some(middle) = branch.rows.get(branch.rows.len() / 2).filter(|_| model.system.is_symmetric())
-        else {
-            return Ok(None);
-        };
-        let beside = &branch.rows[(branch.rows.len() / 2).saturating_sub(1)];
-        let frequency_hz = 0.5 * (middle.row.frequency_hz + beside.row.frequency_hz);
-        let multiple = branch.record.period_multiple;
-        let stored =
-            self.stored_crossings(model, frequency_hz, |record| record.period_multiple == multiple)?;
-        let Some(mut integrator) = integrator(model) else { return Ok(None) };
-        let mut states =
-            |orbit: &PeriodicSolution| states_at_phase(&mut integrator, orbit, 0.0).unwrap_or_default();
-        let placed: Vec<Placed> =
-            stored.iter().map(|(branch, orbit)| Placed { branch: *branch, states: states(orbit) }).collect();
-        let own = stored.iter().find(|(id, _)| *id == branch.record.id);
-        let image = own.map(|(_, orbit)| states(&mirror_image(orbit))).filter(|states| !states.is_empty());
-        Ok(image.map(|image| match holder(&placed, &image, model, frequency_hz) {
-            Some(id) if id == branch.record.id => MirrorImage::Itself,
-            Some(id) => MirrorImage::Branch(id),
-            None => MirrorImage::Given,
-        }))
-    }
 }

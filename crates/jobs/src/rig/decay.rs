@@ -16,7 +16,7 @@ use hammerbeam_signal::{
 };
 use hammerbeam_study::{Model, file::Rig};
 
-use super::{MeasuredMode, RigError};
+use super::RigError;
 
 /// Displacement of the response point from which it is let go [m].
 const PULLED: f64 = 5e-3;
@@ -29,6 +29,15 @@ const FINER: usize = 4;
 
 /// Highest frequency that is looked at, as a part of the filter's cut-off.
 const LOOKED_AT: f64 = 0.6;
+
+/// A measured eigenfrequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredMode {
+    /// Eigenfrequency and half of its interval of 95 % [Hz].
+    pub frequency_hz: (f64, f64),
+    /// Damping ratio and half of its interval.
+    pub damping_ratio: (f64, f64),
+}
 
 /// Highest frequency at which a decay is looked at for modes [Hz].
 pub(super) fn highest_hz(rig: &Rig) -> f64 {

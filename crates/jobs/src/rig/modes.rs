@@ -10,17 +10,8 @@ use hammerbeam_study::{Model, file::Rig};
 
 use super::{
     RigError,
-    decay::{highest_hz, measured_modes},
+    decay::{MeasuredMode, highest_hz, measured_modes},
 };
-
-/// A measured eigenfrequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeasuredMode {
-    /// Eigenfrequency and half of its interval of 95 % [Hz].
-    pub frequency_hz: (f64, f64),
-    /// Damping ratio and half of its interval.
-    pub damping_ratio: (f64, f64),
-}
 
 /// A mode of the rig that a decay may show, or a measured one that is none of them.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,6 @@
 //! The study with other numbers, built.
 
-use hammerbeam_study::{
-    Model, StudyError, StudyFile,
-    number::{Number, model_with},
-};
+use hammerbeam_study::{Model, StudyError, StudyFile, changed::model_with, number::Number};
 
 use crate::comparison::course::CourseError;
 

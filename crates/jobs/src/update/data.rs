@@ -1,15 +1,13 @@
-//! What an update is told: parameters to fit, and data with their standard deviations.
+//! What an update goes by: parameters to fit, and data with their standard deviations.
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, io, ops::Range, path::PathBuf};
 
 use hammerbeam_fit::{Bounds, Deviations};
-use hammerbeam_signal::limits::{self, LARGEST_TEXT};
-use hammerbeam_study::{Report, StudyFile, number::Number};
-
-use super::reading;
+use hammerbeam_study::{
+    Report,
+    document::{Problem, place},
+    number::Number,
+};
 
 /// A parameter that is fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,6 +111,21 @@ pub struct Datum {
     pub place: String,
 }
 
+/// The text of a data file and where its keys stand.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DataSource {
+    pub name: String,
+    pub text: String,
+    pub places: BTreeMap<String, Range<usize>>,
+}
+
+impl DataSource {
+    pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> Report {
+        let problem = Problem { key: key.to_owned(), span: place(&self.places, key), message, help };
+        Report::new(&self.name, &self.text, vec![problem])
+    }
+}
+
 /// A data file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UpdateData {
@@ -126,7 +139,7 @@ pub struct UpdateData {
     pub orbits: Vec<MeasuredOrbit>,
     /// Measured numbers.
     pub data: Vec<Datum>,
-    pub(super) source: reading::Source,
+    pub(super) source: DataSource,
 }
 
 /// Why there are no data.
@@ -143,24 +156,6 @@ pub enum DataError {
 }
 
 impl UpdateData {
-    /// Reads a data file for a study.
-    ///
-    /// # Errors
-    /// [`DataError`]: the file cannot be read, or something in it is not allowed.
-    pub fn read(path: &Path, study: &StudyFile) -> Result<Self, DataError> {
-        let text = limits::read_text(path, LARGEST_TEXT)
-            .map_err(|source| DataError::Unreadable { path: path.to_owned(), source })?;
-        Self::parse(&path.display().to_string(), text, study)
-    }
-
-    /// Reads data from their text.
-    ///
-    /// # Errors
-    /// [`DataError::Invalid`] with everything that is not allowed.
-    pub fn parse(name: &str, text: String, study: &StudyFile) -> Result<Self, DataError> {
-        reading::parse(name, text, study).map_err(DataError::Invalid)
-    }
-
     /// A fault of a key that was found after reading.
     #[must_use]
     pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> DataError {

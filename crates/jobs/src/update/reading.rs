@@ -1,42 +1,50 @@
 //! The data file, read from TOML: every key of it, all faults at once.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::path::Path;
 
 use hammerbeam_fit::{Bounds, Deviations};
+use hammerbeam_signal::limits::{LARGEST_TEXT, read_text as read_file};
 use hammerbeam_study::{
     Report, StudyFile,
-    document::{Problem, Reading, Table, Value, place, quantity},
+    changed::limits,
+    document::{Reading, Table, Value, quantity},
     file::Structure,
     number::{self, Number},
 };
 use toml::de::DeTable;
 
-use super::data::{Datum, FittedKey, MeasuredOrbit, UpdateData};
-use super::measured::{read_damping, read_eigenfrequencies, read_orbit};
+use super::{
+    data::{DataError, DataSource, Datum, FittedKey, MeasuredOrbit, UpdateData},
+    measured::{read_damping, read_eigenfrequencies, read_orbit},
+};
 
-/// The text of a data file and where its keys stand.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Source {
-    name: String,
-    text: String,
-    places: BTreeMap<String, Range<usize>>,
-}
+impl UpdateData {
+    /// Reads a data file for a study.
+    ///
+    /// # Errors
+    /// [`DataError`]: the file cannot be read, or something in it is not allowed.
+    pub fn read(path: &Path, study: &StudyFile) -> Result<Self, DataError> {
+        let text = read_file(path, LARGEST_TEXT)
+            .map_err(|source| DataError::Unreadable { path: path.to_owned(), source })?;
+        Self::parse(&path.display().to_string(), text, study)
+    }
 
-impl Source {
-    pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> Report {
-        let problem = Problem { key: key.to_owned(), span: place(&self.places, key), message, help };
-        Report::new(&self.name, &self.text, vec![problem])
+    /// Reads data from their text.
+    ///
+    /// # Errors
+    /// [`DataError::Invalid`] with everything that is not allowed.
+    pub fn parse(name: &str, text: String, study: &StudyFile) -> Result<Self, DataError> {
+        parse(name, text, study).map_err(DataError::Invalid)
     }
 }
 
-/// Reads a data file for a study.
-pub(super) fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, Report> {
+fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, Report> {
     let reading = Reading::default();
     let read = read_text(&text, &reading, study);
     let (problems, left_out, places) = reading.into_parts();
     match read {
         Some(read) if problems.is_empty() => {
-            let source = Source { name: name.to_owned(), text, places };
+            let source = DataSource { name: name.to_owned(), text, places };
             let Read { title, deviations, parameters, orbits, data } = read;
             Ok(UpdateData { title, deviations, parameters, orbits, data, source })
         }
@@ -171,7 +179,7 @@ fn read_parameter(table: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> O
         table.problem("start", format!("`{key}` starts at 0, so that its size is not known"), help);
         return None;
     }
-    let (low, high) = number::limits(study, &number);
+    let (low, high) = limits(study, &number);
     let bounds = Bounds { low: bounds.low.max(low), high: bounds.high.min(high) };
     if bounds.clamp(start) != start {
         let help = vec![format!("allowed by the study file: {} to {}", bounds.low, bounds.high)];

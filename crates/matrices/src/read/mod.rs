@@ -3,10 +3,10 @@
 mod cards;
 mod extrn;
 mod harwell_boeing;
-mod mat5;
+pub(crate) mod mat5;
 mod matrix_market;
 mod output4;
-mod output4_binary;
+pub(crate) mod output4_binary;
 mod output4_text;
 mod punch;
 mod tables;
@@ -76,16 +76,6 @@ fn parse<R: std::io::BufRead>(
         MatrixFormat::Mat5 => mat5::read(source),
         MatrixFormat::HarwellBoeing => harwell_boeing::read(source).map(|matrix| vec![matrix]),
     }
-}
-
-/// Whether bytes begin like a binary OUTPUT4 file.
-pub(crate) fn is_binary_output4(first: &[u8]) -> bool {
-    output4_binary::encoding(first).is_some()
-}
-
-/// Whether bytes begin like a MAT file.
-pub(crate) fn is_mat(first: &[u8]) -> bool {
-    mat5::is_mat(first)
 }
 
 fn first_bytes(file: &mut File) -> Result<Vec<u8>, PlacedFault> {

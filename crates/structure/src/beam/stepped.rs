@@ -9,10 +9,11 @@ use super::{
 };
 use crate::{
     Section, Structure, StructureError,
+    assembly::Assembly,
     error::{not_negative, positive},
     names::check_names,
     strain::Strains,
-    structure::{Assembly, Kind, NamedCoordinate, Place},
+    structure::{Kind, NamedCoordinate, Place},
 };
 
 /// Shear of a section, for the theory of Timoshenko.

@@ -13,12 +13,7 @@ use std::{collections::BTreeMap, f64::consts::TAU};
 
 use faer::{Mat, Side};
 
-use super::{
-    constraints::Dependent,
-    factor::Pencil,
-    map::CoordinateMap,
-    statics::{Statics, dot},
-};
+use super::{constraints::Dependent, factor::Pencil, map::CoordinateMap, statics::Statics, vectors::dot};
 use crate::{StructureError, modes::Modes};
 
 /// Modes of a reduced structure.

@@ -18,7 +18,8 @@ use super::{
     factor::Pencil,
     pencil_modes::PencilModes,
     prepared::{Prepared, ReducedModes, Weights, dense, ensure_elastic, over_all},
-    statics::{Statics, add, dot},
+    statics::Statics,
+    vectors::{add, dot},
 };
 use crate::{
     StructureError,

@@ -38,6 +38,7 @@ mod reduce;
 mod report;
 mod statics;
 mod survey;
+mod vectors;
 
 pub use label::{Direction, RowKind, RowLabel};
 pub use matrix::{Entry, SymmetricMatrix};

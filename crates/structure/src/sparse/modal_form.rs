@@ -6,7 +6,8 @@ use super::{
     Matrices, SupportRows, SymmetricMatrix,
     assemble::{Assembled, unit},
     prepared::{Prepared, Weights},
-    statics::{Statics, add, dot},
+    statics::Statics,
+    vectors::{add, dot},
 };
 use crate::{Damping, PointOutput, ReducedModel, StructureError, SupportInput};
 

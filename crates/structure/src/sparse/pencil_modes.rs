@@ -19,7 +19,7 @@ use faer::{Mat, Side};
 use super::{
     factor::{Factors, Pencil},
     lanczos::{LowestModes, lowest_modes},
-    statics::dot,
+    vectors::dot,
 };
 use crate::StructureError;
 

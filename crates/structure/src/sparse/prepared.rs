@@ -8,7 +8,8 @@ use super::{
     factor::{Factors, Pencil},
     map::CoordinateMap,
     pencil_modes::PencilModes,
-    statics::{Statics, dot},
+    statics::Statics,
+    vectors::dot,
 };
 use crate::{
     FlexibilityError, ReducedModel, StructureError,

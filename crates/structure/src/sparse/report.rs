@@ -2,7 +2,7 @@
 
 use super::{
     Matrices, MatrixReport, SymmetricMatrix, assemble::Assembled, factor::Pencil, pencil_modes::PencilModes,
-    statics::dot,
+    vectors::dot,
 };
 use crate::StructureError;
 

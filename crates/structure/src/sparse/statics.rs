@@ -11,6 +11,7 @@ use super::{
     factor::{Factors, Pencil},
     matrix::SymmetricMatrix,
     pencil_modes::PencilModes,
+    vectors::{add, dot},
 };
 
 /// Residual at which a static answer is as good as rounding lets it be.
@@ -95,12 +96,4 @@ impl<'a> Statics<'a> {
             add(load, -along, heavy);
         }
     }
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(crate) fn add(to: &mut [f64], factor: f64, vector: &[f64]) {
-    to.iter_mut().zip(vector).for_each(|(entry, own)| *entry += factor * own);
 }

@@ -184,6 +184,21 @@ impl<'a> Table<'a> {
     }
 }
 
+impl<'a> Value<'a> {
+    /// The value as a table.
+    pub fn table(&self) -> Option<Table<'a>> {
+        self.table_with_help(Vec::new())
+    }
+
+    /// The same; `help` says what is allowed where it is something else.
+    pub fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
+        match self.entries() {
+            Some((reading, path, span, entries)) => Some(Table::new(reading, path, span, entries)),
+            None => self.wrong_type_with_help("a table", help),
+        }
+    }
+}
+
 /// The text that a value is, or the first of a list.
 fn text_of<'v>(value: &'v DeValue<'_>) -> Option<&'v str> {
     match value {

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use toml::de::{DeFloat, DeInteger, DeValue};
+use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 use hammerbeam_signal::text::is_control;
 
 use super::{
-    Quantity, Reading, Table, closest,
+    Quantity, Reading, closest,
     unit::{Dimension, measured, without_unit},
 };
 
@@ -66,7 +66,7 @@ impl<'a> Value<'a> {
         self.wrong_type_with_help(expected, Vec::new())
     }
 
-    fn wrong_type_with_help<T>(&self, expected: &str, help: Vec<String>) -> Option<T> {
+    pub(super) fn wrong_type_with_help<T>(&self, expected: &str, help: Vec<String>) -> Option<T> {
         self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), help);
         None
     }
@@ -179,18 +179,11 @@ impl<'a> Value<'a> {
         self.problem(format!("`{}` is \"{word}\", which is not {what}", self.key()), help);
     }
 
-    /// A table.
-    pub fn table(&self) -> Option<Table<'a>> {
-        self.table_with_help(Vec::new())
-    }
-
-    /// The same; `help` says what is allowed where it is something else.
-    pub fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
+    /// What a value is that has to be a table: where it stands and its entries.
+    pub(super) fn entries(&self) -> Option<(&'a Reading, String, Range<usize>, &'a DeTable<'a>)> {
         match self.value {
-            DeValue::Table(entries) => {
-                Some(Table::new(self.reading, self.path.clone(), self.span.clone(), entries))
-            }
-            _ => self.wrong_type_with_help("a table", help),
+            DeValue::Table(entries) => Some((self.reading, self.path.clone(), self.span.clone(), entries)),
+            _ => None,
         }
     }
 

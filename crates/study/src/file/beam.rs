@@ -6,7 +6,8 @@ use serde::{Serialize, Serializer};
 use crate::document::{Reading, Table};
 
 use super::{
-    beam_point::{self, BeamPoint, END_KINDS, End},
+    beam_end::{END_KINDS, End},
+    beam_point::{self, BeamPoint},
     beam_span::{self, BeamSpanEntry},
     names::Names,
 };

@@ -5,42 +5,10 @@ use serde::Serialize;
 
 use crate::document::{Reading, Table, Value, quantity};
 
-use super::names::{Names, read_name};
-
-/// Support of an end of a beam, or of a point on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum End {
-    /// Neither displacement nor rotation.
-    Clamped,
-    /// No displacement.
-    Pinned,
-    /// No rotation.
-    Sliding,
-    /// No support.
-    Free,
-}
-
-impl End {
-    /// Whether the support holds the displacement, so that its motion can be prescribed.
-    #[must_use]
-    pub fn holds_displacement(self) -> bool {
-        matches!(self, Self::Clamped | Self::Pinned)
-    }
-
-    pub(super) fn descriptor(self) -> linear::End {
-        match self {
-            Self::Clamped => linear::End::Clamped,
-            Self::Pinned => linear::End::Pinned,
-            Self::Sliding => linear::End::Sliding,
-            Self::Free => linear::End::Free,
-        }
-    }
-}
-
-/// The words for them.
-pub(super) const END_KINDS: [(&str, End); 4] =
-    [("clamped", End::Clamped), ("pinned", End::Pinned), ("sliding", End::Sliding), ("free", End::Free)];
+use super::{
+    beam_end::{END_KINDS, End},
+    names::{Names, read_name},
+};
 
 /// A named point of a beam and what is attached to it.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -5,8 +5,9 @@ use serde::Serialize;
 use crate::document::{Table, Value, quantity};
 
 use super::{
-    ActingForce, Amplitude, ForcePlace, ForceSize, MovingSupport, Structure, amplitude, force, names::Names,
-    support_motion,
+    ActingForce, Amplitude, ForcePlace, ForceSize, Structure, amplitude, force,
+    names::Names,
+    support_motion::{self, MovingSupport, PrescribedMotion, SupportDrive},
 };
 
 /// What shakes the structure.
@@ -130,6 +131,20 @@ impl Excitation {
     }
 }
 
+impl ExcitationKind {
+    fn of_supports(motion: PrescribedMotion) -> Self {
+        match motion {
+            PrescribedMotion::Common { at, drive: SupportDrive::Displacement(amplitude_m) } => {
+                Self::SupportMotion { at, amplitude_m }
+            }
+            PrescribedMotion::Common { at, drive: SupportDrive::Acceleration(amplitude_m_s2) } => {
+                Self::SupportAcceleration { at, amplitude_m_s2 }
+            }
+            PrescribedMotion::Each(supports) => Self::SupportMotions { supports },
+        }
+    }
+}
+
 impl HarmonicExcitation {
     /// Amplitude [m, m/s^2 or N]; supports that move each in its own way have several, and so have forces.
     #[must_use]
@@ -157,7 +172,7 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     let known = kind.is_some();
     let range = table.required("frequency_hz").and_then(|value| read_range(&value));
     let kind = kind.and_then(|kind| match kind {
-        Kind::SupportMotion => support_motion::read(&table, names),
+        Kind::SupportMotion => support_motion::read(&table, names).map(ExcitationKind::of_supports),
         Kind::Force if table.has("force") => read_forces(&table, names, range),
         Kind::Force => read_force(&table, names),
     });

@@ -7,6 +7,7 @@
 
 mod amplitude;
 mod beam;
+mod beam_end;
 mod beam_point;
 mod beam_section;
 mod beam_span;
@@ -38,7 +39,8 @@ mod vary;
 
 pub use amplitude::Amplitude;
 pub use beam::Beam;
-pub use beam_point::{BeamPoint, End};
+pub use beam_end::End;
+pub use beam_point::BeamPoint;
 pub use beam_section::Section;
 pub use beam_span::{BeamProfile, BeamSpanEntry};
 pub use continuation::{Continuation, Segments};

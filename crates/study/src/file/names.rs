@@ -2,7 +2,7 @@
 
 use crate::document::{Table, Value};
 
-use super::End;
+use super::beam_end::End;
 
 /// Everything a study may refer to by name.
 #[derive(Debug, Default)]

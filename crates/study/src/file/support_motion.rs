@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Quantity, Table, Value, quantity};
 
-use super::{Amplitude, ExcitationKind, amplitude, names::Names};
+use super::{Amplitude, amplitude, names::Names};
 
 /// A support that moves in a way of its own, as `amplitude cos(2 pi order f t + phase)`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,19 +28,22 @@ pub enum SupportDrive {
     Acceleration(Amplitude),
 }
 
+/// What is prescribed of all supports.
+pub(super) enum PrescribedMotion {
+    /// The supports of these names move as one.
+    Common { at: Vec<String>, drive: SupportDrive },
+    /// Each moves in a way of its own.
+    Each(Vec<MovingSupport>),
+}
+
 /// Reads `at` with `amplitude_m` or `amplitude_m_s2`, or a `support` for each motion.
-pub(super) fn read(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
+pub(super) fn read(table: &Table<'_>, names: &Names) -> Option<PrescribedMotion> {
     if table.has("support") {
-        return read_each(table, names);
+        return read_each(table, names).map(PrescribedMotion::Each);
     }
     let at = table.required("at").and_then(|value| read_places(&value, names));
     let motion = read_motion(table, &quantity::AMPLITUDE, &quantity::ACCELERATION);
-    Some(match (at?, motion?) {
-        (at, SupportDrive::Displacement(amplitude_m)) => ExcitationKind::SupportMotion { at, amplitude_m },
-        (at, SupportDrive::Acceleration(amplitude_m_s2)) => {
-            ExcitationKind::SupportAcceleration { at, amplitude_m_s2 }
-        }
-    })
+    Some(PrescribedMotion::Common { at: at?, drive: motion? })
 }
 
 /// Reads `amplitude_m`, or `amplitude_m_s2` in its place.
@@ -66,7 +69,7 @@ pub(super) fn read_motion(
     read(value, acceleration, &quantity::ACCELERATION).map(SupportDrive::Acceleration)
 }
 
-fn read_each(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
+fn read_each(table: &Table<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
     for key in ["at", "amplitude_m", "amplitude_m_s2", "phase_rad"] {
         if let Some(value) = table.optional(key) {
             let help = vec!["allowed: in each entry of `support`, which says it for its own".to_owned()];
@@ -93,7 +96,7 @@ fn read_each(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
         let help = "allowed: two entries or more; one support is moved with `at` and `amplitude_m`";
         table.problem("support", message.to_owned(), vec![help.to_owned()]);
     }
-    (count > 1 && supports.len() == count).then_some(ExcitationKind::SupportMotions { supports })
+    (count > 1 && supports.len() == count).then_some(supports)
 }
 
 fn read_support(entry: Table<'_>, names: &Names) -> Option<MovingSupport> {

@@ -8,11 +8,11 @@
 //! its own number, or the stretch between the two is halved. What is still not in order over a stretch of
 //! rounding is a crossing.
 
-use super::{family::nodes_before_points, interface, structure::reduce};
-use crate::{
-    StudyFile,
-    number::{Number, model_with},
+use super::{
+    reference::nodes_before_points,
+    structure::{interface, reduce},
 };
+use crate::{StudyFile, changed::model_with, number::Number};
 
 /// A stretch this long, relative to the number, is one value.
 const ONE_VALUE: f64 = 1e-9;

@@ -11,8 +11,6 @@
 
 use hammerbeam_motion::{Law, System};
 
-use super::Model;
-
 /// Shapes below this share of what the direction moves elsewhere hold nothing: rounding of the modes.
 const NOTHING: f64 = 1e-8;
 
@@ -53,35 +51,31 @@ impl std::fmt::Display for Drift {
     }
 }
 
-impl Model {
-    /// The directions in which the structure can drift; none for one that springs hold.
-    #[must_use]
-    pub fn drifts(&self) -> Vec<Drift> {
-        let system = &self.system;
-        let rigid: Vec<usize> =
-            (0..system.dof()).filter(|&i| system.model().natural_frequencies[i] == 0.0).collect();
-        let shapes = |wanted: &dyn Fn(&Law) -> bool| -> Vec<Vec<f64>> {
-            let elements = system.elements().iter().filter(|element| wanted(&element.law));
-            elements.map(|element| rigid.iter().map(|&i| element.shape[i]).collect()).collect()
-        };
-        let (mut held, never) = complement(rigid.len(), &shapes(&Law::depends_on_displacement));
-        let drift = |direction: &Vec<f64>, held_by_stops| Drift {
-            motion: motion(system, &rigid, direction),
-            held_by_stops,
-        };
-        let mut drifts: Vec<Drift> = never.iter().map(|direction| drift(direction, false)).collect();
-        let (always, _) = complement(rigid.len(), &shapes(&always_acts));
-        // What all elements hold and those that always act do not.
-        held.retain_mut(|direction| reduce(direction, &always));
-        let mut open: Vec<Vec<f64>> = Vec::new();
-        for mut direction in held {
-            if reduce(&mut direction, &open) {
-                drifts.push(drift(&direction, true));
-                open.push(direction);
-            }
+/// The directions in which the structure can drift; none for one that springs hold.
+pub(super) fn drifts(system: &System) -> Vec<Drift> {
+    let rigid: Vec<usize> =
+        (0..system.dof()).filter(|&i| system.model().natural_frequencies[i] == 0.0).collect();
+    let shapes = |wanted: &dyn Fn(&Law) -> bool| -> Vec<Vec<f64>> {
+        let elements = system.elements().iter().filter(|element| wanted(&element.law));
+        elements.map(|element| rigid.iter().map(|&i| element.shape[i]).collect()).collect()
+    };
+    let (mut held, never) = complement(rigid.len(), &shapes(&Law::depends_on_displacement));
+    let drift = |direction: &Vec<f64>, held_by_stops| Drift {
+        motion: motion(system, &rigid, direction),
+        held_by_stops,
+    };
+    let mut drifts: Vec<Drift> = never.iter().map(|direction| drift(direction, false)).collect();
+    let (always, _) = complement(rigid.len(), &shapes(&always_acts));
+    // What all elements hold and those that always act do not.
+    held.retain_mut(|direction| reduce(direction, &always));
+    let mut open: Vec<Vec<f64>> = Vec::new();
+    for mut direction in held {
+        if reduce(&mut direction, &open) {
+            drifts.push(drift(&direction, true));
+            open.push(direction);
         }
-        drifts
     }
+    drifts
 }
 
 /// Whether the force of a law is nowhere zero but at a point.

@@ -5,19 +5,20 @@ mod damping;
 mod drift;
 mod element;
 mod export;
-mod family;
+mod fault;
 mod initial;
 mod load;
 mod parameter;
+mod reference;
 mod structure;
 mod undamped;
 mod undamped_in_contact;
 
 use std::sync::Arc;
 
-use hammerbeam_motion::{Parameter, ParameterError, PointMotion, System, SystemError};
+use hammerbeam_motion::{Family, Member, Parameter, ParameterError, PointMotion, System};
 use hammerbeam_orbit::Response;
-use hammerbeam_structure::{MatrixReport, ModeTables, OutlinePoint, ReducedModel, StructureError};
+use hammerbeam_structure::{MatrixReport, ModeTables, OutlinePoint, ReducedModel};
 
 pub use drift::Drift;
 pub use export::matrix_study;
@@ -26,13 +27,14 @@ pub use parameter::StudyParameter;
 pub use undamped::UndampedMode;
 pub use undamped_in_contact::UndampedInContact;
 
-use family::{Reference, StudyFamily};
-use structure::ReduceError;
+use fault::{reduce_fault, system_fault};
+use reference::Reference;
+use structure::interface;
 
 use crate::{
-    document::unit::readable,
-    file::{DampingKey, ParameterKind, Place, Study, StudyError, StudyFile, VariedParameter},
-    number::number_named,
+    changed::model_with,
+    file::{DampingKey, ParameterKind, Study, StudyError, StudyFile, VariedParameter},
+    number::{Number, number_named},
 };
 
 /// How near to a number a neighbour is, relative to it.
@@ -76,9 +78,9 @@ impl Model {
         load::check_direction(file)?;
         if let Some(reference) = reference {
             let fault = |message| file.fault("structure", message, Vec::new());
-            family::turn_like(&mut reduced, study, reference).map_err(fault)?;
+            reference::turn_like(&mut reduced, study, reference).map_err(fault)?;
         }
-        let numbers = family::varied_numbers(study);
+        let numbers = reference::varied_numbers(study);
         let reference = (!numbers.is_empty()).then(|| Arc::new(Reference::new(study, &reduced)));
         load::check(file, &reduced.model)?;
         let drive = load::Drive::of(study, &reduced.model);
@@ -137,6 +139,31 @@ impl Model {
         self.system.point_motion(frequency_hz, &self.response.shape, &self.response.support_ratios)
     }
 
+    /// The directions in which the structure can drift; none for one that springs hold.
+    #[must_use]
+    pub fn drifts(&self) -> Vec<Drift> {
+        drift::drifts(&self.system)
+    }
+
+    /// The highest excitation frequency at which rounding leaves enough of periodic motion, if the structure
+    /// vibrates at all [Hz].
+    #[must_use]
+    pub fn resolved_hz(&self) -> Option<f64> {
+        undamped::resolved_hz(&self.system)
+    }
+
+    /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
+    #[must_use]
+    pub fn undamped_modes(&self) -> Vec<UndampedMode> {
+        undamped::undamped_modes(&self.system)
+    }
+
+    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
+    #[must_use]
+    pub fn undamped_in_contact(&self) -> Vec<UndampedInContact> {
+        undamped_in_contact::undamped_in_contact(&self.system)
+    }
+
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they
     /// are followed.
     fn check_varied(&self, file: &StudyFile) -> Result<(), StudyError> {
@@ -186,6 +213,50 @@ impl Model {
     }
 }
 
+/// The studies that differ in one number, each of which makes a model.
+#[derive(Debug)]
+struct StudyFamily {
+    file: StudyFile,
+    number: Number,
+    reference: Arc<Reference>,
+}
+
+impl StudyFamily {
+    /// The family of a study over the number with that key path; `None` if it has none, or several.
+    fn new(file: &StudyFile, key: &str, reference: Arc<Reference>) -> Option<Self> {
+        let number = number_named(&file.text, key).ok().flatten()?;
+        Some(Self { file: file.clone(), number, reference })
+    }
+
+    /// The value of the study as it is.
+    fn value(&self) -> f64 {
+        self.number.value
+    }
+}
+
+impl Family for StudyFamily {
+    fn member(&self, value: f64) -> Result<Member, String> {
+        let built = model_with(&self.file, std::slice::from_ref(&self.number), &[value])
+            .and_then(|file| Model::like(&file, Some(&self.reference)));
+        let model =
+            built.map_err(|error| format!("{} = {value}: {}", self.number.keys[0], in_short(&error)))?;
+        let response = (model.response.shape, model.response.support_ratios);
+        Ok(Member { system: model.system, response })
+    }
+}
+
+/// What is wrong, without the text around it.
+fn in_short(error: &StudyError) -> String {
+    match error {
+        StudyError::Invalid(report) => {
+            let messages: Vec<&str> =
+                report.problems.iter().map(|problem| problem.message.as_str()).collect();
+            messages.join("; ")
+        }
+        other => other.to_string(),
+    }
+}
+
 /// Where two modes change places over the range of a number, in words.
 fn modes_change_places(file: &StudyFile, varied: &VariedParameter) -> Option<String> {
     if varied.kind != ParameterKind::Number {
@@ -200,71 +271,9 @@ fn modes_change_places(file: &StudyFile, varied: &VariedParameter) -> Option<Str
     ))
 }
 
-/// Names of the points at which local or exciting forces act, each once.
-fn interface(study: &Study) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for stop in &study.stops {
-        match &stop.place {
-            Place::At { point, .. } => names.push(point.clone()),
-            Place::Between { first, second } => names.extend([first.clone(), second.clone()]),
-        }
-    }
-    names.extend(study.force_points().map(str::to_owned));
-    let mut seen = std::collections::BTreeSet::new();
-    names.retain(|name| seen.insert(name.clone()));
-    names
-}
-
 fn response_point(study: &Study, model: &ReducedModel) -> Response {
     let point = model.point(&study.response.point).expect("the study knows the names of its structure");
     Response { shape: point.shape.clone(), support_ratios: point.support_ratios.clone() }
-}
-
-/// The fault of a structure, or of a file of it, at the key that is to blame.
-fn reduce_fault(file: &StudyFile, error: &ReduceError) -> StudyError {
-    match error {
-        ReduceError::Structure(error) => structure_fault(file, error),
-        ReduceError::Files(problem) => {
-            file.fault(&format!("structure.{}", problem.key), problem.message.clone(), Vec::new())
-        }
-    }
-}
-
-/// The fault of a structure at the key that is to blame.
-fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
-    let key = match error {
-        StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
-        StructureError::LumpedIsNotReduced
-        | StructureError::NotHeld { .. }
-        | StructureError::NoInterface
-        | StructureError::TooManyCoordinates { .. } => "reduction.method",
-        StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
-        StructureError::RowCount { what: "mass", .. } => "structure.mass",
-        StructureError::RowCount { what: "damping", .. } => "structure.damping",
-        StructureError::NoLabels => "structure.kind",
-        StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
-        StructureError::MovedTwice { .. } => "excitation.support",
-        _ => "structure",
-    };
-    let help = match error {
-        StructureError::CutOffBelowFirstMode { first_hz, .. } => {
-            let first = readable(*first_hz, "Hz");
-            vec![format!("allowed: more than {first}, so that one elastic mode is kept at least")]
-        }
-        StructureError::DampingRatioCount { modes, .. } => {
-            vec![format!("allowed: one ratio for all modes, or a list of {modes}")]
-        }
-        _ => Vec::new(),
-    };
-    file.fault(key, error.to_string(), help)
-}
-
-fn system_fault(file: &StudyFile, error: &SystemError) -> StudyError {
-    let key = match error {
-        SystemError::NoMovingSupport => "excitation.at",
-        _ => "structure",
-    };
-    file.fault(key, error.to_string(), Vec::new())
 }
 
 #[cfg(test)]

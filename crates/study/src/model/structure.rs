@@ -3,7 +3,9 @@
 use hammerbeam_structure as linear;
 use linear::{Connection, LumpedMass, MatrixReport, ModalRatios, Reduced, StructureError};
 
-use crate::file::{Damping, Lumped, Matrices, MatrixProblem, ModalRatio, ReductionMethod, Structure, Study};
+use crate::file::{
+    Damping, Lumped, Matrices, MatrixProblem, ModalRatio, Place, ReductionMethod, Structure, Study,
+};
 
 /// Why there is no reduced structure.
 #[derive(Debug)]
@@ -18,6 +20,21 @@ impl From<StructureError> for ReduceError {
     fn from(error: StructureError) -> Self {
         Self::Structure(error)
     }
+}
+
+/// Names of the points at which local or exciting forces act, each once.
+pub(super) fn interface(study: &Study) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for stop in &study.stops {
+        match &stop.place {
+            Place::At { point, .. } => names.push(point.clone()),
+            Place::Between { first, second } => names.extend([first.clone(), second.clone()]),
+        }
+    }
+    names.extend(study.force_points().map(str::to_owned));
+    let mut seen = std::collections::BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    names
 }
 
 /// Assembles, supports and reduces the structure of a study.

@@ -10,7 +10,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Model;
+use hammerbeam_motion::System;
 
 /// Damping ratio below which a mode counts as undamped: that which changes a multiplier over a period of the
 /// mode by less than it is known to.
@@ -50,41 +50,37 @@ const AT_A_NODE: f64 = 1e-8;
 /// length: beyond, a period leaves every mode as it was, up to rounding.
 const RESOLVED: f64 = 1e7;
 
-impl Model {
-    /// The highest excitation frequency at which rounding leaves enough of periodic motion, if the structure
-    /// vibrates at all [Hz].
-    #[must_use]
-    pub fn resolved_hz(&self) -> Option<f64> {
-        let highest = self.system.model().natural_frequencies.iter().copied().fold(0.0, f64::max);
-        (highest > 0.0).then_some(RESOLVED * highest / TAU)
-    }
+/// The highest excitation frequency at which rounding leaves enough of periodic motion, if the structure
+/// vibrates at all [Hz].
+pub(super) fn resolved_hz(system: &System) -> Option<f64> {
+    let highest = system.model().natural_frequencies.iter().copied().fold(0.0, f64::max);
+    (highest > 0.0).then_some(RESOLVED * highest / TAU)
+}
 
-    /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
-    #[must_use]
-    pub fn undamped_modes(&self) -> Vec<UndampedMode> {
-        let model = self.system.model();
-        let modes = model.natural_frequencies.iter().enumerate().filter(|(_, rate)| **rate > 0.0);
-        let ratios = modes.map(|(index, rate)| UndampedMode {
-            number: index + 1,
-            frequency_hz: rate / TAU,
-            ratio: model.damping[(index, index)] / (2.0 * rate),
-        });
-        let is_undamped = |mode: &UndampedMode| {
-            let modal: Vec<f64> =
-                (0..self.system.dof()).map(|i| if i + 1 == mode.number { 1.0 } else { 0.0 }).collect();
-            mode.ratio < NOTHING && !self.has_damping_force(&modal)
-        };
-        ratios.filter(is_undamped).collect()
-    }
+/// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
+pub(super) fn undamped_modes(system: &System) -> Vec<UndampedMode> {
+    let model = system.model();
+    let modes = model.natural_frequencies.iter().enumerate().filter(|(_, rate)| **rate > 0.0);
+    let ratios = modes.map(|(index, rate)| UndampedMode {
+        number: index + 1,
+        frequency_hz: rate / TAU,
+        ratio: model.damping[(index, index)] / (2.0 * rate),
+    });
+    let is_undamped = |mode: &UndampedMode| {
+        let modal: Vec<f64> =
+            (0..system.dof()).map(|i| if i + 1 == mode.number { 1.0 } else { 0.0 }).collect();
+        mode.ratio < NOTHING && !has_damping_force(system, &modal)
+    };
+    ratios.filter(is_undamped).collect()
+}
 
-    /// Whether a force that always acts on a combination of the modes depends on the velocity.
-    pub(super) fn has_damping_force(&self, modal: &[f64]) -> bool {
-        let norm = |row: &[f64]| row.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
-        self.system.elements().iter().any(|element| {
-            let along: f64 = element.shape.iter().zip(modal).map(|(a, b)| a * b).sum();
-            element.law.contacts().is_empty()
-                && element.law.depends_on_velocity()
-                && along.abs() > AT_A_NODE * norm(&element.shape) * norm(modal)
-        })
-    }
+/// Whether a force that always acts on a combination of the modes depends on the velocity.
+pub(super) fn has_damping_force(system: &System, modal: &[f64]) -> bool {
+    let norm = |row: &[f64]| row.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    system.elements().iter().any(|element| {
+        let along: f64 = element.shape.iter().zip(modal).map(|(a, b)| a * b).sum();
+        element.law.contacts().is_empty()
+            && element.law.depends_on_velocity()
+            && along.abs() > AT_A_NODE * norm(&element.shape) * norm(modal)
+    })
 }

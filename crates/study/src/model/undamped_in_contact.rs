@@ -1,27 +1,23 @@
 //! Modes without damping that show only while stops are closed.
 //!
 //! While an element with the shape s presses, its stiff contact holds `s . q` next to constant. In the limit
-//! of a rigid
-//! contact the structure moves in the null space of the shapes, `q = N y` with orthonormal columns of N, and
-//! its modes there
-//! are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth of a gear pair damps every
-//! mode of the open
-//! pair, but not the motion of both gears together, on the weak spring that holds them: as long as the teeth
-//! are closed it has
-//! a damping ratio like the square of the ratio of the stiffnesses, and multipliers that are not told from
-//! the unit circle.
+//! of a rigid contact the structure moves in the null space of the shapes, `q = N y` with orthonormal columns
+//! of N, and its modes there are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth
+//! of a gear pair damps every mode of the open pair, but not the motion of both gears together, on the weak
+//! spring that holds them. As long as the teeth are closed it has a damping ratio like the square of the
+//! ratio of the stiffnesses, and multipliers that cannot be told from the unit circle.
 //!
-//! Each element is closed alone, and all together. What is undamped with all elements open is told by
-//! `undamped.rs`.
+//! Each element is closed alone, and all together. `undamped.rs` finds what is undamped with all elements
+//! open.
 
 use std::f64::consts::TAU;
 
 use faer::{Mat, Side};
+use hammerbeam_motion::System;
 
 use super::{
-    Model,
     drift::complement,
-    undamped::{Digits, NOTHING},
+    undamped::{Digits, NOTHING, has_damping_force, undamped_modes},
 };
 
 /// A mode has the frequency of another one within this part of it.
@@ -55,87 +51,83 @@ impl std::fmt::Display for UndampedInContact {
     }
 }
 
-impl Model {
-    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
-    #[must_use]
-    pub fn undamped_in_contact(&self) -> Vec<UndampedInContact> {
-        let opening: Vec<usize> = self
-            .system
-            .elements()
-            .iter()
-            .enumerate()
-            .filter(|(_, element)| !element.law.contacts().is_empty())
-            .map(|(index, _)| index)
-            .collect();
-        let mut closed: Vec<Vec<usize>> = opening.iter().map(|&index| vec![index]).collect();
-        if opening.len() > 1 {
-            closed.push(opening);
-        }
-        let mut known: Vec<f64> = self.undamped_modes().iter().map(|mode| mode.frequency_hz).collect();
-        let mut found = Vec::new();
-        for elements in closed {
-            for mode in self.undamped_while_closed(&elements) {
-                if known.iter().all(|hz| (hz / mode.frequency_hz - 1.0).abs() > SAME) {
-                    known.push(mode.frequency_hz);
-                    found.push(mode);
-                }
+/// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
+pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
+    let opening: Vec<usize> = system
+        .elements()
+        .iter()
+        .enumerate()
+        .filter(|(_, element)| !element.law.contacts().is_empty())
+        .map(|(index, _)| index)
+        .collect();
+    let mut closed: Vec<Vec<usize>> = opening.iter().map(|&index| vec![index]).collect();
+    if opening.len() > 1 {
+        closed.push(opening);
+    }
+    let mut known: Vec<f64> = undamped_modes(system).iter().map(|mode| mode.frequency_hz).collect();
+    let mut found = Vec::new();
+    for elements in closed {
+        for mode in undamped_while_closed(system, &elements) {
+            if known.iter().all(|hz| (hz / mode.frequency_hz - 1.0).abs() > SAME) {
+                known.push(mode.frequency_hz);
+                found.push(mode);
             }
         }
-        found
     }
+    found
+}
 
-    fn undamped_while_closed(&self, elements: &[usize]) -> Vec<UndampedInContact> {
-        let model = self.system.model();
-        let n = self.system.dof();
-        let shapes = elements.iter().map(|&index| self.system.elements()[index].shape.as_slice());
-        let shapes: Vec<Vec<f64>> = shapes.map(<[f64]>::to_vec).collect();
-        let free = complement(n, &shapes).1;
-        if free.is_empty() {
-            return Vec::new();
-        }
-        let projected = |entry: &dyn Fn(usize, usize) -> f64| {
-            let of = |a: &[f64], b: &[f64]| -> f64 {
-                (0..n).map(|i| a[i] * (0..n).map(|j| entry(i, j) * b[j]).sum::<f64>()).sum()
-            };
-            Mat::from_fn(free.len(), free.len(), |i, j| of(&free[i], &free[j]))
+fn undamped_while_closed(system: &System, elements: &[usize]) -> Vec<UndampedInContact> {
+    let model = system.model();
+    let n = system.dof();
+    let shapes = elements.iter().map(|&index| system.elements()[index].shape.as_slice());
+    let shapes: Vec<Vec<f64>> = shapes.map(<[f64]>::to_vec).collect();
+    let free = complement(n, &shapes).1;
+    if free.is_empty() {
+        return Vec::new();
+    }
+    let projected = |entry: &dyn Fn(usize, usize) -> f64| {
+        let of = |a: &[f64], b: &[f64]| -> f64 {
+            (0..n).map(|i| a[i] * (0..n).map(|j| entry(i, j) * b[j]).sum::<f64>()).sum()
         };
-        let rates = &model.natural_frequencies;
-        let stiffness = projected(&|i, j| if i == j { rates[i] * rates[i] } else { 0.0 });
-        let damping = projected(&|i, j| model.damping[(i, j)]);
-        let Ok(modes) = stiffness.self_adjoint_eigen(Side::Lower) else { return Vec::new() };
-        let highest = rates.iter().copied().fold(0.0, f64::max);
-        let mut found = Vec::new();
-        for k in 0..free.len() {
-            let rate = modes.S()[k].max(0.0).sqrt();
-            let shape: Vec<f64> = (0..free.len()).map(|i| modes.U()[(i, k)]).collect();
-            let loss: f64 = (0..shape.len())
-                .map(|i| shape[i] * (0..shape.len()).map(|j| damping[(i, j)] * shape[j]).sum::<f64>())
-                .sum();
-            if rate <= ROUNDING * highest || loss >= 2.0 * NOTHING * rate {
-                continue;
-            }
-            let modal: Vec<f64> =
-                (0..n).map(|i| free.iter().zip(&shape).map(|(row, y)| row[i] * y).sum()).collect();
-            if self.has_damping_force(&modal) {
-                continue;
-            }
-            found.push(UndampedInContact {
-                stops: elements.iter().map(|&index| self.system.elements()[index].name.clone()).collect(),
-                frequency_hz: rate / TAU,
-                motion: self.points_in(&modal),
-            });
+        Mat::from_fn(free.len(), free.len(), |i, j| of(&free[i], &free[j]))
+    };
+    let rates = &model.natural_frequencies;
+    let stiffness = projected(&|i, j| if i == j { rates[i] * rates[i] } else { 0.0 });
+    let damping = projected(&|i, j| model.damping[(i, j)]);
+    let Ok(modes) = stiffness.self_adjoint_eigen(Side::Lower) else { return Vec::new() };
+    let highest = rates.iter().copied().fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for k in 0..free.len() {
+        let rate = modes.S()[k].max(0.0).sqrt();
+        let shape: Vec<f64> = (0..free.len()).map(|i| modes.U()[(i, k)]).collect();
+        let loss: f64 = (0..shape.len())
+            .map(|i| shape[i] * (0..shape.len()).map(|j| damping[(i, j)] * shape[j]).sum::<f64>())
+            .sum();
+        if rate <= ROUNDING * highest || loss >= 2.0 * NOTHING * rate {
+            continue;
         }
-        found
+        let modal: Vec<f64> =
+            (0..n).map(|i| free.iter().zip(&shape).map(|(row, y)| row[i] * y).sum()).collect();
+        if has_damping_force(system, &modal) {
+            continue;
+        }
+        found.push(UndampedInContact {
+            stops: elements.iter().map(|&index| system.elements()[index].name.clone()).collect(),
+            frequency_hz: rate / TAU,
+            motion: points_in(system, &modal),
+        });
     }
+    found
+}
 
-    /// How the named points move in a combination of the modes.
-    fn points_in(&self, modal: &[f64]) -> Vec<(String, f64)> {
-        let points = self.system.model().points.iter();
-        let of = |shape: &[f64]| shape.iter().zip(modal).map(|(a, b)| a * b).sum::<f64>();
-        let moved: Vec<(String, f64)> = points.map(|point| (point.name.clone(), of(&point.shape))).collect();
-        let largest =
-            moved.iter().map(|(_, size)| *size).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
-        let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
-        scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
-    }
+/// How the named points move in a combination of the modes.
+fn points_in(system: &System, modal: &[f64]) -> Vec<(String, f64)> {
+    let points = system.model().points.iter();
+    let of = |shape: &[f64]| shape.iter().zip(modal).map(|(a, b)| a * b).sum::<f64>();
+    let moved: Vec<(String, f64)> = points.map(|point| (point.name.clone(), of(&point.shape))).collect();
+    let largest =
+        moved.iter().map(|(_, size)| *size).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
+    scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
 }

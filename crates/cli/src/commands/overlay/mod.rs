@@ -1,21 +1,24 @@
 //! `hammerbeam overlay`: a recorded motion laid over the computed orbit that is most alike.
 
 mod give;
+mod laid;
 
 use std::path::Path;
 
 use hammerbeam_jobs::{
     Observer, StoredBranches,
-    comparison::{Filter, Overlay, OverlaySettings, Sought, frequency_in_name, nothing_alike, overlay},
+    comparison::{Filter, OverlaySettings, Sought, frequency_in_name, nothing_alike, overlay},
     pool::threads,
 };
 use hammerbeam_results::Store;
 use hammerbeam_signal::{
     MeasuredQuantity,
     classify::{Classification, ClassifySettings, MotionClass, classify, excitation_frequency},
-    waveform::{Shifts, Waveform, folded},
+    waveform::{Shifts, folded},
 };
 use hammerbeam_study::StudyFile;
+
+use laid::Laid;
 
 use super::{
     compare::observed,
@@ -27,18 +30,6 @@ use crate::{
 
 /// Samples of a waveform in an excitation period.
 const SHOWN: usize = 1024;
-
-/// What was laid over what.
-struct Laid {
-    input: Input,
-    quantity: MeasuredQuantity,
-    /// Name of the point where the sensor is.
-    point: String,
-    classification: Classification,
-    period_multiple: u32,
-    measured: Waveform,
-    overlay: Overlay,
-}
 
 pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;

@@ -1,10 +1,9 @@
 //! How well the numbers are known: the differences within the reach, their slopes, and the covariance that
 //! follows.
 
-use super::Used;
 use super::{
-    difference,
     problem::{Place, Problem},
+    used::{Used, difference},
 };
 use crate::comparison::curve;
 

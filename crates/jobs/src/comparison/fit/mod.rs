@@ -3,12 +3,17 @@
 mod errors;
 mod problem;
 mod search;
+mod used;
 
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 
-use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, period_of};
+use super::{Curves, error::ComparisonError, shift::Shift};
 use errors::covariance;
 use problem::Problem;
+
+pub use search::SecondMinimum;
+pub use used::Residual;
+pub(super) use used::{Used, period_of, residual};
 
 /// What is given and need not be fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,27 +122,11 @@ pub struct Fit {
     pub second: Option<SecondMinimum>,
 }
 
-/// Another minimum of the fit, in another valley of the shift of frequencies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SecondMinimum {
-    /// Factor, or offset [Hz].
-    pub frequency: f64,
-    /// Factor on values.
-    pub amplitude: f64,
-    /// Sum of squares of the points that the best one goes by, and what this one has more, over the former: 1
-    /// at least. Points that fit neither do not count.
-    pub cost_ratio: f64,
-    /// Points that it goes by.
-    pub points: usize,
-    /// Whether one of both numbers is at an end of what is tried.
-    pub at_end: bool,
-}
-
 impl Fit {
     /// As a shift.
     #[must_use]
     pub fn shift(&self) -> Shift {
-        shift(self.offset, self.frequency.value, self.amplitude.value.ln())
+        Shift::new(self.offset, self.frequency.value, self.amplitude.value.ln())
     }
 }
 
@@ -200,22 +189,6 @@ fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// A point that takes part.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Used {
-    frequency_hz: f64,
-    logarithm: f64,
-    period: Option<u32>,
-}
-
-impl Used {
-    pub fn of(point: &MeasuredPoint, quantity: MeasuredQuantity) -> Option<Self> {
-        let period = period_of(point.kind)?;
-        let logarithm = point.maxima.of(quantity)?.ln();
-        Some(Self { frequency_hz: point.frequency_hz, logarithm, period })
-    }
-}
-
 /// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
 const PULL: f64 = 2.0;
 
@@ -263,30 +236,4 @@ pub(super) fn fit(
             .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE)),
         second: problem.second(best, &minima),
     })
-}
-
-pub(super) fn residual(used: &[Used], curves: &Curves, shift: Shift, reach: f64) -> Residual {
-    let differences: Vec<f64> = used.iter().filter_map(|point| difference(point, curves, shift)).collect();
-    let within: Vec<f64> = differences.iter().copied().filter(|r| r.abs() <= reach).collect();
-    let rms = |r: &[f64]| {
-        if r.is_empty() { 0.0 } else { (r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64).sqrt() }
-    };
-    Residual {
-        met: differences.len(),
-        within: within.len(),
-        rms: rms(&differences),
-        rms_within: rms(&within),
-    }
-}
-
-fn shift(offset: bool, frequency: f64, log_amplitude: f64) -> Shift {
-    let frequency =
-        if offset { FrequencyShift::Offset(frequency) } else { FrequencyShift::Factor(frequency) };
-    Shift { frequency, amplitude_factor: log_amplitude.exp() }
-}
-
-fn difference(point: &Used, curves: &Curves, shift: Shift) -> Option<f64> {
-    let value = shift.amplitude_factor * point.logarithm.exp();
-    let hit = curves.nearest_stable(shift.frequency.apply(point.frequency_hz), point.period, value)?;
-    Some((value / hit.value).ln())
 }

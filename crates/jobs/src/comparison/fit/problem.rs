@@ -7,7 +7,7 @@
 //! pieces, and going over these ends in their order, with running sums of the pieces that are open, gives the
 //! smallest of all: not a local minimum.
 
-use super::{Used, shift};
+use super::used::Used;
 use crate::comparison::{Curves, Shift};
 
 /// Difference of sums of squares that is none.
@@ -55,7 +55,7 @@ impl Problem<'_> {
     }
 
     pub fn shift(&self, at: Place) -> Shift {
-        shift(self.offset, at[0], at[1])
+        Shift::new(self.offset, at[0], at[1])
     }
 
     /// The best factor of those that are tried, at a shift.

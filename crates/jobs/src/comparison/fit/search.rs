@@ -9,10 +9,7 @@
 //! than a tenth, but for the steepest parts, which make up a twentieth of all its rise and fall (at a fold
 //! the slope has no bound). A valley that is narrower than the grid is missed.
 
-use super::{
-    SecondMinimum,
-    problem::{Place, Problem, SAME, Trial},
-};
+use super::problem::{Place, Problem, SAME, Trial};
 
 /// Fewest and most trials of the shift of frequencies, change of the logarithm of a branch over a step, and
 /// part of the variation that may be steeper.
@@ -34,6 +31,22 @@ const CHI_SQUARED: f64 = 3.84;
 const WORSE: f64 = 0.1;
 /// Square of a difference of a point that is none: 1e-6, what tables of points are written to.
 const WRITTEN: f64 = 1e-12;
+
+/// Another minimum of the fit, in another valley of the shift of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SecondMinimum {
+    /// Factor, or offset [Hz].
+    pub frequency: f64,
+    /// Factor on values.
+    pub amplitude: f64,
+    /// Sum of squares of the points that the best one goes by, and what this one has more, over the former: 1
+    /// at least. Points that fit neither do not count.
+    pub cost_ratio: f64,
+    /// Points that it goes by.
+    pub points: usize,
+    /// Whether one of both numbers is at an end of what is tried.
+    pub at_end: bool,
+}
 
 impl Problem<'_> {
     /// The lowest places of all valleys of the shift of frequencies.

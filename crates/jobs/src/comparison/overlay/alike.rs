@@ -22,23 +22,15 @@
 
 use hammerbeam_signal::waveform::{Alignment, Waveform};
 
-use super::{Overlay, candidates::SPACING};
+use super::{
+    candidates::SPACING,
+    found::{Alike, Overlay},
+};
 
 /// Chi-squared of one freedom that is exceeded with 5 %.
 const CHI_SQUARED: f64 = 3.84;
 /// Difference of squares that is none: folding a record knows values between its samples to some 1e-5.
 const NONE: f64 = 1e-9;
-
-/// Orbits that are as alike as the most alike one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Alike {
-    /// How many.
-    pub count: usize,
-    /// Their branches, rising, each once.
-    pub branches: Vec<u32>,
-    /// Their lowest and highest frequency [Hz].
-    pub frequency_hz: (f64, f64),
-}
 
 /// The place of the orbit that leaves least of the measured waveform; of equal ones that with the largest
 /// correlation, and the first of those, whatever the number of threads.

@@ -4,7 +4,7 @@ use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_results::{StoreError, store::BranchRecord};
 use hammerbeam_study::Model;
 
-use super::{OverlaySettings, Sought};
+use super::settings::{OverlaySettings, Sought};
 use crate::{StoredBranches, comparison::thinned};
 
 /// Distance of orbits that are tried, as a part of the frequency.

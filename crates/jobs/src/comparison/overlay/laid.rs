@@ -7,11 +7,16 @@ use hammerbeam_signal::{
 };
 use hammerbeam_study::Model;
 
-use super::{Overlay, OverlayError, OverlaySettings, Tried, candidates::Candidate};
-use crate::comparison::course::{Course, LEFT, course, largest, size};
+use super::{candidates::Candidate, error::OverlayError, found::Overlay, settings::OverlaySettings};
+use crate::comparison::course::{Course, LEFT, Sampled, course, largest, size};
 
 /// Samples of an orbit in an excitation period, before the filter; a multiple of those of the waveform.
 const SAMPLES: usize = 4096;
+
+/// What came of an orbit.
+type Tried = Sampled<Overlay, OverlayError>;
+
+/// Lays an orbit under the measurement.
 pub(super) fn laid(
     model: &Model,
     (branch, row, orbit): &Candidate,

@@ -19,123 +19,24 @@
 
 mod alike;
 mod candidates;
+mod error;
+mod found;
 mod laid;
 mod notes;
+mod settings;
 
 use hammerbeam_attractor::InOrder;
-use hammerbeam_results::StoreError;
-use hammerbeam_signal::{
-    MeasuredQuantity, SignalError,
-    waveform::{Alignment, Shifts, Waveform},
-};
+use hammerbeam_signal::waveform::Waveform;
 use hammerbeam_study::Model;
 
-use super::{
-    Filter,
-    course::{NoneSampled, Sampled, sampled},
-};
+use super::course::sampled;
 use crate::{Observer, PooledOrder, StoredBranches};
-pub use alike::Alike;
 use candidates::Candidate;
+
+pub use error::OverlayError;
+pub use found::{Alike, Overlay};
 pub use notes::{LaidWaveform, OverlayAdvice, OverlayNote, nothing_alike};
-
-/// Which orbits are tried.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Sought {
-    /// Stored ones within a part of a frequency [Hz].
-    Near {
-        /// The frequency.
-        frequency_hz: f64,
-        /// The part.
-        part: f64,
-    },
-    /// Those at a frequency [Hz], corrected there.
-    At(f64),
-}
-
-/// How a course is laid over orbits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OverlaySettings {
-    /// What the sensor measures: displacement, velocity or acceleration of the response point of the model.
-    pub quantity: MeasuredQuantity,
-    /// The filter of the measurement, and whether it acts forwards and backwards.
-    pub filter: Option<(Filter, bool)>,
-    /// Which orbits are tried.
-    pub sought: Sought,
-    /// A branch, if it has to be that one.
-    pub branch: Option<u32>,
-    /// Which delays are allowed, in samples of the waveform.
-    pub shifts: Shifts,
-    /// The factor on measured values, where it is given; negative for a sensor that is turned around.
-    pub factor: Option<f64>,
-}
-
-/// The orbit that is most alike.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Overlay {
-    /// Its frequency [Hz].
-    pub frequency_hz: f64,
-    /// Number of its branch,
-    pub branch: u32,
-    /// and its row there, from 1 on; `None` if it was corrected at a frequency.
-    pub row: Option<usize>,
-    /// How it lies over the measurement; over its mirror image, if the factor is given and negative.
-    pub alignment: Alignment,
-    /// Largest correlation that an orbit among those tried has with the measurement turned around.
-    pub turned_correlation: f64,
-    /// Factor on measured values: given, or the best one.
-    pub factor: f64,
-    /// Root mean square of what is left over that of the computed course: with the factor 1, or -1 where
-    /// [`Overlay::factor`] is negative,
-    pub residual_before: f64,
-    /// and with that factor.
-    pub residual_after: f64,
-    /// The measured quantity behind the filter and with the lines that the record holds, as it is delayed, at
-    /// the samples of the waveform,
-    pub filtered: Vec<f64>,
-    /// and without filter, with all its lines.
-    pub unfiltered: Vec<f64>,
-    /// Displacement of the point [m], and of each moving support [m], so delayed.
-    pub displacement: Vec<f64>,
-    /// See above.
-    pub supports: Vec<Vec<f64>>,
-    /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
-    pub largest: (f64, f64),
-    /// Others that are as alike, as far as the record can tell: of other branches, or farther away than
-    /// neighbours on a branch.
-    pub alike: Option<Alike>,
-    /// Orbits that were tried,
-    pub tried: usize,
-    /// and others that could not be gone over.
-    pub skipped: usize,
-}
-
-/// Why nothing is laid over.
-#[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "each message names its fields")]
-#[non_exhaustive]
-pub enum OverlayError {
-    /// The store refuses.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// No orbit can be gone over.
-    #[error(transparent)]
-    NoneSampled(#[from] NoneSampled),
-    /// Nothing of the motion is left to compare.
-    #[error(
-        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
-    )]
-    FilteredAway { cut_off_hz: f64, left: f64 },
-    /// The waveform refuses.
-    #[error(transparent)]
-    Signal(#[from] SignalError),
-    /// A sensor that no orbit has.
-    #[error("an orbit shows displacement, velocity and acceleration of a point, no {quantity}")]
-    NoSuchSensor { quantity: &'static str },
-    /// Stopped from outside.
-    #[error("interrupted")]
-    Interrupted,
-}
+pub use settings::{OverlaySettings, Sought};
 
 /// Lays a measured waveform over the orbits of stored branches.
 ///
@@ -165,6 +66,3 @@ pub fn overlay(
     let best = best.and_then(|best| laid.into_iter().nth(best));
     Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, alike, ..best }))
 }
-
-/// What came of an orbit.
-type Tried = Sampled<Overlay, OverlayError>;

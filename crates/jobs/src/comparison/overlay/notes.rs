@@ -5,7 +5,7 @@ use hammerbeam_signal::{
     waveform::Waveform,
 };
 
-use super::Overlay;
+use super::found::Overlay;
 
 /// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of
 /// the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed

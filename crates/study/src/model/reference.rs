@@ -1,20 +1,12 @@
-//! Other numbers of the study as parameters: the study is built anew with each value, as in an update.
+//! The modes that those of a study with another number are held against.
 //!
 //! The state of a motion is that of the modes, which change with the number. They do so smoothly as long as
 //! they keep their order and the mesh its shares; their signs, which a point of the structure decides, are
 //! those of the modes of the study as it is.
 
-use std::sync::Arc;
-
-use hammerbeam_motion::{Family, Member};
 use hammerbeam_structure::{OutlinePoint, Reduced};
 
-use super::Model;
-use crate::{
-    StudyError, StudyFile,
-    file::{ParameterKind, Structure, Study},
-    number::{Number, model_with, number_named},
-};
+use crate::file::{ParameterKind, Structure, Study};
 
 /// Nodes as near as this, in lengths of the beam, are one.
 const SAME_PLACE: f64 = 1e-9;
@@ -40,50 +32,6 @@ pub(super) fn nodes_before_points(study: &Study, outline: &[OutlinePoint]) -> Ve
     let Structure::Beam(beam) = &study.structure else { return Vec::new() };
     let before = |at: f64| outline.iter().filter(|node| node.at < at - SAME_PLACE * beam.length_m).count();
     beam.points.iter().map(|point| point.at_m).chain(beam.borders_m()).map(before).collect()
-}
-
-/// The studies that differ in one number.
-#[derive(Debug)]
-pub(super) struct StudyFamily {
-    file: StudyFile,
-    number: Number,
-    reference: Arc<Reference>,
-}
-
-impl StudyFamily {
-    /// The family of a study over the number with that key path; `None` if it has none, or several.
-    pub fn new(file: &StudyFile, key: &str, reference: Arc<Reference>) -> Option<Self> {
-        let number = number_named(&file.text, key).ok().flatten()?;
-        Some(Self { file: file.clone(), number, reference })
-    }
-
-    /// The value of the study as it is.
-    pub fn value(&self) -> f64 {
-        self.number.value
-    }
-}
-
-impl Family for StudyFamily {
-    fn member(&self, value: f64) -> Result<Member, String> {
-        let built = model_with(&self.file, std::slice::from_ref(&self.number), &[value])
-            .and_then(|file| Model::like(&file, Some(&self.reference)));
-        let model =
-            built.map_err(|error| format!("{} = {value}: {}", self.number.keys[0], in_short(&error)))?;
-        let response = (model.response.shape, model.response.support_ratios);
-        Ok(Member { system: model.system, response })
-    }
-}
-
-/// What is wrong, without the text around it.
-fn in_short(error: &StudyError) -> String {
-    match error {
-        StudyError::Invalid(report) => {
-            let messages: Vec<&str> =
-                report.problems.iter().map(|problem| problem.message.as_str()).collect();
-            messages.join("; ")
-        }
-        other => other.to_string(),
-    }
 }
 
 /// The numbers that vary in a study, each once, with the widths of their ranges.

@@ -1,0 +1,106 @@
+//! Response diagrams over the frequency.
+
+use hammerbeam_figure::{
+    ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
+};
+use hammerbeam_orbit::{BranchEventKind, Stability};
+use hammerbeam_results::{Store, StoreError, row::Row};
+use hammerbeam_study::StudyFile;
+
+use crate::{Album, DrawingError, Drawn, FigureScale, FigureSelection, motions::chaotic_ranges};
+
+/// Quantities of response diagrams, with the words that files have for them.
+const FIGURES: [(&str, ResponseQuantity); 4] = [
+    ("displacement", ResponseQuantity::Displacement),
+    ("acceleration", ResponseQuantity::Acceleration),
+    ("force", ResponseQuantity::ContactForce),
+    ("velocity", ResponseQuantity::ImpactVelocity),
+];
+
+/// Draws the branches, one figure for each quantity.
+pub fn draw(
+    store: &Store,
+    file: &StudyFile,
+    selection: &FigureSelection,
+    drawn: &mut Drawn<'_>,
+) -> Result<(), DrawingError> {
+    let diagram = diagram(store, file.study.excitation.range_hz())?;
+    if diagram.curves.is_empty() {
+        return Ok(());
+    }
+    for (word, quantity) in quantities(&diagram.curves) {
+        let settings =
+            ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
+    }
+    Ok(())
+}
+
+/// What there is to draw of branches, with the words that files have for it: where nothing is ever touched
+/// neither contact forces nor impact velocities.
+pub fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, ResponseQuantity)> {
+    let has = |value: fn(&ResponsePoint) -> f64| {
+        curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
+    };
+    let (has_forces, has_impacts) =
+        (has(|point| point.contact_force_n), has(|point| point.impact_velocity_m_s));
+    FIGURES.into_iter().filter(move |(_, quantity)| match quantity {
+        ResponseQuantity::ContactForce => has_forces,
+        ResponseQuantity::ImpactVelocity => has_impacts,
+        _ => true,
+    })
+}
+
+pub fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
+    let choice = match scale {
+        FigureScale::Automatic => ScaleChoice::Automatic,
+        FigureScale::Linear => ScaleChoice::Linear,
+        FigureScale::Logarithmic => ScaleChoice::Logarithmic,
+    };
+    ResponseSettings {
+        style: album.wide(),
+        displacement_scale: choice,
+        acceleration_scale: choice,
+        contact_scale: choice,
+        detail_hz: None,
+    }
+}
+
+fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {
+    let mut curves = Vec::new();
+    for branch in store.branches()? {
+        let mut points = Vec::new();
+        store.each_row::<StoreError>(&branch, |row| {
+            points.push(point(&row));
+            Ok(())
+        })?;
+        curves.push(ResponseCurve { period_multiple: branch.period_multiple, points });
+    }
+    Ok(ResponseDiagram {
+        title: store.about("title")?,
+        parameter: String::new(),
+        curves,
+        frequency_range_hz: Some((low, high)),
+        chaotic_ranges_hz: chaotic_ranges(store)?,
+        measured: Vec::new(),
+    })
+}
+
+/// A row as a point of a response diagram, over what varies.
+pub fn point(row: &Row) -> ResponsePoint {
+    let has = |kind| row.events.has(kind);
+    ResponsePoint {
+        frequency_hz: row.parameter,
+        displacement_m: row.maxima.displacement,
+        acceleration_m_s2: row.maxima.acceleration,
+        contact_force_n: row.maxima.contact_force,
+        impact_velocity_m_s: row.maxima.impact_velocity,
+        stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
+        fold: has(BranchEventKind::Fold),
+        grazing: has(BranchEventKind::Grazing),
+        flip: has(BranchEventKind::Flip),
+        neimark_sacker: has(BranchEventKind::NeimarkSacker),
+        branch_point: has(BranchEventKind::BranchPoint),
+    }
+}

@@ -1,0 +1,58 @@
+//! Faults of a structure or a system, at the keys of the study that are to blame.
+
+use hammerbeam_motion::SystemError;
+use hammerbeam_structure::StructureError;
+
+use super::structure::ReduceError;
+use crate::{
+    document::unit::readable,
+    file::{StudyError, StudyFile},
+};
+
+/// The fault of a structure, or of a file of it, at the key that is to blame.
+pub(super) fn reduce_fault(file: &StudyFile, error: &ReduceError) -> StudyError {
+    match error {
+        ReduceError::Structure(error) => structure_fault(file, error),
+        ReduceError::Files(problem) => {
+            file.fault(&format!("structure.{}", problem.key), problem.message.clone(), Vec::new())
+        }
+    }
+}
+
+/// The fault of a structure at the key that is to blame.
+fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
+    let key = match error {
+        StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
+        StructureError::LumpedIsNotReduced
+        | StructureError::NotHeld { .. }
+        | StructureError::NoInterface
+        | StructureError::TooManyCoordinates { .. } => "reduction.method",
+        StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
+        StructureError::RowCount { what: "mass", .. } => "structure.mass",
+        StructureError::RowCount { what: "damping", .. } => "structure.damping",
+        StructureError::NoLabels => "structure.kind",
+        StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
+        StructureError::MovedTwice { .. } => "excitation.support",
+        _ => "structure",
+    };
+    let help = match error {
+        StructureError::CutOffBelowFirstMode { first_hz, .. } => {
+            let first = readable(*first_hz, "Hz");
+            vec![format!("allowed: more than {first}, so that one elastic mode is kept at least")]
+        }
+        StructureError::DampingRatioCount { modes, .. } => {
+            vec![format!("allowed: one ratio for all modes, or a list of {modes}")]
+        }
+        _ => Vec::new(),
+    };
+    file.fault(key, error.to_string(), help)
+}
+
+/// The fault of a system at the key that is to blame.
+pub(super) fn system_fault(file: &StudyFile, error: &SystemError) -> StudyError {
+    let key = match error {
+        SystemError::NoMovingSupport => "excitation.at",
+        _ => "structure",
+    };
+    file.fault(key, error.to_string(), Vec::new())
+}
