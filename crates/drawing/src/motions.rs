@@ -11,7 +11,7 @@ use hammerbeam_jobs::{
 };
 use hammerbeam_results::{
     Store, StoreError,
-    store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
+    store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion, SettledOrigin},
 };
 use hammerbeam_study::{Model, StudyFile};
 
@@ -194,10 +194,10 @@ fn ranges_of(seen: &[(f64, bool)]) -> Vec<(f64, f64)> {
 
 fn swept(motion: &SettledMotion) -> SweptMotion {
     SweptMotion {
-        origin: match motion.origin.as_str() {
-            "up" => SweepOrigin::Up,
-            "down" => SweepOrigin::Down,
-            _ => SweepOrigin::Start,
+        origin: match motion.origin {
+            SettledOrigin::Up => SweepOrigin::Up,
+            SettledOrigin::Down => SweepOrigin::Down,
+            SettledOrigin::Start(_) => SweepOrigin::Start,
         },
         frequency_hz: motion.point.frequency_hz,
         kind: kind(motion.point.class),

@@ -3,7 +3,10 @@
 use std::fmt::Display;
 
 use hammerbeam_orbit::Side;
-use hammerbeam_results::{end::BranchEnd, store::JobRecord};
+use hammerbeam_results::{
+    end::BranchEnd,
+    store::{JobOutcome, JobRecord},
+};
 
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +64,7 @@ pub trait Observer {
     /// A search of a run is being worked at.
     fn working(&mut self, _job: &JobRecord) {}
     /// A search of a run ended; its outcome, in words.
-    fn job_ended(&mut self, _job: &JobRecord, _outcome: &str) {}
+    fn job_ended(&mut self, _job: &JobRecord, _outcome: JobOutcome) {}
     /// A start of a run is that of a new branch.
     fn branch_begun(&mut self, _branch: u32, _period_multiple: u32) {}
     /// There are new solutions of a run.

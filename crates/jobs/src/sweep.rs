@@ -8,7 +8,7 @@ use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_results::{
     Store,
     export::write_sweep,
-    store::{RequestKind, SettledMotion},
+    store::{RequestKind, SettledMotion, SettledOrigin},
 };
 use serde::{Serialize, Serializer};
 
@@ -69,7 +69,7 @@ impl Serialize for SweptMotion {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct Document<'a> {
-            from: &'a str,
+            from: String,
             frequency_hz: f64,
             class: &'static str,
             period: Option<usize>,
@@ -84,7 +84,7 @@ impl Serialize for SweptMotion {
         }
         let SettledMotion { origin, point } = &self.motion;
         let document = Document {
-            from: origin,
+            from: origin.to_string(),
             frequency_hz: point.frequency_hz,
             class: point.class.name(),
             period: point.class.period(),
@@ -181,13 +181,13 @@ fn numbered_and_written(
 }
 
 /// Directions and frequencies, one after the other.
-fn pieces(request: &SweepRequest, upward: &[f64]) -> (RequestKind, Vec<(&'static str, f64)>) {
-    let mut pieces: Vec<_> = upward.iter().map(|frequency_hz| ("up", *frequency_hz)).collect();
+fn pieces(request: &SweepRequest, upward: &[f64]) -> (RequestKind, Vec<(SettledOrigin, f64)>) {
+    let mut pieces: Vec<_> = upward.iter().map(|frequency_hz| (SettledOrigin::Up, *frequency_hz)).collect();
     match request.starts {
         SweepStarts::Many(_) => (RequestKind::Starts, pieces),
         SweepStarts::CarriedOver { down, .. } => {
             if down {
-                pieces.extend(upward.iter().rev().map(|frequency_hz| ("down", *frequency_hz)));
+                pieces.extend(upward.iter().rev().map(|frequency_hz| (SettledOrigin::Down, *frequency_hz)));
             }
             (RequestKind::Sweep, pieces)
         }
@@ -215,7 +215,7 @@ fn words(request: &SweepRequest, upward: &[f64], state: &[f64]) -> Vec<String> {
 }
 
 struct Work<'a> {
-    pieces: &'a [(&'static str, f64)],
+    pieces: &'a [(SettledOrigin, f64)],
     observer: &'a mut dyn Observer,
     kept: KeptRequest,
     found: Vec<SettledMotion>,
@@ -240,7 +240,7 @@ impl Work<'_> {
                 }
             };
             state.clone_from(&point.state);
-            let motion = SettledMotion { origin: (*direction).to_owned(), point };
+            let motion = SettledMotion { origin: *direction, point };
             self.kept
                 .add(|store, request| store.append_settled(request, piece, std::slice::from_ref(&motion)))?;
             self.found.push(motion);
@@ -283,11 +283,10 @@ impl Work<'_> {
             let points = PooledOrder::new(threads, self.observer).in_order(&states, make, &at);
             let Some(points) = points else { return Ok(()) };
             let mut motions = Vec::new();
-            for (start, point) in points.into_iter().enumerate() {
+            for (start, point) in (1..).zip(points) {
                 match point {
-                    Ok(point) => motions.push(SettledMotion { origin: (start + 1).to_string(), point }),
+                    Ok(point) => motions.push(SettledMotion { origin: SettledOrigin::Start(start), point }),
                     Err(error) => {
-                        let start = start + 1;
                         self.observer.notice(&format_args!("{frequency_hz} Hz, start {start}: {error}"));
                     }
                 }

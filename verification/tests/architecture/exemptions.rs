@@ -2,8 +2,6 @@
 
 /// The kernel is rebuilt on four nouns by an issue of its own (`motion/src/exact`).
 const KERNEL: &str = "until the kernel is rebuilt";
-/// Files that were moved whole into crates of their own.
-const MOVED: &str = "moved whole, not untangled yet";
 /// Types that the study file shares with what it is read into, and the like.
 const SHARED: &str = "until one of them has a name of its own";
 /// Lines that the formatter cannot break: literals, tables, sentences.
@@ -17,7 +15,6 @@ pub const DOORS: &[(&str, usize, &str)] = &[
     ("crates/motion/src/exact/mod.rs ExactIntegrator", 36, KERNEL),
     ("crates/motion/src/general/system_field.rs SystemField", 7, KERNEL),
     ("crates/motion/src/system.rs System", 7, KERNEL),
-    ("crates/results/src/store/folder.rs Store", 12, MOVED),
 ];
 
 /// Public types of one name.

@@ -4,7 +4,7 @@ use hammerbeam_attractor::Class;
 use hammerbeam_figure::{MotionKind, PageMotion, PageSection, SectionPlane};
 use hammerbeam_results::{
     Store, StoreError,
-    store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
+    store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion, SettledOrigin},
 };
 
 use super::motions;
@@ -67,9 +67,9 @@ fn of_spectrum(request: i64, record: &ExponentRecord) -> PageSection {
 /// A sweep keeps displacements at phase 0 alone: each is drawn over the one before.
 fn of_sweep(request: i64, motion: &SettledMotion) -> PageSection {
     let samples = &motion.point.samples;
-    let origin = match motion.origin.as_str() {
-        direction @ ("up" | "down") => format!("sweep {request}, {direction}"),
-        start => format!("sweep {request}, start {start}"),
+    let origin = match motion.origin {
+        direction @ (SettledOrigin::Up | SettledOrigin::Down) => format!("sweep {request}, {direction}"),
+        SettledOrigin::Start(start) => format!("sweep {request}, start {start}"),
     };
     PageSection {
         frequency_hz: motion.point.frequency_hz,

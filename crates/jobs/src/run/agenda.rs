@@ -122,6 +122,8 @@ impl Start {
 pub(super) struct Job {
     pub record: JobRecord,
     pub starts: Vec<Start>,
+    /// The branch that the last start was on that is gone since it is on one.
+    pub on_branch: Option<u32>,
     /// A thread is evaluating it.
     pub running: bool,
 }
@@ -176,7 +178,12 @@ impl Agenda {
     pub fn add_new_jobs(&mut self, store: &Store) -> Result<(), StoreError> {
         let known = self.jobs.len();
         let new = store.jobs()?.into_iter().skip(known);
-        self.jobs.extend(new.map(|record| Job { record, starts: Vec::new(), running: false }));
+        self.jobs.extend(new.map(|record| Job {
+            record,
+            starts: Vec::new(),
+            on_branch: None,
+            running: false,
+        }));
         Ok(())
     }
 

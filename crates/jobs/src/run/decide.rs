@@ -3,7 +3,7 @@
 use hammerbeam_orbit::Side;
 use hammerbeam_results::{
     end::BranchEnd,
-    store::{Store, StoreError},
+    store::{JobOutcome, Store, StoreError},
 };
 
 use super::{Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
@@ -66,7 +66,7 @@ impl Decisions<'_> {
                 let key = start.key;
                 self.drop_start(agenda, index, key)?;
             }
-            return self.finish(agenda, index, "a harmonic branch passes there");
+            return self.finish(agenda, index, JobOutcome::Covered);
         }
         if !record.evaluated {
             return Ok(Verdict::Waits);
@@ -79,8 +79,7 @@ impl Decisions<'_> {
                     Finding::New => self.accept(agenda, key)?,
                     Finding::OnBranch(branch) => {
                         self.drop_start(agenda, index, key)?;
-                        let outcome = format!("on branch {branch}");
-                        agenda.jobs[index].record.message = Some(outcome);
+                        agenda.jobs[index].on_branch = Some(branch);
                         continue;
                     }
                 }
@@ -153,28 +152,29 @@ impl Decisions<'_> {
     /// The events of the new branches become jobs.
     fn conclude(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {
         let job = &agenda.jobs[index];
-        let mut outcome: Vec<String> = job
-            .starts
-            .iter()
-            .filter_map(|start| start.branch)
-            .map(|branch| format!("branch {branch}"))
-            .collect();
-        outcome.extend(job.record.message.clone());
-        if outcome.is_empty() {
-            outcome.push("nothing".to_owned());
-        }
+        let has_branch = job.starts.iter().any(|start| start.branch.is_some());
+        let outcome = match job.on_branch {
+            _ if has_branch => JobOutcome::NewBranches,
+            Some(branch) => JobOutcome::OnBranch(branch),
+            None => JobOutcome::Nothing,
+        };
         for start in &agenda.jobs[index].starts {
             let jobs = follow_ups::of_branch(start, agenda.jobs[index].record.depth, self.plan);
             self.store.add_jobs(&jobs)?;
         }
         agenda.add_new_jobs(self.store)?;
-        self.finish(agenda, index, &outcome.join(", "))
+        self.finish(agenda, index, outcome)
     }
 
-    fn finish(&mut self, agenda: &mut Agenda, index: usize, outcome: &str) -> Result<Verdict, StoreError> {
+    fn finish(
+        &mut self,
+        agenda: &mut Agenda,
+        index: usize,
+        outcome: JobOutcome,
+    ) -> Result<Verdict, StoreError> {
         let record = &mut agenda.jobs[index].record;
         self.store.finish_job(record.id, outcome)?;
-        record.outcome = Some(outcome.to_owned());
+        record.outcome = Some(outcome);
         self.observer.job_ended(record, outcome);
         Ok(Verdict::Finished)
     }

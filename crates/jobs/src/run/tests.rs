@@ -5,7 +5,7 @@ use hammerbeam_results::{
     columns::TableColumn,
     end::BranchEnd,
     export::{BranchTable, export_csv},
-    store::{JobKind, Store, StoreError},
+    store::{JobKind, JobOutcome, Store, StoreError},
 };
 use hammerbeam_study::file::StudyFile;
 use tempfile::{TempDir, tempdir};
@@ -251,7 +251,7 @@ fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
     let jobs = Store::open(folder.path()).unwrap().jobs().unwrap();
     let added: Vec<_> = jobs.iter().filter(|job| job.kind == JobKind::NoneStable).collect();
     assert!(!added.is_empty() && added.len() <= 24, "{}", added.len());
-    assert!(added.iter().all(|job| job.outcome.as_deref() == Some("nothing")));
+    assert!(added.iter().all(|job| job.outcome == Some(JobOutcome::Nothing)));
     let first = jobs.iter().position(|job| job.kind == JobKind::NoneStable).unwrap();
     assert!(jobs[..first].iter().all(|job| job.kind != JobKind::NoneStable) && first > 24);
 }

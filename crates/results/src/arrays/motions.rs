@@ -140,7 +140,7 @@ fn settled(motions: &[SettledMotion]) -> Vec<ArrayTable> {
     let number = |of: &dyn Fn(&SettledMotion) -> Option<f64>| {
         ArrayValues::Numbers(motions.iter().map(|motion| or_nan(of(motion))).collect())
     };
-    let origin = motions.iter().map(|motion| motion.origin.clone().into());
+    let origin = motions.iter().map(|motion| motion.origin.to_string().into());
     let class = motions.iter().map(|motion| motion.point.class.name().into());
     let period = motions.iter().map(|motion| or_none(motion.point.class.period()));
     let sweep = ArrayTable::new(
@@ -162,7 +162,10 @@ fn settled(motions: &[SettledMotion]) -> Vec<ArrayTable> {
     let samples = ArrayTable::new(
         "sweep_samples",
         named([
-            ("from", ArrayValues::Words(each().map(|(motion, _)| motion.origin.clone().into()).collect())),
+            (
+                "from",
+                ArrayValues::Words(each().map(|(motion, _)| motion.origin.to_string().into()).collect()),
+            ),
             (
                 "frequency_hz",
                 ArrayValues::Numbers(each().map(|(motion, _)| motion.point.frequency_hz).collect()),

@@ -45,7 +45,7 @@ pub fn write_sweep(
     for (index, SettledMotion { origin, point }) in motions.iter().enumerate() {
         let class = point.class.name().to_owned();
         table.row(&[
-            origin.clone(),
+            origin.to_string(),
             number(point.frequency_hz),
             class.clone(),
             optional(point.class.period()),
@@ -57,7 +57,7 @@ pub fn write_sweep(
             optional(branches.get(index).copied().flatten()),
         ])?;
         for sample in &point.samples {
-            samples.row(&[origin.clone(), number(point.frequency_hz), class.clone(), number(*sample)])?;
+            samples.row(&[origin.to_string(), number(point.frequency_hz), class.clone(), number(*sample)])?;
         }
     }
     Ok(vec![table.finish()?, samples.finish()?])

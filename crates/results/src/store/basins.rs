@@ -4,66 +4,55 @@
 //! rounds are there, which is what the computation goes on from, to the same bits.
 
 use hammerbeam_attractor::{Attractor, Round};
-use rusqlite::{Row as SqlRow, params, types::Value};
+use rusqlite::{Connection, Row as SqlRow, Transaction, params, types::Value};
 
-use super::{Store, StoreError, blob, class::Kind, requests};
+use super::{StoreError, blob, class::Kind, requests};
 
-impl Store {
-    /// Basins of a request: the attractor of each cell, from the first one on, and the attractors.
-    ///
-    /// # Errors
-    /// The database refuses, or something in it is damaged.
-    pub fn basins(&self, request: i64) -> Result<(Vec<u32>, Vec<Attractor>), StoreError> {
-        let mut statement =
-            self.connection.prepare("SELECT attractor FROM cell WHERE request = ?1 ORDER BY number")?;
-        let cells = statement.query_map([request], |row| row.get(0))?.collect::<Result<_, _>>()?;
-        let select = "SELECT class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one,
-            state_length, states
-            FROM attractor WHERE request = ?1 ORDER BY number";
-        let mut statement = self.connection.prepare(select)?;
-        let mut rows = statement.query([request])?;
-        let mut attractors = Vec::new();
-        while let Some(row) = rows.next()? {
-            attractors.push(attractor(row)?);
-        }
-        Ok((cells, attractors))
+/// Basins of a request: the attractor of each cell, from the first one on, and the attractors.
+pub fn basins(connection: &Connection, request: i64) -> Result<(Vec<u32>, Vec<Attractor>), StoreError> {
+    let mut statement =
+        connection.prepare("SELECT attractor FROM cell WHERE request = ?1 ORDER BY number")?;
+    let cells = statement.query_map([request], |row| row.get(0))?.collect::<Result<_, _>>()?;
+    let select = "SELECT class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one,
+        state_length, states
+        FROM attractor WHERE request = ?1 ORDER BY number";
+    let mut statement = connection.prepare(select)?;
+    let mut rows = statement.query([request])?;
+    let mut attractors = Vec::new();
+    while let Some(row) = rows.next()? {
+        attractors.push(attractor(row)?);
     }
-
-    /// Adds a round to the basins of a request.
-    ///
-    /// * `known`: number of attractors that were known before it.
-    ///
-    /// # Errors
-    /// The database refuses, or the cells before it are not done; nothing of the round is there then.
-    pub fn append_round(&mut self, request: i64, round: &Round, known: usize) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        let first = round.first as u64;
-        requests::advance(&transaction, request, (first, first + round.cells.len() as u64))?;
-        for (index, cell) in round.cells.iter().enumerate() {
-            let values = params![request, (round.first + index) as i64, cell];
-            transaction
-                .execute("INSERT INTO cell (request, number, attractor) VALUES (?1, ?2, ?3)", values)?;
-        }
-        for (index, found) in round.found.iter().enumerate() {
-            let kind = Kind {
-                class: found.class,
-                largest_exponent: found.largest_exponent,
-                zero_one: found.zero_one,
-            };
-            let mut values = vec![Value::Integer(request), Value::Integer((known + index + 1) as i64)];
-            values.extend(kind.columns());
-            values.push(Value::Integer(found.states.first().map_or(0, Vec::len) as i64));
-            values.push(Value::Blob(blob::pack(found.states.iter().flatten())));
-            let insert = "INSERT INTO attractor (request, number, class, period, doubt, exponent_per_s,
-                exponent_half_width_per_s, zero_one, state_length, states)
-                VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)";
-            transaction.execute(insert, rusqlite::params_from_iter(values))?;
-        }
-        transaction.commit()?;
-        Ok(())
-    }
+    Ok((cells, attractors))
 }
 
+/// Adds a round to the basins of a request.
+pub fn append_round(
+    transaction: Transaction<'_>,
+    request: i64,
+    round: &Round,
+    known: usize,
+) -> Result<(), StoreError> {
+    let first = round.first as u64;
+    requests::advance(&transaction, request, (first, first + round.cells.len() as u64))?;
+    for (index, cell) in round.cells.iter().enumerate() {
+        let values = params![request, (round.first + index) as i64, cell];
+        transaction.execute("INSERT INTO cell (request, number, attractor) VALUES (?1, ?2, ?3)", values)?;
+    }
+    for (index, found) in round.found.iter().enumerate() {
+        let kind =
+            Kind { class: found.class, largest_exponent: found.largest_exponent, zero_one: found.zero_one };
+        let mut values = vec![Value::Integer(request), Value::Integer((known + index + 1) as i64)];
+        values.extend(kind.columns());
+        values.push(Value::Integer(found.states.first().map_or(0, Vec::len) as i64));
+        values.push(Value::Blob(blob::pack(found.states.iter().flatten())));
+        let insert = "INSERT INTO attractor (request, number, class, period, doubt, exponent_per_s,
+            exponent_half_width_per_s, zero_one, state_length, states)
+            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)";
+        transaction.execute(insert, rusqlite::params_from_iter(values))?;
+    }
+    transaction.commit()?;
+    Ok(())
+}
 fn attractor(row: &SqlRow<'_>) -> Result<Attractor, StoreError> {
     let Kind { class, largest_exponent, zero_one } = Kind::read(row, 0)?;
     let length = (row.get::<_, i64>(6)? as usize).max(1);

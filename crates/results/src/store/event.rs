@@ -1,9 +1,9 @@
 //! What is known of the event at a solution.
 
 use hammerbeam_orbit::{ContactChange, EventStatus, LocatedEvent};
-use rusqlite::{Row, Transaction, params_from_iter, types::Value};
+use rusqlite::{Connection, Row, Transaction, params_from_iter, types::Value};
 
-use super::{Store, StoreError, blob};
+use super::{StoreError, blob};
 
 /// Names of the columns of an event.
 const NAMES: &str =
@@ -58,32 +58,10 @@ fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
     })
 }
 
-/// Multipliers end to end, as pairs.
-fn pairs(bytes: &[u8]) -> Result<Vec<[f64; 2]>, StoreError> {
-    let numbers = blob::unpack("multipliers", bytes, bytes.len() / 8)?;
-    Ok(numbers.as_chunks::<2>().0.to_vec())
-}
-
-impl Store {
-    /// What is known of the event at a solution, if there is one.
-    ///
-    /// # Errors
-    /// The database refuses, or the event is damaged.
-    pub fn event(&self, key: i64) -> Result<Option<LocatedEvent>, StoreError> {
-        let select = format!("SELECT {NAMES} FROM event WHERE solution = ?1");
-        let mut statement = self.connection.prepare_cached(&select)?;
-        let mut rows = statement.query([key])?;
-        rows.next()?.map(read_event).transpose()
-    }
-
-    /// All Floquet multipliers of a stored solution.
-    ///
-    /// # Errors
-    /// The database refuses, or they are damaged.
-    pub fn multipliers(&self, key: i64) -> Result<Vec<[f64; 2]>, StoreError> {
-        self.check_solution(key).map_err(|error| self.damaged(key, error))?;
-        let select = "SELECT multipliers FROM solution WHERE id = ?1";
-        let bytes: Vec<u8> = self.connection.prepare_cached(select)?.query_row([key], |row| row.get(0))?;
-        pairs(&bytes)
-    }
+/// What is known of the event at a solution, if there is one.
+pub(super) fn event(connection: &Connection, key: i64) -> Result<Option<LocatedEvent>, StoreError> {
+    let select = format!("SELECT {NAMES} FROM event WHERE solution = ?1");
+    let mut statement = connection.prepare_cached(&select)?;
+    let mut rows = statement.query([key])?;
+    rows.next()?.map(read_event).transpose()
 }

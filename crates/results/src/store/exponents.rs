@@ -1,9 +1,9 @@
 //! Spectra of Lyapunov exponents.
 
 use hammerbeam_attractor::{Convergence, Estimate, Spectrum};
-use rusqlite::{Row as SqlRow, params};
+use rusqlite::{Connection, Row as SqlRow, Transaction, params};
 
-use super::{Store, StoreError, blob, requests};
+use super::{StoreError, blob, requests};
 
 /// The exponents of a motion at a frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,72 +23,60 @@ pub struct ExponentRecord {
     pub section: Vec<[f64; 2]>,
 }
 
-impl Store {
-    /// Spectra of a request, in their order.
-    ///
-    /// # Errors
-    /// The database refuses, or something in it is damaged.
-    pub fn exponents(&self, request: i64) -> Result<Vec<ExponentRecord>, StoreError> {
-        let select = "SELECT frequency_hz, sections_per_period, time_s, sum_per_s, divergence_per_s,
-            kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section,
-            expected_sum_per_s FROM exponents WHERE request = ?1 ORDER BY number";
-        let mut statement = self.connection.prepare(select)?;
-        let mut rows = statement.query([request])?;
-        let mut records = Vec::new();
-        while let Some(row) = rows.next()? {
-            records.push(record(row)?);
-        }
-        Ok(records)
+/// Spectra of a request, in their order.
+pub fn exponents(connection: &Connection, request: i64) -> Result<Vec<ExponentRecord>, StoreError> {
+    let select = "SELECT frequency_hz, sections_per_period, time_s, sum_per_s, divergence_per_s,
+        kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section,
+        expected_sum_per_s FROM exponents WHERE request = ?1 ORDER BY number";
+    let mut statement = connection.prepare(select)?;
+    let mut rows = statement.query([request])?;
+    let mut records = Vec::new();
+    while let Some(row) = rows.next()? {
+        records.push(record(row)?);
     }
-
-    /// Adds a spectrum to a request.
-    ///
-    /// * `piece`: its number, counted from 0; those before it are done.
-    ///
-    /// # Errors
-    /// The database refuses, or the pieces before it are not done; nothing of it is there then.
-    pub fn append_exponents(
-        &mut self,
-        request: i64,
-        piece: u64,
-        record: &ExponentRecord,
-    ) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        requests::advance(&transaction, request, (piece, piece + 1))?;
-        let spectrum = &record.spectrum;
-        let pairs: Vec<f64> =
-            spectrum.exponents.iter().flat_map(|exponent| [exponent.value, exponent.half_width]).collect();
-        let curve: Vec<f64> = spectrum
-            .convergence
-            .iter()
-            .flat_map(|place| std::iter::once(place.time).chain(place.exponents.iter().copied()))
-            .collect();
-        let insert = "INSERT INTO exponents (request, number, frequency_hz, sections_per_period, time_s,
-            sum_per_s, divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents,
-            convergence, section, expected_sum_per_s)
-            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
-        let values = params![
-            request,
-            piece as i64,
-            record.frequency_hz,
-            record.sections_per_period as i64,
-            spectrum.time,
-            spectrum.sum,
-            record.divergence,
-            spectrum.kaplan_yorke_dimension,
-            spectrum.block_correlation,
-            record.zero_one,
-            blob::pack(&pairs),
-            blob::pack(&curve),
-            blob::pack(record.section.iter().flatten()),
-            spectrum.expected_sum,
-        ];
-        transaction.execute(insert, values)?;
-        transaction.commit()?;
-        Ok(())
-    }
+    Ok(records)
 }
 
+/// Adds a spectrum to a request.
+pub fn append_exponents(
+    transaction: Transaction<'_>,
+    request: i64,
+    piece: u64,
+    record: &ExponentRecord,
+) -> Result<(), StoreError> {
+    requests::advance(&transaction, request, (piece, piece + 1))?;
+    let spectrum = &record.spectrum;
+    let pairs: Vec<f64> =
+        spectrum.exponents.iter().flat_map(|exponent| [exponent.value, exponent.half_width]).collect();
+    let curve: Vec<f64> = spectrum
+        .convergence
+        .iter()
+        .flat_map(|place| std::iter::once(place.time).chain(place.exponents.iter().copied()))
+        .collect();
+    let insert = "INSERT INTO exponents (request, number, frequency_hz, sections_per_period, time_s,
+        sum_per_s, divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents,
+        convergence, section, expected_sum_per_s)
+        VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
+    let values = params![
+        request,
+        piece as i64,
+        record.frequency_hz,
+        record.sections_per_period as i64,
+        spectrum.time,
+        spectrum.sum,
+        record.divergence,
+        spectrum.kaplan_yorke_dimension,
+        spectrum.block_correlation,
+        record.zero_one,
+        blob::pack(&pairs),
+        blob::pack(&curve),
+        blob::pack(record.section.iter().flatten()),
+        spectrum.expected_sum,
+    ];
+    transaction.execute(insert, values)?;
+    transaction.commit()?;
+    Ok(())
+}
 fn record(row: &SqlRow<'_>) -> Result<ExponentRecord, StoreError> {
     let numbers = |place: usize, what: &'static str| -> Result<Vec<f64>, StoreError> {
         let bytes: Vec<u8> = row.get(place)?;

@@ -10,6 +10,7 @@
 //! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so
 //! that no branch has to fit into memory.
 
+mod agenda;
 mod basins;
 mod blob;
 mod checksum;
@@ -21,6 +22,7 @@ mod folder;
 mod jobs;
 mod keys;
 mod lock;
+mod motions;
 mod pieces;
 mod place;
 mod read;
@@ -38,13 +40,13 @@ pub use checksum::add_checksums;
 pub use error::{DATABASE, StoreError};
 pub use exponents::ExponentRecord;
 pub use folder::Store;
-pub use jobs::{JobKind, JobRecord};
+pub use jobs::{JobKind, JobOutcome, JobRecord};
 pub use keys::{MOST_STARTS, solution_key, start_of_key};
 pub use pieces::{Piece, PieceKind, PieceRecord};
 pub use read::{BranchRecord, PlacedRow, StoredMemory, WalkRecord};
 pub use requests::{RequestKind, RequestRecord};
 pub use schema::SCHEMA_VERSION;
-pub use settled::SettledMotion;
+pub use settled::{SettledMotion, SettledOrigin};
 pub use simulated::{SimulatedChunk, SimulatedContact, SimulatedTouch};
 pub use simulation_layout::SimulationLayout;
 pub use starts::StartRecord;

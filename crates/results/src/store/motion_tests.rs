@@ -49,7 +49,7 @@ fn attractors() -> Vec<Attractor> {
 
 fn motions() -> Vec<SettledMotion> {
     let of = |(class, largest_exponent, zero_one)| SettledMotion {
-        origin: "up".to_owned(),
+        origin: SettledOrigin::Up,
         point: SweepPoint {
             frequency_hz: 0.1,
             class,

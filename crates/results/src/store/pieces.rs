@@ -6,12 +6,12 @@
 
 use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution};
 use hammerbeam_study::file::CurveOf;
-use rusqlite::params;
+use rusqlite::{Connection, Transaction, params};
 
 use super::{
-    Store, StoreError,
+    StoreError,
     keys::starts_of_piece,
-    read::BranchRecord,
+    read::{BranchRecord, branches_of},
     starts::{NewStart, StartRecord, delete_start},
 };
 use crate::{end_text::BranchOver, row::SolvedRow};
@@ -98,124 +98,98 @@ impl PieceRecord {
     }
 }
 
-impl Store {
-    /// Throws away pieces that the study does not ask for any more, notes new ones, and gives all the numbers
-    /// of their places in it.
-    ///
-    /// # Errors
-    /// The database refuses; nothing is changed then.
-    pub fn keep_pieces(&mut self, wanted: &[Piece]) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        let stored: Vec<(u32, String)> = transaction
-            .prepare("SELECT id, definition FROM piece")?
-            .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+/// Throws away pieces that the study does not ask for any more, notes new ones, and gives all the numbers
+/// of their places in it.
+pub fn keep_pieces(transaction: Transaction<'_>, wanted: &[Piece]) -> Result<(), StoreError> {
+    let stored: Vec<(u32, String)> = transaction
+        .prepare("SELECT id, definition FROM piece")?
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<Result<_, _>>()?;
+    let is_wanted = |text: &String| wanted.iter().any(|piece| piece.definition == *text);
+    for (key, _) in stored.iter().filter(|(_, text)| !is_wanted(text)) {
+        let starts: Vec<u32> = transaction
+            .prepare("SELECT id FROM start WHERE piece = ?1")?
+            .query_map([key], |row| row.get(0))?
             .collect::<Result<_, _>>()?;
-        let is_wanted = |text: &String| wanted.iter().any(|piece| piece.definition == *text);
-        for (key, _) in stored.iter().filter(|(_, text)| !is_wanted(text)) {
-            let starts: Vec<u32> = transaction
-                .prepare("SELECT id FROM start WHERE piece = ?1")?
-                .query_map([key], |row| row.get(0))?
-                .collect::<Result<_, _>>()?;
-            for start in starts {
-                delete_start(&transaction, start)?;
-            }
-            transaction.execute("DELETE FROM piece WHERE id = ?1", [key])?;
+        for start in starts {
+            delete_start(&transaction, start)?;
         }
-        // From the last one: of pieces that are the same the first one counts.
-        for (index, piece) in wanted.iter().enumerate().rev() {
-            let insert = "INSERT INTO piece (place, definition, kind, parameter) VALUES (?1, ?2, ?3, ?4)
-                ON CONFLICT (definition) DO UPDATE SET place = excluded.place";
-            let values = params![index as u32 + 1, piece.definition, piece.kind.stored(), piece.parameter];
-            transaction.execute(insert, values)?;
-        }
-        transaction.commit()?;
-        Ok(())
+        transaction.execute("DELETE FROM piece WHERE id = ?1", [key])?;
     }
+    // From the last one: of pieces that are the same the first one counts.
+    for (index, piece) in wanted.iter().enumerate().rev() {
+        let insert = "INSERT INTO piece (place, definition, kind, parameter) VALUES (?1, ?2, ?3, ?4)
+            ON CONFLICT (definition) DO UPDATE SET place = excluded.place";
+        let values = params![index as u32 + 1, piece.definition, piece.kind.stored(), piece.parameter];
+        transaction.execute(insert, values)?;
+    }
+    transaction.commit()?;
+    Ok(())
+}
 
-    /// Notes what came of the search of a piece: its starts, each with the walks that will begin there.
-    ///
-    /// * `parameter`: its value there, in the unit of its name.
-    /// * `message`: why there are none, or not all.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn note_piece_starts(
-        &mut self,
-        piece: u32,
-        parameter: f64,
-        starts: &[PeriodicSolution],
-        message: Option<&str>,
-    ) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        let update = "UPDATE piece SET searched = 1, message = ?2 WHERE id = ?1";
-        transaction.execute(update, params![piece, message])?;
-        for (start, key) in starts.iter().zip(starts_of_piece(piece)) {
-            let events = EventSet::default().with(BranchEventKind::Start);
-            let row = SolvedRow { parameter, solution: start.clone(), events, located: None };
-            NewStart { key, job: None, piece: Some(piece), row: &row, down: None }.insert(&transaction)?;
-        }
-        transaction.commit()?;
-        Ok(())
+/// Notes what came of the search of a piece: its starts, each with the walks that will begin there.
+pub fn note_piece_starts(
+    transaction: Transaction<'_>,
+    piece: u32,
+    parameter: f64,
+    starts: &[PeriodicSolution],
+    message: Option<&str>,
+) -> Result<(), StoreError> {
+    let update = "UPDATE piece SET searched = 1, message = ?2 WHERE id = ?1";
+    transaction.execute(update, params![piece, message])?;
+    for (start, key) in starts.iter().zip(starts_of_piece(piece)) {
+        let events = EventSet::default().with(BranchEventKind::Start);
+        let row = SolvedRow { parameter, solution: start.clone(), events, located: None };
+        NewStart { key, job: None, piece: Some(piece), row: &row, down: None }.insert(&transaction)?;
     }
+    transaction.commit()?;
+    Ok(())
+}
 
-    /// Notes that nothing of a piece is left to compute.
-    ///
-    /// * `message`: why there is nothing, or not everything; `None` leaves what was noted before.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn finish_piece(&mut self, piece: u32, message: Option<&str>) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        let update =
-            "UPDATE piece SET searched = 1, finished = 1, message = coalesce(?2, message) WHERE id = ?1";
-        transaction.execute(update, params![piece, message])?;
-        transaction.commit()?;
-        Ok(())
-    }
+/// Notes that nothing of a piece is left to compute.
+pub fn finish_piece(
+    transaction: Transaction<'_>,
+    piece: u32,
+    message: Option<&str>,
+) -> Result<(), StoreError> {
+    let update = "UPDATE piece SET searched = 1, finished = 1, message = coalesce(?2, message) WHERE id = ?1";
+    transaction.execute(update, params![piece, message])?;
+    transaction.commit()?;
+    Ok(())
+}
 
-    /// Starts of a piece, by its key, in their order.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn starts_of_piece(&self, piece: u32) -> Result<Vec<StartRecord>, StoreError> {
-        let select = "SELECT id, period_multiple, branch FROM start WHERE piece = ?1 ORDER BY id";
-        let mut statement = self.connection.prepare(select)?;
-        Ok(statement.query_map([piece], StartRecord::read)?.collect::<Result<_, _>>()?)
-    }
+/// Starts of a piece, by its key, in their order.
+pub fn starts(connection: &Connection, piece: u32) -> Result<Vec<StartRecord>, StoreError> {
+    let select = "SELECT id, period_multiple, branch FROM start WHERE piece = ?1 ORDER BY id";
+    let mut statement = connection.prepare(select)?;
+    Ok(statement.query_map([piece], StartRecord::read)?.collect::<Result<_, _>>()?)
+}
 
-    /// The pieces whose starts are known, in the order of the study.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn pieces(&self) -> Result<Vec<PieceRecord>, StoreError> {
-        Ok(self.all_pieces()?.into_iter().filter(|piece| piece.searched).collect())
-    }
+/// The pieces whose starts are known, in the order of the study.
+pub fn pieces(connection: &Connection) -> Result<Vec<PieceRecord>, StoreError> {
+    Ok(all_pieces(connection)?.into_iter().filter(|piece| piece.searched).collect())
+}
 
-    /// All pieces, in the order of the study, those too of which nothing is known yet.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn all_pieces(&self) -> Result<Vec<PieceRecord>, StoreError> {
-        let select =
-            "SELECT id, place, kind, parameter, searched, finished, message FROM piece ORDER BY place";
-        let mut statement = self.connection.prepare(select)?;
-        let mut rows = statement.query([])?;
-        let mut pieces = Vec::new();
-        while let Some(row) = rows.next()? {
-            let (key, word): (u32, String) = (row.get(0)?, row.get(2)?);
-            let kind = PieceKind::of_stored(&word)
-                .ok_or(StoreError::Unknown { what: "kind of piece", found: word })?;
-            pieces.push(PieceRecord {
-                key,
-                place: row.get(1)?,
-                kind,
-                parameter: row.get(3)?,
-                searched: row.get(4)?,
-                finished: row.get(5)?,
-                message: row.get(6)?,
-                branches: self.branches_of(Some(key))?,
-            });
-        }
-        Ok(pieces)
+/// All pieces, in the order of the study, those too of which nothing is known yet.
+pub fn all_pieces(connection: &Connection) -> Result<Vec<PieceRecord>, StoreError> {
+    let select = "SELECT id, place, kind, parameter, searched, finished, message FROM piece ORDER BY place";
+    let mut statement = connection.prepare(select)?;
+    let mut rows = statement.query([])?;
+    let mut pieces = Vec::new();
+    while let Some(row) = rows.next()? {
+        let (key, word): (u32, String) = (row.get(0)?, row.get(2)?);
+        let kind =
+            PieceKind::of_stored(&word).ok_or(StoreError::Unknown { what: "kind of piece", found: word })?;
+        pieces.push(PieceRecord {
+            key,
+            place: row.get(1)?,
+            kind,
+            parameter: row.get(3)?,
+            searched: row.get(4)?,
+            finished: row.get(5)?,
+            message: row.get(6)?,
+            branches: branches_of(connection, Some(key))?,
+        });
     }
+    Ok(pieces)
 }

@@ -1,10 +1,11 @@
 //! Reading: branches, their walks, and their solutions one after the other.
 
-use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution, Side};
-use rusqlite::{OptionalExtension, Row as SqlRow, params};
+use hammerbeam_orbit::{BranchEventKind, EventSet, LocatedEvent, PeriodicSolution, Side};
+use rusqlite::{Connection, OptionalExtension, Row as SqlRow, params};
 
 use super::{
     Store, StoreError, blob,
+    event::event,
     keys::{first_key, is_of_piece, solution_key, start_of_key, walk_id},
     stability,
     values::{END_COLUMNS, read_end, read_row, row_columns},
@@ -104,21 +105,7 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn branches(&self) -> Result<Vec<BranchRecord>, StoreError> {
-        self.branches_of(None)
-    }
-
-    /// The branches of a piece, by its key; over the frequency without one.
-    pub(super) fn branches_of(&self, piece: Option<u32>) -> Result<Vec<BranchRecord>, StoreError> {
-        let select = "SELECT branch, id, period_multiple FROM start
-            WHERE branch IS NOT NULL AND piece IS ?1 ORDER BY branch";
-        let mut statement = self.connection.prepare(select)?;
-        let ids = statement.query_map([piece], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
-        ids.map(|ids| {
-            let (id, start, period_multiple) = ids?;
-            let (up, down) = (self.walk(start, Side::Up)?, self.walk(start, Side::Down)?);
-            Ok(BranchRecord { id, start, period_multiple, up, down })
-        })
-        .collect()
+        branches_of(&self.connection, None)
     }
 
     /// A walk of a branch.
@@ -126,11 +113,7 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn walk(&self, start: u32, side: Side) -> Result<WalkRecord, StoreError> {
-        let select = format!("SELECT solutions, {END_COLUMNS} FROM walk WHERE id = ?1");
-        let mut statement = self.connection.prepare_cached(&select)?;
-        let mut rows = statement.query([walk_id(start, side)])?;
-        let Some(row) = rows.next()? else { return Err(rusqlite::Error::QueryReturnedNoRows.into()) };
-        Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), end: read_end(row, 1)? })
+        walk(&self.connection, start, side)
     }
 
     /// The checkpoint and the journal from which a walk goes on, if it does.
@@ -307,6 +290,26 @@ impl Store {
 }
 
 impl Store {
+    /// What is known of the event at a solution, if there is one.
+    ///
+    /// # Errors
+    /// The database refuses, or the event is damaged.
+    pub fn event(&self, key: i64) -> Result<Option<LocatedEvent>, StoreError> {
+        event(&self.connection, key)
+    }
+
+    /// All Floquet multipliers of a stored solution.
+    ///
+    /// # Errors
+    /// The database refuses, or they are damaged.
+    pub fn multipliers(&self, key: i64) -> Result<Vec<[f64; 2]>, StoreError> {
+        self.check_solution(key).map_err(|error| self.damaged(key, error))?;
+        let select = "SELECT multipliers FROM solution WHERE id = ?1";
+        let bytes: Vec<u8> = self.connection.prepare_cached(select)?.query_row([key], |row| row.get(0))?;
+        let numbers = blob::unpack("multipliers", &bytes, bytes.len() / 8)?;
+        Ok(numbers.as_chunks::<2>().0.to_vec())
+    }
+
     /// The rows of a walk in the order in which they were walked.
     ///
     /// # Errors
@@ -319,6 +322,32 @@ impl Store {
         })?;
         Ok(rows)
     }
+}
+
+/// The branches of a piece, by its key; over the frequency without one.
+pub(super) fn branches_of(
+    connection: &Connection,
+    piece: Option<u32>,
+) -> Result<Vec<BranchRecord>, StoreError> {
+    let select = "SELECT branch, id, period_multiple FROM start
+        WHERE branch IS NOT NULL AND piece IS ?1 ORDER BY branch";
+    let mut statement = connection.prepare(select)?;
+    let ids = statement.query_map([piece], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    ids.map(|ids| {
+        let (id, start, period_multiple) = ids?;
+        let (up, down) = (walk(connection, start, Side::Up)?, walk(connection, start, Side::Down)?);
+        Ok(BranchRecord { id, start, period_multiple, up, down })
+    })
+    .collect()
+}
+
+/// A walk of a branch.
+fn walk(connection: &Connection, start: u32, side: Side) -> Result<WalkRecord, StoreError> {
+    let select = format!("SELECT solutions, {END_COLUMNS} FROM walk WHERE id = ?1");
+    let mut statement = connection.prepare_cached(&select)?;
+    let mut rows = statement.query([walk_id(start, side)])?;
+    let Some(row) = rows.next()? else { return Err(rusqlite::Error::QueryReturnedNoRows.into()) };
+    Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), end: read_end(row, 1)? })
 }
 
 /// Events with the marks of the first and the last row of a branch.

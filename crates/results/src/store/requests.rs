@@ -5,9 +5,9 @@
 //! depend on besides the study. Asked again it is found, and goes on where it was left: results and the
 //! number of pieces done are committed together.
 
-use rusqlite::{OptionalExtension, Transaction, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
-use super::{Store, StoreError};
+use super::StoreError;
 
 /// What a request is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -67,58 +67,45 @@ impl RequestRecord {
     }
 }
 
-impl Store {
-    /// The request of that kind and of those words; added if it is new.
-    ///
-    /// * `pieces`: how many pieces of work it has.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn request(
-        &mut self,
-        kind: RequestKind,
-        words: &str,
-        pieces: u64,
-    ) -> Result<RequestRecord, StoreError> {
-        let insert = "INSERT OR IGNORE INTO request (kind, words, pieces) VALUES (?1, ?2, ?3)";
-        let transaction = self.write()?;
-        transaction.execute(insert, params![kind.name(), words, pieces as i64])?;
-        transaction.commit()?;
-        let select = "SELECT id, done FROM request WHERE kind = ?1 AND words = ?2";
-        let (id, done): (i64, i64) =
-            self.connection
-                .query_row(select, params![kind.name(), words], |row| Ok((row.get(0)?, row.get(1)?)))?;
-        Ok(RequestRecord { id, kind, words: words.to_owned(), pieces, done: done as u64 })
-    }
-
-    /// All requests in the order in which they came.
-    ///
-    /// # Errors
-    /// The database refuses, or a kind is unknown.
-    pub fn requests(&self) -> Result<Vec<RequestRecord>, StoreError> {
-        let mut statement =
-            self.connection.prepare("SELECT id, kind, words, pieces, done FROM request ORDER BY id")?;
-        let mut rows = statement.query([])?;
-        let mut requests = Vec::new();
-        while let Some(row) = rows.next()? {
-            let name: String = row.get(1)?;
-            let kind = RequestKind::ALL
-                .into_iter()
-                .find(|kind| kind.name() == name)
-                .ok_or(StoreError::Unknown { what: "kind of request", found: name })?;
-            let (pieces, done): (i64, i64) = (row.get(3)?, row.get(4)?);
-            requests.push(RequestRecord {
-                id: row.get(0)?,
-                kind,
-                words: row.get(2)?,
-                pieces: pieces as u64,
-                done: done as u64,
-            });
-        }
-        Ok(requests)
-    }
+/// The request of that kind and of those words; added if it is new.
+pub fn request(
+    transaction: Transaction<'_>,
+    kind: RequestKind,
+    words: &str,
+    pieces: u64,
+) -> Result<RequestRecord, StoreError> {
+    let insert = "INSERT OR IGNORE INTO request (kind, words, pieces) VALUES (?1, ?2, ?3)";
+    transaction.execute(insert, params![kind.name(), words, pieces as i64])?;
+    let select = "SELECT id, done FROM request WHERE kind = ?1 AND words = ?2";
+    let (id, done): (i64, i64) =
+        transaction.query_row(select, params![kind.name(), words], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    transaction.commit()?;
+    Ok(RequestRecord { id, kind, words: words.to_owned(), pieces, done: done as u64 })
 }
 
+/// All requests in the order in which they came.
+pub fn requests(connection: &Connection) -> Result<Vec<RequestRecord>, StoreError> {
+    let mut statement =
+        connection.prepare("SELECT id, kind, words, pieces, done FROM request ORDER BY id")?;
+    let mut rows = statement.query([])?;
+    let mut requests = Vec::new();
+    while let Some(row) = rows.next()? {
+        let name: String = row.get(1)?;
+        let kind = RequestKind::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or(StoreError::Unknown { what: "kind of request", found: name })?;
+        let (pieces, done): (i64, i64) = (row.get(3)?, row.get(4)?);
+        requests.push(RequestRecord {
+            id: row.get(0)?,
+            kind,
+            words: row.get(2)?,
+            pieces: pieces as u64,
+            done: done as u64,
+        });
+    }
+    Ok(requests)
+}
 /// Notes how many pieces of a request are done, in the transaction that stores their results.
 ///
 /// A request on which nobody else has gone on in the meantime is at `before`; else nothing is to be stored.

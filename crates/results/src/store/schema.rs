@@ -12,7 +12,7 @@ use super::{StoreError, checksum};
 use crate::columns::TableColumn;
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 9;
+pub const SCHEMA_VERSION: u32 = 10;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -31,7 +31,9 @@ CREATE TABLE job (
     depth INTEGER NOT NULL,
     evaluated INTEGER NOT NULL DEFAULT 0,
     message TEXT,
-    outcome TEXT
+    outcome TEXT CHECK (outcome IN ('covered', 'new-branches', 'on-branch', 'nothing')),
+    outcome_branch INTEGER,
+    CHECK ((outcome IS 'on-branch') = (outcome_branch IS NOT NULL))
 );
 CREATE TABLE piece (
     id INTEGER PRIMARY KEY,
@@ -117,7 +119,8 @@ CREATE TABLE simulated (
 CREATE TABLE settled (
     request INTEGER NOT NULL REFERENCES request (id),
     number INTEGER NOT NULL,
-    origin TEXT NOT NULL,
+    origin TEXT NOT NULL CHECK (origin IN ('up', 'down', 'start')),
+    start INTEGER,
     frequency_hz REAL NOT NULL,
     class TEXT NOT NULL,
     period INTEGER,

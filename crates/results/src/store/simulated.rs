@@ -6,10 +6,10 @@
 
 use hammerbeam_attractor::{ContactRecord, SimulationCheckpoint};
 use hammerbeam_motion::exact::{Jump, Touchdown};
-use rusqlite::{Row as SqlRow, params};
+use rusqlite::{Connection, Row as SqlRow, Transaction, params};
 
 use super::{
-    Store, StoreError, blob, requests,
+    StoreError, blob, requests,
     simulation_layout::{SimulationLayout, check_length},
 };
 
@@ -101,79 +101,66 @@ impl SimulatedChunk {
     }
 }
 
-impl Store {
-    /// Goes through the chunks of a request, in their order; all is of one moment, even while a command
-    /// writes.
-    ///
-    /// # Errors
-    /// The database refuses, or what is stored is damaged: periods that are done are missing, or something
-    /// has not the length or the number that the layout gives; or what `take` refuses with.
-    pub fn each_simulated<E: From<StoreError>>(
-        &self,
-        request: i64,
-        layout: &SimulationLayout,
-        mut take: impl FnMut(SimulatedChunk) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let select = "SELECT done, first, periods, samples, section, contacts, unfinished, observed, state,
-            open, impact_speeds FROM request LEFT JOIN simulated ON simulated.request = request.id
-            WHERE request.id = ?1 ORDER BY first";
-        let mut statement = self.connection.prepare(select).map_err(StoreError::from)?;
-        let mut rows = statement.query([request]).map_err(StoreError::from)?;
-        let (mut found, mut done) = (0_u64, 0);
-        let damaged = |found, done| E::from(StoreError::DamagedMotion { request, found, done });
-        while let Some(row) = rows.next().map_err(StoreError::from)? {
-            done = count(row, 0)?;
-            let first: Option<i64> = row.get(1).map_err(StoreError::from)?;
-            // A request without chunks has one row, without them.
-            let Some(first) = first else { break };
-            if u64::try_from(first) != Ok(found) {
-                return Err(damaged(found, done));
-            }
-            let chunk = chunk(row)?;
-            chunk.check(found, layout)?;
-            found = found.saturating_add(chunk.periods);
-            take(chunk)?;
+/// Goes through the chunks of a request, in their order; all is of one moment, even while a command
+/// writes.
+pub fn each_simulated<E: From<StoreError>>(
+    connection: &Connection,
+    request: i64,
+    layout: &SimulationLayout,
+    mut take: impl FnMut(SimulatedChunk) -> Result<(), E>,
+) -> Result<(), E> {
+    let select = "SELECT done, first, periods, samples, section, contacts, unfinished, observed, state,
+        open, impact_speeds FROM request LEFT JOIN simulated ON simulated.request = request.id
+        WHERE request.id = ?1 ORDER BY first";
+    let mut statement = connection.prepare(select).map_err(StoreError::from)?;
+    let mut rows = statement.query([request]).map_err(StoreError::from)?;
+    let (mut found, mut done) = (0_u64, 0);
+    let damaged = |found, done| E::from(StoreError::DamagedMotion { request, found, done });
+    while let Some(row) = rows.next().map_err(StoreError::from)? {
+        done = count(row, 0)?;
+        let first: Option<i64> = row.get(1).map_err(StoreError::from)?;
+        // A request without chunks has one row, without them.
+        let Some(first) = first else { break };
+        if u64::try_from(first) != Ok(found) {
+            return Err(damaged(found, done));
         }
-        if found == done { Ok(()) } else { Err(damaged(found, done)) }
+        let chunk = chunk(row)?;
+        chunk.check(found, layout)?;
+        found = found.saturating_add(chunk.periods);
+        take(chunk)?;
     }
-
-    /// Adds periods to a request.
-    ///
-    /// * `first`: the number of periods before them, which are done.
-    ///
-    /// # Errors
-    /// The database refuses, or the periods before them are not done; nothing of them is there then.
-    pub fn append_simulated(
-        &mut self,
-        request: i64,
-        first: u64,
-        chunk: &SimulatedChunk,
-    ) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        requests::advance(&transaction, request, (first, first + chunk.periods))?;
-        let SimulationCheckpoint { state, periods: observed, open, impact_speeds } = &chunk.checkpoint;
-        let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished,
-            observed, state, open, impact_speeds)
-            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
-        let values = params![
-            request,
-            first as i64,
-            chunk.periods as i64,
-            blob::pack(&chunk.samples),
-            blob::pack(&chunk.section),
-            blob::pack(chunk.contacts.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
-            blob::pack(chunk.unfinished.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
-            *observed as i64,
-            blob::pack(state),
-            blob::pack(&open.iter().flat_map(|record| open_numbers(record, state.len())).collect::<Vec<_>>()),
-            blob::pack(impact_speeds),
-        ];
-        transaction.execute(insert, values)?;
-        transaction.commit()?;
-        Ok(())
-    }
+    if found == done { Ok(()) } else { Err(damaged(found, done)) }
 }
 
+/// Adds periods to a request.
+pub fn append_simulated(
+    transaction: Transaction<'_>,
+    request: i64,
+    first: u64,
+    chunk: &SimulatedChunk,
+) -> Result<(), StoreError> {
+    requests::advance(&transaction, request, (first, first + chunk.periods))?;
+    let SimulationCheckpoint { state, periods: observed, open, impact_speeds } = &chunk.checkpoint;
+    let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished,
+        observed, state, open, impact_speeds)
+        VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
+    let values = params![
+        request,
+        first as i64,
+        chunk.periods as i64,
+        blob::pack(&chunk.samples),
+        blob::pack(&chunk.section),
+        blob::pack(chunk.contacts.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
+        blob::pack(chunk.unfinished.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
+        *observed as i64,
+        blob::pack(state),
+        blob::pack(&open.iter().flat_map(|record| open_numbers(record, state.len())).collect::<Vec<_>>()),
+        blob::pack(impact_speeds),
+    ];
+    transaction.execute(insert, values)?;
+    transaction.commit()?;
+    Ok(())
+}
 fn chunk(row: &SqlRow<'_>) -> Result<SimulatedChunk, StoreError> {
     Ok(SimulatedChunk {
         periods: count(row, 2)?,

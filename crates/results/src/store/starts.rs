@@ -1,10 +1,11 @@
 //! Starts: solutions from which branches are followed, found by a job or by a piece of the study.
 
 use hammerbeam_orbit::{BranchEventKind, EventSet, LocatedEvent, PeriodicSolution, Side};
-use rusqlite::{Row as SqlRow, Transaction, params, params_from_iter, types::Value};
+use rusqlite::{Connection, Row as SqlRow, Transaction, params, params_from_iter, types::Value};
 
 use super::{
-    Store, StoreError,
+    StoreError,
+    event::event,
     jobs::{JobKind, JobRecord},
     keys::{MOST_STARTS, first_key, side_word, starts_of_job, walk_id},
     values::{END_COLUMNS, values_of_end},
@@ -82,83 +83,56 @@ fn seen_from_new_branch(source: &LocatedEvent, root: &PeriodicSolution) -> Locat
     LocatedEvent { multiplier, contacts: Vec::new(), ..source.clone() }
 }
 
-impl Store {
-    /// Starts of all jobs, in their order.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn starts(&self) -> Result<Vec<StartRecord>, StoreError> {
-        let select = "SELECT id, period_multiple, branch FROM start WHERE piece IS NULL ORDER BY id";
-        let mut statement = self.connection.prepare(select)?;
-        Ok(statement.query_map([], StartRecord::read)?.collect::<Result<_, _>>()?)
-    }
-
-    /// Notes what came of a job: its starts, each with the walks that will begin there.
-    ///
-    /// * `message`: why there are none.
-    ///
-    /// Those beyond the first 1024 are left out.
-    ///
-    /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a
-    /// period later.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn note_starts(
-        &mut self,
-        job: &JobRecord,
-        starts: &[PeriodicSolution],
-        message: Option<&str>,
-    ) -> Result<(), StoreError> {
-        let crossing = BranchEnd::Crossing { frequency_hz: job.frequency_hz };
-        let down = (job.kind == JobKind::Doubling).then_some(&crossing);
-        let left = job.source.filter(|_| job.kind.leaves_source());
-        let source = left.map(|key| self.event(key)).transpose()?.flatten();
-        let transaction = self.write()?;
-        let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
-        transaction.execute(update, params![job.id, message])?;
-        for (start, key) in starts.iter().zip(starts_of_job(job.id)) {
-            let row = SolvedRow {
-                parameter: start.frequency_hz,
-                solution: start.clone(),
-                events: EventSet::of([(left.is_some(), BranchEventKind::BranchPoint)]),
-                located: source.as_ref().map(|source| seen_from_new_branch(source, start)),
-            };
-            NewStart { key, job: Some(job.id), piece: None, row: &row, down }.insert(&transaction)?;
-        }
-        transaction.commit()?;
-        Ok(())
-    }
-
-    /// A start is that of a new branch.
-    ///
-    /// # Returns
-    /// The number of the branch; within its piece, where it is of one.
-    /// # Errors
-    /// The database refuses.
-    pub fn accept_start(&mut self, key: u32) -> Result<u32, StoreError> {
-        let transaction = self.write()?;
-        let select = "SELECT max(branch) FROM start
-            WHERE piece IS (SELECT piece FROM start WHERE id = ?1)";
-        let newest: Option<u32> = transaction.query_row(select, [key], |row| row.get(0))?;
-        let branch = newest.unwrap_or(0) + 1;
-        transaction.execute("UPDATE start SET branch = ?2 WHERE id = ?1", params![key, branch])?;
-        transaction.commit()?;
-        Ok(branch)
-    }
-
-    /// A start lies on another branch: it goes, with everything that was walked from it.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn drop_start(&mut self, key: u32) -> Result<(), StoreError> {
-        let transaction = self.write()?;
-        delete_start(&transaction, key)?;
-        transaction.commit()?;
-        Ok(())
-    }
+/// Starts of all jobs, in their order.
+pub fn starts(connection: &Connection) -> Result<Vec<StartRecord>, StoreError> {
+    let select = "SELECT id, period_multiple, branch FROM start WHERE piece IS NULL ORDER BY id";
+    let mut statement = connection.prepare(select)?;
+    Ok(statement.query_map([], StartRecord::read)?.collect::<Result<_, _>>()?)
 }
 
+/// Notes what came of a job: its starts, each with the walks that will begin there.
+pub fn note_starts(
+    transaction: Transaction<'_>,
+    job: &JobRecord,
+    starts: &[PeriodicSolution],
+    message: Option<&str>,
+) -> Result<(), StoreError> {
+    let crossing = BranchEnd::Crossing { frequency_hz: job.frequency_hz };
+    let down = (job.kind == JobKind::Doubling).then_some(&crossing);
+    let left = job.source.filter(|_| job.kind.leaves_source());
+    let source = left.map(|key| event(&transaction, key)).transpose()?.flatten();
+    let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
+    transaction.execute(update, params![job.id, message])?;
+    for (start, key) in starts.iter().zip(starts_of_job(job.id)) {
+        let row = SolvedRow {
+            parameter: start.frequency_hz,
+            solution: start.clone(),
+            events: EventSet::of([(left.is_some(), BranchEventKind::BranchPoint)]),
+            located: source.as_ref().map(|source| seen_from_new_branch(source, start)),
+        };
+        NewStart { key, job: Some(job.id), piece: None, row: &row, down }.insert(&transaction)?;
+    }
+    transaction.commit()?;
+    Ok(())
+}
+
+/// A start is that of a new branch.
+pub fn accept_start(transaction: Transaction<'_>, key: u32) -> Result<u32, StoreError> {
+    let select = "SELECT max(branch) FROM start
+        WHERE piece IS (SELECT piece FROM start WHERE id = ?1)";
+    let newest: Option<u32> = transaction.query_row(select, [key], |row| row.get(0))?;
+    let branch = newest.unwrap_or(0) + 1;
+    transaction.execute("UPDATE start SET branch = ?2 WHERE id = ?1", params![key, branch])?;
+    transaction.commit()?;
+    Ok(branch)
+}
+
+/// A start lies on another branch: it goes, with everything that was walked from it.
+pub fn drop_start(transaction: Transaction<'_>, key: u32) -> Result<(), StoreError> {
+    delete_start(&transaction, key)?;
+    transaction.commit()?;
+    Ok(())
+}
 /// Deletes a start with everything that was walked from it.
 pub(super) fn delete_start(transaction: &Transaction<'_>, key: u32) -> Result<(), StoreError> {
     for side in [Side::Up, Side::Down] {

@@ -337,7 +337,7 @@ fn of_two_runs_that_hold_a_lock_the_first_adds_nothing_more() {
     let error = first.append(key, Side::Up, &[], Continuation::Ended(&reason)).unwrap_err();
     assert!(matches!(error, StoreError::TakenOver { .. }) && !error.is_bad_input(), "{error}");
     assert!(first.add_jobs(&[(JobKind::Survey, 0.3, None, 0)]).is_err());
-    assert!(first.finish_job(0, "done").is_err() && first.accept_start(key).is_err());
+    assert!(first.finish_job(0, JobOutcome::Nothing).is_err() && first.accept_start(key).is_err());
     assert!(first.request(RequestKind::Sweep, "from = 1", 3).is_err());
     second.append(key, Side::Up, &[], Continuation::Ended(&reason)).unwrap();
     assert_eq!(second.jobs().unwrap().len(), 1);

@@ -4,7 +4,7 @@ use hammerbeam_orbit::Side;
 use rusqlite::{Transaction, params, params_from_iter, types::Value};
 
 use super::{
-    Store, StoreError, blob,
+    StoreError, blob,
     event::insert_event,
     keys::{first_key, walk_id},
     stability,
@@ -35,89 +35,44 @@ pub struct Memory<'a> {
     pub journal: &'a [u8],
 }
 
-impl Store {
-    /// Appends solutions to a walk, together with how it goes on.
-    ///
-    /// # Errors
-    /// The database refuses; nothing is appended then.
-    pub fn append(
-        &mut self,
-        start: u32,
-        side: Side,
-        rows: &[SolvedRow],
-        continuation: Continuation<'_>,
-    ) -> Result<(), StoreError> {
-        self.write_walk((start, side), None, rows, continuation)
+/// Adds solutions to a walk, together with how it goes on.
+///
+/// * `kept`: so many solutions stay; `None` for all.
+pub fn write_walk(
+    transaction: Transaction<'_>,
+    (start, side): (u32, Side),
+    kept: Option<u32>,
+    rows: &[SolvedRow],
+    continuation: Continuation<'_>,
+) -> Result<(), StoreError> {
+    let walk = walk_id(start, side);
+    let count = "SELECT solutions FROM walk WHERE id = ?1";
+    let mut stored: u32 = transaction.query_row(count, [walk], |row| row.get(0))?;
+    if let Some(kept) = kept {
+        forget_walked(&transaction, walk, kept)?;
+        stored = stored.min(kept);
     }
-
-    /// Stores the first solutions of a walk in the place of the start that was noted, together with how it
-    /// goes on.
-    ///
-    /// # Errors
-    /// The database refuses; nothing is changed then.
-    pub fn begin_walk(
-        &mut self,
-        start: u32,
-        side: Side,
-        rows: &[SolvedRow],
-        continuation: Continuation<'_>,
-    ) -> Result<(), StoreError> {
-        self.write_walk((start, side), Some(0), rows, continuation)
+    for (row, key) in rows.iter().zip(first_key(walk) + i64::from(stored)..) {
+        insert_solution(&transaction, key, row)?;
     }
-
-    /// Ends a side after so many solutions; what was walked beyond is deleted.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn cut_walk(
-        &mut self,
-        start: u32,
-        side: Side,
-        solutions: u32,
-        end: &BranchEnd,
-    ) -> Result<(), StoreError> {
-        self.write_walk((start, side), Some(solutions), &[], Continuation::Ended(end))
-    }
-
-    /// * `kept`: so many solutions stay; `None` for all.
-    fn write_walk(
-        &mut self,
-        (start, side): (u32, Side),
-        kept: Option<u32>,
-        rows: &[SolvedRow],
-        continuation: Continuation<'_>,
-    ) -> Result<(), StoreError> {
-        let walk = walk_id(start, side);
-        let transaction = self.write()?;
-        let count = "SELECT solutions FROM walk WHERE id = ?1";
-        let mut stored: u32 = transaction.query_row(count, [walk], |row| row.get(0))?;
-        if let Some(kept) = kept {
-            forget_walked(&transaction, walk, kept)?;
-            stored = stored.min(kept);
-        }
-        for (row, key) in rows.iter().zip(first_key(walk) + i64::from(stored)..) {
-            insert_solution(&transaction, key, row)?;
-        }
-        let (end, memory) = match continuation {
-            Continuation::GoesOn(memory) => (None, Some(memory)),
-            Continuation::Ended(end) => (Some(end), None),
-            Continuation::Paused(end, memory) => (Some(end), Some(memory)),
-        };
-        keep_journal(&transaction, walk, memory)?;
-        let update = format!(
-            "UPDATE walk SET (solutions, checkpoint, {END_COLUMNS}) = (?2, ?3, ?4, ?5, ?6, ?7) WHERE id = ?1"
-        );
-        let of_walk = [
-            Value::Integer(walk),
-            Value::Integer(i64::from(stored) + rows.len() as i64),
-            memory.map_or(Value::Null, |memory| Value::Blob(memory.checkpoint.to_vec())),
-        ];
-        transaction.execute(&update, params_from_iter(of_walk.into_iter().chain(values_of_end(end))))?;
-        transaction.commit()?;
-        Ok(())
-    }
+    let (end, memory) = match continuation {
+        Continuation::GoesOn(memory) => (None, Some(memory)),
+        Continuation::Ended(end) => (Some(end), None),
+        Continuation::Paused(end, memory) => (Some(end), Some(memory)),
+    };
+    keep_journal(&transaction, walk, memory)?;
+    let update = format!(
+        "UPDATE walk SET (solutions, checkpoint, {END_COLUMNS}) = (?2, ?3, ?4, ?5, ?6, ?7) WHERE id = ?1"
+    );
+    let of_walk = [
+        Value::Integer(walk),
+        Value::Integer(i64::from(stored) + rows.len() as i64),
+        memory.map_or(Value::Null, |memory| Value::Blob(memory.checkpoint.to_vec())),
+    ];
+    transaction.execute(&update, params_from_iter(of_walk.into_iter().chain(values_of_end(end))))?;
+    transaction.commit()?;
+    Ok(())
 }
-
 /// Deletes what was walked beyond so many solutions, and what is needed to go on.
 pub(super) fn forget_walked(
     transaction: &Transaction<'_>,
