@@ -56,7 +56,7 @@ impl Failure {
         ExitCode::from(self.code())
     }
 
-    /// What to tell, without colours.
+    /// What to report, without colours.
     pub fn message(&self) -> String {
         match self {
             Self::Study(report) => report.to_string(),

@@ -7,7 +7,7 @@ use hammerbeam_jobs::JobError;
 use crate::failure::Failure;
 
 /// What becomes of so many results of an interrupted command.
-pub fn fate(number: u64, out: Option<&Path>) -> String {
+pub fn what_is_kept(number: u64, out: Option<&Path>) -> String {
     let be = if number == 1 { "is" } else { "are" };
     match out {
         Some(_) => format!("{}, the same command goes on from there", place(number, out)),
@@ -31,16 +31,16 @@ pub fn counted(number: u64, thing: &str) -> String {
 
 /// A job that was stopped or cannot go on, with what becomes of what it has done.
 ///
-/// * `fate`: of so many pieces, in words.
-pub fn unfinished(error: JobError, fate: impl Fn(u64) -> String) -> Failure {
+/// * `what_is_kept`: of so many pieces, in words.
+pub fn unfinished(error: JobError, what_is_kept: impl Fn(u64) -> String) -> Failure {
     match error {
         JobError::Interrupted { done, part_s } => {
             let part = part_s.map(|seconds| {
                 format!("; the tables have what was averaged over {seconds:.6} s of one more")
             });
-            Failure::Interrupted(format!("interrupted; {}{}", fate(done), part.unwrap_or_default()))
+            Failure::Interrupted(format!("interrupted; {}{}", what_is_kept(done), part.unwrap_or_default()))
         }
-        JobError::Stopped { source, done } => Failure::from(*source).and(&fate(done)),
+        JobError::Stopped { source, done } => Failure::from(*source).and(&what_is_kept(done)),
         other => other.into(),
     }
 }

@@ -65,7 +65,7 @@ fn main() -> ExitCode {
     ended(output, result)
 }
 
-/// Tells a failure; exit code of the process.
+/// Reports a failure; exit code of the process.
 fn ended(output: Output, result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,7 +4,7 @@ use hammerbeam_structure::MatrixReport;
 
 use crate::kept::counted;
 
-/// A box with less than this mass for its volume [kg/m^3] is told of: units may be mixed.
+/// A box with less than this mass for its volume [kg/m^3] is reported: units may be mixed.
 const LIGHT: f64 = 0.1;
 /// The same for more.
 const HEAVY: f64 = 3e4;

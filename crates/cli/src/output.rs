@@ -1,4 +1,4 @@
-//! Standard output: text, or one JSON document; and what is told beside it.
+//! Standard output: text, or one JSON document; and what is reported beside it.
 
 use std::{
     borrow::Cow,
@@ -55,12 +55,12 @@ impl Output {
         }
     }
 
-    /// Tells a failure on standard error, and in JSON as the one document.
+    /// Reports a failure on standard error, and in JSON as the one document.
     pub fn failure(self, failure: &Failure) {
         match failure {
-            Failure::Study(report) => tell(&report.render(true)),
-            Failure::Interrupted(message) | Failure::Disagreement(message) => tell(&printable(message)),
-            other => tell(&format!("error: {}", printable(&other.message()))),
+            Failure::Study(report) => notify(&report.render(true)),
+            Failure::Interrupted(message) | Failure::Disagreement(message) => notify(&printable(message)),
+            other => notify(&format!("error: {}", printable(&other.message()))),
         }
         // Disagreements have their document.
         if self.json && !matches!(failure, Failure::Disagreement(_)) {
@@ -70,9 +70,9 @@ impl Output {
     }
 }
 
-/// Tells something beside the results, on standard error. Where that cannot be written nobody listens, and
+/// Writes something beside the results, on standard error. Where that cannot be written nobody listens, and
 /// the work goes on.
-pub fn tell(text: &str) {
+pub fn notify(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
 }
 

@@ -30,7 +30,7 @@ pub struct OverlayOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub period: Option<u32>,
 
-    /// What the sensor measures, where the unit of the channel does not tell
+    /// What the sensor measures, where the unit of the channel does not say
     #[arg(long, value_enum)]
     pub sensor: Option<Sensor>,
 

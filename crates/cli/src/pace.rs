@@ -1,45 +1,45 @@
 //! How long work still takes, and the lines that say so where no bar can be shown.
 //!
 //! What is left is estimated from the part that was done since this command began. That supposes that the
-//! rest goes on as fast, which work does not where new branches turn up. So an estimate is told only while it
+//! rest goes on as fast, which work does not where new branches turn up. So an estimate is shown only while it
 //! holds: the time that the whole takes by it is the same, to a third, as by the part that was done at half
 //! of the time that has passed; and when at least a tenth is done, in at least two seconds.
 
 use std::time::{Duration, Instant};
 
-use crate::output::tell;
+use crate::output::notify;
 
 /// Time between two lines without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Part of the work and time before which nothing is estimated.
 const LEAST_PART: f64 = 0.1;
 const LEAST_TIME: Duration = Duration::from_secs(2);
-/// Ratio of two estimates of the whole time beyond which neither is told.
+/// Ratio of two estimates of the whole time beyond which neither is shown.
 const AGREE: f64 = 4.0 / 3.0;
 /// Samples of the past that are kept, at most.
 const KEPT: usize = 256;
 
-/// When the work was begun, and how much of it was done when.
+/// When the work was started, and how much of it was done when.
 #[derive(Debug, Clone)]
 pub struct Pace {
-    begun: Instant,
+    started: Instant,
     past: Past,
 }
 
 impl Pace {
     /// Begins with so much done by an earlier command, 0 to 1.
     pub fn from(fraction: f64) -> Self {
-        Self { begun: Instant::now(), past: Past::from(fraction) }
+        Self { started: Instant::now(), past: Past::from(fraction) }
     }
 
-    /// Time since the beginning.
+    /// Time since the start.
     pub fn elapsed(&self) -> Duration {
-        self.begun.elapsed()
+        self.started.elapsed()
     }
 
     /// What is left in words, when so much is done.
     pub fn left(&mut self, fraction: f64) -> String {
-        match self.past.left(self.begun.elapsed(), fraction) {
+        match self.past.left(self.started.elapsed(), fraction) {
             Some(Duration::ZERO) => "all done".to_owned(),
             Some(left) => format!("about {} left", rounded(left)),
             None => "time left not known yet".to_owned(),
@@ -104,20 +104,20 @@ fn rounded(time: Duration) -> String {
 /// A line on standard error every ten seconds, for logs and for those who wait without a terminal.
 #[derive(Debug)]
 pub struct Lines {
-    told: Instant,
+    written: Instant,
 }
 
 impl Lines {
     /// The first one is due in ten seconds.
     pub fn begin() -> Self {
-        Self { told: Instant::now() }
+        Self { written: Instant::now() }
     }
 
     /// Says where the work is, if it is time.
     pub fn say(&mut self, text: impl FnOnce() -> String) {
-        if self.told.elapsed() >= BETWEEN_LINES {
-            self.told = Instant::now();
-            tell(&format!("progress: {}", text()));
+        if self.written.elapsed() >= BETWEEN_LINES {
+            self.written = Instant::now();
+            notify(&format!("progress: {}", text()));
         }
     }
 }
@@ -126,10 +126,10 @@ impl Lines {
 mod tests {
     use super::*;
 
-    /// The last of what is told at these seconds and parts.
-    fn left_after(first: f64, told: impl IntoIterator<Item = (f64, f64)>) -> Option<Duration> {
+    /// The last of what is shown at these seconds and parts.
+    fn left_after(first: f64, shown: impl IntoIterator<Item = (f64, f64)>) -> Option<Duration> {
         let mut past = Past::from(first);
-        told.into_iter().fold(None, |_, (second, part)| past.left(Duration::from_secs_f64(second), part))
+        shown.into_iter().fold(None, |_, (second, part)| past.left(Duration::from_secs_f64(second), part))
     }
 
     /// Ten times a second, as long as that.

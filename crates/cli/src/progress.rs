@@ -11,7 +11,7 @@ use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::{
     interrupt::Interrupt,
-    output::tell,
+    output::notify,
     pace::{Lines, Pace},
 };
 
@@ -32,8 +32,8 @@ pub struct Terminal {
     /// The part of the bar that is the diagram's, and whether that is done.
     diagram: f64,
     after_diagram: bool,
-    /// What was told last.
-    told: (f64, String),
+    /// What was shown last.
+    shown: (f64, String),
 }
 
 impl Terminal {
@@ -52,7 +52,7 @@ impl Terminal {
             pace: None,
             diagram: if pieces == 0 { 1.0 } else { 0.5 },
             after_diagram: false,
-            told: (0.0, "begun".to_owned()),
+            shown: (0.0, "started".to_owned()),
         }
     }
 
@@ -107,7 +107,7 @@ impl Terminal {
     fn show(&mut self, fraction: f64, message: String) {
         self.bar.set_position((fraction * LENGTH as f64) as u64);
         self.bar.set_message(message.clone());
-        self.told = (fraction, message);
+        self.shown = (fraction, message);
     }
 }
 
@@ -121,7 +121,7 @@ impl Observer for Terminal {
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };
-        self.show(self.told.0, format!("{what} at {:.4} Hz", job.frequency_hz));
+        self.show(self.shown.0, format!("{what} at {:.4} Hz", job.frequency_hz));
         self.bar.tick();
     }
 
@@ -143,7 +143,7 @@ impl Observer for Terminal {
     }
 
     fn notice(&mut self, notice: &dyn Display) {
-        tell(&notice.to_string());
+        notify(&notice.to_string());
     }
 
     fn finishing(&mut self) {
@@ -153,7 +153,7 @@ impl Observer for Terminal {
 
     fn interrupted(&mut self) -> bool {
         if self.bar.is_hidden() {
-            let (fraction, message) = &self.told;
+            let (fraction, message) = &self.shown;
             self.lines.say(|| format!("{:.0} %, {message}", 100.0 * fraction));
         }
         self.interrupt.raised()

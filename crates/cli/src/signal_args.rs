@@ -18,7 +18,7 @@ pub enum SignalCommand {
     Spectrum(SpectrumOptions),
     /// Find eigenfrequencies and damping of a free decay, with intervals of 95 %
     Decrement(DecrementOptions),
-    /// Tell whether a motion is periodic, and in which multiple of the excitation period
+    /// Classify a motion: whether it is periodic, and in which multiple of the excitation period
     Classify(ClassifyOptions),
     /// Compute the largest Lyapunov exponent of a channel
     Lyapunov(ExponentOptions),

@@ -17,7 +17,7 @@ pub struct Ticker {
     bar: ProgressBar,
     lines: Lines,
     what: String,
-    begun: Instant,
+    started: Instant,
     changed: Instant,
     pace: Option<Pace>,
     /// What was shown last.
@@ -45,7 +45,7 @@ impl Ticker {
             bar,
             lines: Lines::begin(),
             what: what.to_owned(),
-            begun: now,
+            started: now,
             changed: now,
             pace: None,
             shown: String::new(),
@@ -59,7 +59,7 @@ impl Ticker {
         if let Some(fraction) = fraction {
             self.pace.get_or_insert_with(|| Pace::from(fraction));
         }
-        if self.begun.elapsed() < PATIENCE || self.changed.elapsed() < CHANGE {
+        if self.started.elapsed() < PATIENCE || self.changed.elapsed() < CHANGE {
             return;
         }
         self.changed = Instant::now();

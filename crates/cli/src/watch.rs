@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use hammerbeam_jobs::{CountedProgress, Observer};
 
-use crate::{interrupt::Interrupt, output::tell, ticker::Ticker};
+use crate::{interrupt::Interrupt, output::notify, ticker::Ticker};
 
 /// The terminal of a job whose work is counted.
 pub struct Watch {
@@ -41,7 +41,7 @@ impl Observer for Watch {
     }
 
     fn notice(&mut self, notice: &dyn Display) {
-        tell(&notice.to_string());
+        notify(&notice.to_string());
     }
 
     fn finishing(&mut self) {
@@ -62,6 +62,6 @@ pub struct Notices;
 
 impl Observer for Notices {
     fn notice(&mut self, notice: &dyn Display) {
-        tell(&notice.to_string());
+        notify(&notice.to_string());
     }
 }

@@ -369,8 +369,8 @@ fn names_of_parameters_are_judged_beside_faults_of_other_tables() {
         "which is reversed",
     ];
     assert_refused(&workshop, &parts);
-    let told = stderr(&workshop.hammerbeam(&["check", "study.toml"]));
-    assert!(!told.contains("`parameter` is \"damping"), "{told}");
+    let reported = stderr(&workshop.hammerbeam(&["check", "study.toml"]));
+    assert!(!reported.contains("`parameter` is \"damping"), "{reported}");
 }
 
 /// A rig is a study of its own, and `check` looks at it as well.
@@ -402,7 +402,7 @@ fn what_was_probably_meant_is_suggested() {
     );
 }
 
-/// Whatever is wrong with the section as a whole, what it may be is told in full.
+/// Whatever is wrong with the section as a whole, what it may be is reported in full.
 #[test]
 fn every_form_of_a_section_is_told_where_it_is_in_none() {
     let section = "section = { width_m = 0.0298, height_m = 0.0020 }";

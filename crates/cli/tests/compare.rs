@@ -160,7 +160,7 @@ fn factor_at_an_end_of_what_is_tried_is_told_in_words_and_in_the_document() {
     );
 }
 
-/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are told in words, in
+/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are reported in words, in
 /// the document and in the figure.
 #[test]
 fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
@@ -193,8 +193,8 @@ fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     table("units.csv", &[0.4, 0.45, 0.5, 0.55], 1e3);
     let far = workshop.hammerbeam(&["compare", "results", "units.csv", "--frequency-factor", "1"]);
     assert_eq!(far.status.code(), Some(1));
-    let told = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within a factor of 2.25 of it";
-    assert!(stderr(&far).contains(told), "{}", stderr(&far));
+    let reported = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within a factor of 2.25 of it";
+    assert!(stderr(&far).contains(reported), "{}", stderr(&far));
 }
 
 /// Two masses on their own springs that never meet: displacement over displacement of the support, in closed
@@ -344,7 +344,7 @@ fn a_virtual_rig_goes_through_the_whole_comparison() {
     let signal = &found["signals"][0];
     assert_eq!(signal["measured_as"], "periodic, 1");
     assert!(number(&signal["computed"]["correlation"]) > 0.99, "{signal}");
-    // What `overlay` tells is told here, too: a harmonic is the same at every frequency, and there is no
+    // What `overlay` tells is reported here, too: a harmonic is the same at every frequency, and there is no
     // branch of period 2.
     let report = fs::read_to_string(workshop.path("one/report.md")).unwrap();
     for (index, file, part) in [

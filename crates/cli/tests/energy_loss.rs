@@ -120,7 +120,7 @@ fn a_run_begins_in_front_of_a_contact_against_which_a_weight_presses() {
 fn a_run_that_finds_nothing_says_why() {
     let output = pressed(1.0).hammerbeam(&["run", "study.toml", "--out", "results"]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let told = stderr(&output);
-    assert!(told.contains("no periodic solution was found between 15 Hz and 15.2 Hz"), "{told}");
-    assert!(told.contains("wall is closed over the whole motion"), "{told}");
+    let reported = stderr(&output);
+    assert!(reported.contains("no periodic solution was found between 15 Hz and 15.2 Hz"), "{reported}");
+    assert!(reported.contains("wall is closed over the whole motion"), "{reported}");
 }

@@ -83,11 +83,11 @@ fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of
     let place = |name: &str| header.iter().position(|column| *column == name).unwrap();
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let number = |row: &[&str], name: &str| row[place(name)].parse::<f64>().unwrap();
-    let told: Vec<(String, String, f64)> = rows
+    let reported: Vec<(String, String, f64)> = rows
         .iter()
         .map(|row| (row[0].to_owned(), row[place("event")].to_owned(), number(row, "frequency_hz")))
         .collect();
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
 
     let roots: Vec<&Vec<&str>> =
         rows.iter().filter(|row| row[1] == "2" && row[place("event")].contains("branch-point")).collect();

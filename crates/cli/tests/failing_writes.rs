@@ -78,7 +78,7 @@ fn writes_that_fail_end_with_a_sentence_and_the_command_done_again_leaves_the_sa
                 .filter(|failed| *failed)
                 .count();
             eprintln!(
-                "{}: {failures} of {} failures of {count} calls of {names} were told",
+                "{}: {failures} of {} failures of {count} calls of {names} were reported",
                 writer.arguments.join(" "),
                 chosen.len()
             );

@@ -4,7 +4,8 @@
 use std::fs;
 
 use crate::common::{
-    RUN, Workshop, assert_bad_input, assert_success, files, short_run, short_run_with, stderr, stdout, told,
+    RUN, Workshop, assert_bad_input, assert_success, files, reported, short_run, short_run_with, stderr,
+    stdout,
 };
 use serde_json::Value;
 
@@ -88,7 +89,7 @@ fn the_linear_structure_is_drawn_and_an_error_of_the_reduction_where_there_is_on
     let lumped = Workshop::with(DUFFING);
     let output = lumped.hammerbeam(&["modes", "study.toml", "--out", "drawn"]);
     assert_success(&output);
-    assert_eq!(told(&output), "", "what is not reduced has no error to draw, which is no fault");
+    assert_eq!(reported(&output), "", "what is not reduced has no error to draw, which is no fault");
     assert!(!lumped.path("drawn/reduction.svg").exists() && lumped.path("drawn/structure.svg").exists());
 }
 

@@ -88,7 +88,7 @@ fn one_folder_may_be_drawn_into_by_two_commands_at_once() {
     assert!(names.into_iter().all(|name| !name.to_string_lossy().ends_with(".part")));
 }
 
-/// What the font lacks is told, on the terminal and in the document.
+/// What the font lacks is reported, on the terminal and in the document.
 #[test]
 fn characters_that_the_font_lacks_are_told() {
     let workshop = Workshop::changed(&short_study(), "title = \"", "title = \"振動 Größe: ");
@@ -105,7 +105,7 @@ fn characters_that_the_font_lacks_are_told() {
     );
 }
 
-/// Of a long branch not every solution is drawn. One that is not drawn and is damaged is told as well.
+/// Of a long branch not every solution is drawn. One that is not drawn and is damaged is reported as well.
 #[test]
 fn a_damaged_solution_between_those_that_are_drawn_is_told() {
     let workshop = Workshop::with(&short_study().replace("max_step_hz = 0.005", "max_step_hz = 0.0001"));

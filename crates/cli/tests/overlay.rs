@@ -173,8 +173,8 @@ fn the_shift_is_that_of_the_record_wherever_its_clock_begins() {
     }
     fs::write(workshop.path("record.csv"), csv).unwrap();
     let off = MEASURED_HZ * (1.0 + 6e-6);
-    let told = ["record.csv", "--frequency", &off.to_string(), "--at", "4.8", "--out", "laid"];
-    let found = overlay(&workshop, &told);
+    let reported = ["record.csv", "--frequency", &off.to_string(), "--at", "4.8", "--out", "laid"];
+    let found = overlay(&workshop, &reported);
     let shift_s = number(&found["time_shift_s"]);
     assert!((DAY_S..DAY_S + 1.0 / MEASURED_HZ).contains(&shift_s), "{shift_s}");
     let cycles = (shift_s - DELAY_S) * MEASURED_HZ;
@@ -220,7 +220,7 @@ fn the_orbit_is_found_by_its_size_where_the_factor_is_given() {
     assert!((number(&found["orbit"]["over_measured"]) - 1.05).abs() < 1.1e-3, "{found}");
     assert!(number(&found["residual_after"]) < 0.03 && number(&found["orbit"]["tried"]) > 50.0, "{found}");
     assert_eq!(found["amplitude_factor"]["given"], true);
-    // The table: measured, shifted and computed courses at 1024 phases.
+    // The table: measured, shifted and computed histories at 1024 phases.
     let table = fs::read_to_string(workshop.path("laid/overlay.csv")).unwrap();
     let mut lines = table.lines();
     assert_eq!(
@@ -284,15 +284,15 @@ fn the_orbit_is_found_by_its_waveform() {
     let chain = ["signal", "chain", "motion/samples.csv", "--low-pass", "60", "--sampling", "700"];
     let noise = ["--periodic", "--noise", "0.02", "--seed", "4", "--out", "rig"];
     assert_success(&workshop.hammerbeam(&[&chain[..], &noise].concat()));
-    let told = ["rig/measured.csv", "--frequency", "5.6", "--low-pass", "60"];
-    let found = overlay(&workshop, &told);
+    let reported = ["rig/measured.csv", "--frequency", "5.6", "--low-pass", "60"];
+    let found = overlay(&workshop, &reported);
     assert!((number(&found["orbit"]["over_measured"]) - 1.0).abs() < 2e-3, "{found}");
     assert!(number(&found["correlation"]) > 0.999, "{found}");
     assert!((number(&found["amplitude_factor"]["value"]) - 1.0).abs() < 0.02, "{found}");
     let period_s = number(&found["period_multiple"]) / 5.6;
     let shift = number(&found["time_shift_s"]) / period_s;
     assert!((shift - shift.round()).abs() < 5e-3, "{found}");
-    // Turned around it is told.
+    // Turned around it is reported.
     let samples = fs::read_to_string(workshop.path("rig/measured.csv")).unwrap();
     let mut turned = String::new();
     for line in samples.lines() {
@@ -304,7 +304,7 @@ fn the_orbit_is_found_by_its_waveform() {
         }
     }
     fs::write(workshop.path("turned.csv"), turned).unwrap();
-    let found = overlay(&workshop, &[&["turned.csv"], &told[1..]].concat());
+    let found = overlay(&workshop, &[&["turned.csv"], &reported[1..]].concat());
     assert!(found["notes"][0].as_str().unwrap().contains("turned around"), "{found}");
 }
 

@@ -60,7 +60,7 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "first_branch": branches[0]["branch"],
         "range": [30.0, 40.0],
         "multipliers": multipliers(&workshop),
-        "courses": courses(&workshop),
+        "courses": histories(&workshop),
     });
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
@@ -71,7 +71,7 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
 /// Displacement and velocity of the response point over the first excitation period of the solutions at the
 /// beginning and at the end of all branches, whose orbits every page carries, as a simulation from their
 /// stored states has them, three times as finely as the page.
-fn courses(workshop: &Workshop) -> Value {
+fn histories(workshop: &Workshop) -> Value {
     let store = Store::open(&workshop.path("results")).unwrap();
     let file = StudyFile::parse("study.toml", store.about("study").unwrap()).unwrap();
     let model = Model::build(&file).unwrap();
@@ -83,7 +83,7 @@ fn courses(workshop: &Workshop) -> Value {
         (0, first.start, Side::Down, first.down.solutions),
         (count - 1, last.start, Side::Up, last.up.solutions),
     ];
-    let course = |(solution, start, side, of_side): (u64, u32, Side, u64)| {
+    let history = |(solution, start, side, of_side): (u64, u32, Side, u64)| {
         let orbit = store.solution(start, side, of_side as u32 - 1).unwrap();
         let mut integrator = ExactIntegrator::new(model.system.clone(), motion).unwrap();
         let states = states_at_phase(&mut integrator, &orbit, 0.0).unwrap();
@@ -97,7 +97,7 @@ fn courses(workshop: &Workshop) -> Value {
         };
         json!({ "solution": solution, "course": samples.iter().map(at).collect::<Vec<_>>() })
     };
-    ends.into_iter().filter(|(_, _, _, of_side)| *of_side > 0).map(course).collect()
+    ends.into_iter().filter(|(_, _, _, of_side)| *of_side > 0).map(history).collect()
 }
 
 /// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to
@@ -121,7 +121,7 @@ fn multipliers(workshop: &Workshop) -> Value {
     keys.iter().enumerate().step_by((keys.len() / 60) | 1).map(of).collect()
 }
 
-/// A walk that has not ended is told on the page.
+/// A walk that has not ended is reported on the page.
 fn while_a_run_writes(workshop: &Workshop) {
     let database = crate::common::database(workshop.path("results/results.db"));
     database.execute("UPDATE walk SET end_kind = NULL WHERE id = (SELECT min(id) FROM walk)", []).unwrap();

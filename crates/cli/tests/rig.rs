@@ -61,7 +61,7 @@ fn the_virtual_rig_goes_through_section_4_of_the_paper() {
 /// Hz. The decay shows it, within its intervals of 95 % (widened by a half: three of them at once).
 fn eigenfrequencies_and_table(workshop: &Workshop, found: &Value) {
     let modes = found["eigenfrequencies"].as_array().unwrap();
-    // Up to 0.6 of 850 Hz; a mode that fades too fast is told as not measured.
+    // Up to 0.6 of 850 Hz; a mode that fades too fast is reported as not measured.
     assert_eq!(modes.len(), 3, "{modes:?}");
     let mut shown = 0;
     for (index, (mode, hz)) in modes.iter().zip([17.2, 128.9, 378.9]).enumerate() {
@@ -130,11 +130,11 @@ fn classification(workshop: &Workshop, found: &Value) {
     assert!(number(&chaos["aperiodic"]) >= 5.0, "{chaos}");
     assert!(2.0 * number(&chaos["positive_exponent_of_the_motion"]) > number(&chaos["aperiodic"]), "{chaos}");
     let exponents = column(workshop, "measured.csv", "largest_exponent_per_s");
-    let told = exponents.iter().filter(|value| value.is_finite() && **value > 0.0).count();
-    assert_eq!(told as f64, number(&chaos["positive_exponent_of_the_record"]));
+    let reported = exponents.iter().filter(|value| value.is_finite() && **value > 0.0).count();
+    assert_eq!(reported as f64, number(&chaos["positive_exponent_of_the_record"]));
 }
 
-/// Figures 7 to 14: the paper's periods, and courses that are alike.
+/// Figures 7 to 14: the paper's periods, and histories that are alike.
 fn signals(workshop: &Workshop, found: &Value) {
     let printed = [
         (31.0, 1, 32.34),

@@ -9,8 +9,8 @@ use std::{
 };
 
 use crate::common::{
-    SeededNumbers, TWO_MASSES, Workshop, assert_success, extensive, short_run, short_study, stderr, stdout,
-    told,
+    SeededNumbers, TWO_MASSES, Workshop, assert_success, extensive, reported, short_run, short_study, stderr,
+    stdout,
 };
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
@@ -144,7 +144,7 @@ fn without_a_terminal_a_run_says_only_its_summary() {
     let workshop = Workshop::with(&short_study());
     let output = workshop.hammerbeam(&RUN);
     assert_success(&output);
-    assert_eq!(told(&output), "");
+    assert_eq!(reported(&output), "");
     assert!(stdout(&output).contains("solutions on 1 branch(es) in results"));
     for figure in ["response_displacement.svg", "response_displacement.png", "response_acceleration.svg"] {
         assert!(fs::metadata(workshop.path("results").join(figure)).unwrap().len() > 1000, "{figure}");

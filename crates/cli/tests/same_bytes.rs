@@ -144,8 +144,9 @@ fn flips_of_period(workshop: &Workshop, period: &str) -> usize {
 }
 
 /// Flips of which a run says that the doubled branch is not followed, over all branches.
-fn not_followed(told: &str) -> usize {
-    let lines = told.lines().filter(|line| line.ends_with("is not followed: the study does not ask for it"));
+fn not_followed(reported: &str) -> usize {
+    let lines =
+        reported.lines().filter(|line| line.ends_with("is not followed: the study does not ask for it"));
     lines.map(|line| line.split_whitespace().nth(1).unwrap().parse::<usize>().unwrap()).sum()
 }
 
@@ -155,11 +156,11 @@ fn a_depth_that_is_raised_later_gives_what_it_gives_at_once() {
     let at_once = Workshop::with(&deeper);
     run(&at_once, "2");
     let raised = Workshop::with(STUDY);
-    let told = run(&raised, "2");
+    let reported = run(&raised, "2");
     let before = raised.csv("results").lines().count();
     let flips_of_four = flips_of_period(&raised, "4");
     assert!(flips_of_four > 0);
-    assert_eq!(not_followed(&told), flips_of_four, "{told}");
+    assert_eq!(not_followed(&reported), flips_of_four, "{reported}");
     fs::write(raised.path("study.toml"), &deeper).unwrap();
     run(&raised, "2");
     let (branches, events) = exported(&raised);

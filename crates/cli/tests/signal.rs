@@ -3,7 +3,7 @@
 
 use std::{f64::consts::PI, fmt::Write, fs};
 
-use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout, told};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, reported, stderr, stdout};
 use serde_json::Value;
 
 const RATE: f64 = 1000.0;
@@ -30,7 +30,7 @@ fn harmonic(time: f64) -> [f64; 2] {
 fn document(workshop: &Workshop, arguments: &[&str]) -> Value {
     let output = workshop.hammerbeam(&[&["signal"], arguments, &["--json"]].concat());
     assert_success(&output);
-    assert_eq!(told(&output), "", "quiet where no one looks");
+    assert_eq!(reported(&output), "", "quiet where no one looks");
     serde_json::from_str(&stdout(&output)).expect("one JSON document")
 }
 

@@ -25,8 +25,8 @@ max_step_hz = 1e-3
     );
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
     assert_success(&run);
-    let told = "the amplitude grows without bound: mode 1 (0.159155 Hz) has no damping";
-    assert_eq!(stdout(&run).matches(told).count(), 2, "{}", stdout(&run));
+    let reported = "the amplitude grows without bound: mode 1 (0.159155 Hz) has no damping";
+    assert_eq!(stdout(&run).matches(reported).count(), 2, "{}", stdout(&run));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     let rows = workshop.table("results/export/branches.csv");
     let sides = [0.13, 0.19].map(|end| rows.iter().filter(|row| number(row, "frequency_hz") == end).count());

@@ -16,7 +16,7 @@ static EXAMPLE: LazyLock<String> = LazyLock::new(|| {
         .replace("frequency_hz = 0.25\n\n", "frequency_hz = 0.25\nsteps = 200\n\n")
 });
 
-/// Results of it from one thread, exported, and what was told.
+/// Results of it from one thread, exported, and what was reported.
 static ONE_THREAD: LazyLock<(Workshop, String)> = LazyLock::new(|| {
     assert_eq!(EXAMPLE.matches("steps = 200").count(), 2);
     let workshop = Workshop::with(&EXAMPLE);
@@ -120,8 +120,8 @@ fn assert_states_belong(rows: &[Row], states: &[Row], ends: &[Row]) {
 /// passes both folds of the response and has one cusp.
 #[test]
 fn branches_and_curves_of_the_example_meet() {
-    let (workshop, told) = &*ONE_THREAD;
-    assert!(told.contains("fold curve over excitation.amplitude_n"), "{told}");
+    let (workshop, reported) = &*ONE_THREAD;
+    assert!(reported.contains("fold curve over excitation.amplitude_n"), "{reported}");
     let (branches, curves) = (table(workshop, "parameter_branches.csv"), table(workshop, "curves.csv"));
     let of = |name: &str| table(workshop, name);
     assert_states_belong(&branches, &of("parameter_states.csv"), &of("parameter_ends.csv"));

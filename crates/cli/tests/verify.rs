@@ -3,7 +3,7 @@
 
 use std::{fs, process::Output, sync::OnceLock};
 
-use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout, told};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, reported, stderr, stdout};
 use serde_json::Value;
 
 /// Two masses around their second resonance, with contacts and folds, in steps that make some hundred
@@ -92,7 +92,7 @@ fn as_text_it_is_a_table_and_nothing_on_standard_error() {
     let text = stdout(&output);
     assert!(text.contains("20 of") && text.contains("all agree"), "{text}");
     assert!(text.contains("residual") && text.contains("max_abs_displacement_m"), "{text}");
-    assert_eq!(told(&output), "");
+    assert_eq!(reported(&output), "");
 }
 
 /// The solution that was tampered with, and no other, disagrees in that quantity.

@@ -43,11 +43,11 @@ fn a_range_beyond_what_can_be_resolved_is_refused() {
         (output.status.code(), stderr(&output))
     };
     for command in [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results"]] {
-        let (code, told) = tried(command, "1e10");
+        let (code, reported) = tried(command, "1e10");
         // Ten million times sqrt(k/m)/(2 pi).
         assert!(
-            code == Some(2) && told.contains("reaches 1e10 Hz") && told.contains("up to 1.592e6 Hz"),
-            "{told}"
+            code == Some(2) && reported.contains("reaches 1e10 Hz") && reported.contains("up to 1.592e6 Hz"),
+            "{reported}"
         );
     }
     assert_eq!(tried(&["check", "study.toml"], "1.59e6"), (Some(0), String::new()));

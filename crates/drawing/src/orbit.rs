@@ -1,7 +1,7 @@
 //! Figures of an orbit. Its samples are computed here, from its stored state on; the figures take them as
 //! they are.
 
-mod course;
+mod history;
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use hammerbeam_study::{
 };
 
 use crate::{Album, DrawingError, Drawn};
-use course::{SAMPLES, course};
+use history::{SAMPLES, history};
 
 /// Order of the low-pass filter.
 const ORDER: usize = 4;
@@ -94,7 +94,7 @@ fn diagram(
     let title = format!("{}, {frequency}, period {multiple}, {stability}", file.study.title);
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
-    let (samples, impulses) = course(model, orbit)?;
+    let (samples, impulses) = history(model, orbit)?;
     let duration_s = f64::from(orbit.period_multiple) / frequency_hz;
     let filtered = match low_pass_hz {
         Some(cut_off_hz) => {

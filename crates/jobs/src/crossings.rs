@@ -172,7 +172,7 @@ impl StoredBranches {
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }
 
-    /// Pairs of branches that hold the same orbit at a frequency, as it is or begun some excitation periods
+    /// Pairs of branches that hold the same orbit at a frequency, as it is or started some excitation periods
     /// later: there should be none.
     ///
     /// * `model`: that of the study.

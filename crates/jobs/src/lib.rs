@@ -17,7 +17,7 @@
 //! | `branch` | the same row by row, for whoever follows a branch by hand |
 //! | [`orbits`] | all periodic solutions at one frequency |
 //! | [`chosen_orbits`] | stored orbits by branch, frequency or event |
-//! | [`orbit_course`] | an orbit from phase 0 on: states at equal steps and within contacts, impacts |
+//! | [`orbit_history`] | an orbit from phase 0 on: states at equal steps and within contacts, impacts |
 //! | `orbit_waveform` | the motion of an orbit over its period |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`special_point`] | special points of stored branches, from which branches begin |
@@ -48,7 +48,7 @@ mod matrix_document;
 mod modes_document;
 mod observer;
 mod one_call;
-pub mod orbit_course;
+pub mod orbit_history;
 mod orbit_solver;
 mod orbit_waveform;
 pub mod orbits;

@@ -11,7 +11,7 @@ use hammerbeam_study::Model;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
-use crate::orbit_course::{OrbitInstant, orbit_course};
+use crate::orbit_history::{OrbitInstant, orbit_history};
 
 /// The motion of a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +70,7 @@ pub fn orbit_waveform(
     let mut found = empty(model);
     let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
     for OrbitInstant { cycles, state, forces, .. } in
-        orbit_course(&mut integrator, orbit, (samples, 0))?.instants
+        orbit_history(&mut integrator, orbit, (samples, 0))?.instants
     {
         found.time.push(cycles / frequency_hz);
         found.phase_cycles.push(cycles);

@@ -322,6 +322,6 @@ mod tests {
             }
         };
         let found = PooledOrder::new(2, &mut Stops).each(&[1, 2, 3], &|| (), &work, |_, _| {});
-        assert!(found.is_none(), "the third was not begun");
+        assert!(found.is_none(), "the third was not started");
     }
 }

@@ -10,7 +10,7 @@ use hammerbeam_jobs::{
 use crate::{
     failure::Failure,
     interrupt::Interrupt,
-    kept::{fate, unfinished},
+    kept::{unfinished, what_is_kept},
     motion_args::{AxisOption, BasinsOptions},
     output::Output,
     watch::Watch,
@@ -49,10 +49,11 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
 
 fn refused(options: &BasinsOptions, error: JobError) -> Failure {
     let total = u64::from(options.grid) * u64::from(options.grid);
-    let fate = |number| format!("{number} of {total} cells {}", fate(number, options.out.as_deref()));
+    let what_is_kept =
+        |number| format!("{number} of {total} cells {}", what_is_kept(number, options.out.as_deref()));
     match error {
         JobError::Coordinate(error) => Failure::BadInput(coordinate_refused(&error)),
-        other => unfinished(other, fate),
+        other => unfinished(other, what_is_kept),
     }
 }
 

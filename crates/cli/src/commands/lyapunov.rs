@@ -10,7 +10,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{fate, unfinished},
+    kept::{unfinished, what_is_kept},
     motion_args::LyapunovOptions,
     output::Output,
     series::falling,
@@ -53,13 +53,13 @@ fn refused(
     (study, frequencies): (&PreparedStudy, &FrequencySeries),
     error: JobError,
 ) -> Failure {
-    let fate = |number| {
+    let what_is_kept = |number| {
         let all = frequencies.frequencies().map_or(0, |all| all.len());
-        format!("{number} of {all} spectra {}", fate(number, options.out.as_deref()))
+        format!("{number} of {all} spectra {}", what_is_kept(number, options.out.as_deref()))
     };
     match initial::refused(&options.initial, 2 * study.dof(), error) {
         Ok(failure) => failure,
-        Err(error) => falling(error, "--frequency").unwrap_or_else(|error| unfinished(error, fate)),
+        Err(error) => falling(error, "--frequency").unwrap_or_else(|error| unfinished(error, what_is_kept)),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     args::OrbitOptions,
     failure::Failure,
     interrupt::Interrupt,
-    output::{Output, six_decimals, tell},
+    output::{Output, notify, six_decimals},
     watch::Watch,
 };
 
@@ -29,7 +29,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
     }
     if let Some(why) = incomplete {
-        tell(&why);
+        notify(&why);
     }
     if let Some(folder) = &options.out {
         let low_pass_hz = options.low_pass.or(study.file.study.figures.low_pass_hz);

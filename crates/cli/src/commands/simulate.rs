@@ -15,7 +15,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{counted, fate, place, unfinished},
+    kept::{counted, place, unfinished, what_is_kept},
     motion_args::SimulateOptions,
     output::Output,
     watch::Watch,
@@ -128,7 +128,7 @@ fn too_large(error: &SimulationTooLarge) -> String {
 /// What becomes of the periods that are done.
 fn fate_of(time: &SimulationTime, done: u64, out: Option<&Path>) -> String {
     let (number, part) = place_of(time, done);
-    format!("{}{part} {}", counted(number, time.pieces.word()), fate(number, out))
+    format!("{}{part} {}", counted(number, time.pieces.word()), what_is_kept(number, out))
 }
 
 /// A motion that ends early.

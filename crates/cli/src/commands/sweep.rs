@@ -12,7 +12,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{counted, fate, unfinished},
+    kept::{counted, unfinished, what_is_kept},
     motion_args::SweepOptions,
     output::Output,
     series::falling,
@@ -52,10 +52,11 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
 }
 
 fn refused(options: &SweepOptions, study: &PreparedStudy, error: JobError) -> Failure {
-    let fate = |number| format!("{} {}", counted(number, "motion"), fate(number, options.out.as_deref()));
+    let what_is_kept =
+        |number| format!("{} {}", counted(number, "motion"), what_is_kept(number, options.out.as_deref()));
     match initial::refused(&options.initial, 2 * study.dof(), error) {
         Ok(failure) => failure,
-        Err(error) => falling(error, "--from").unwrap_or_else(|error| unfinished(error, fate)),
+        Err(error) => falling(error, "--from").unwrap_or_else(|error| unfinished(error, what_is_kept)),
     }
 }
 

@@ -10,7 +10,7 @@ use hammerbeam_study::StudyError;
 use crate::{
     args::UpdateOptions,
     failure::Failure,
-    output::{Output, tell},
+    output::{Output, notify},
 };
 
 pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
@@ -35,7 +35,7 @@ pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
         write_update(&mut report, folder, &inputs).map_err(failure)?;
     }
     for finding in &report.found.findings {
-        tell(&format!("warning: {finding}"));
+        notify(&format!("warning: {finding}"));
     }
     output.give(&report, || text(&report))?;
     Ok(())

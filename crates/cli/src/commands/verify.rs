@@ -25,7 +25,7 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
         jobs: usize::from(options.jobs),
     };
     let mut watch = Watch::new(Interrupt::listen(output)?);
-    let begun = Instant::now();
+    let started = Instant::now();
     let verified = verify(&store, &study, &settings, &mut watch);
     watch.finishing();
     let Some(verification) = verified? else {
@@ -36,7 +36,7 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(format!("no solutions are stored in {folder}")));
     }
     let report = VerifyReport { verification, settings };
-    output.give(&report, || text(&report.verification, &folder, begun.elapsed()))?;
+    output.give(&report, || text(&report.verification, &folder, started.elapsed()))?;
     let verification = report.verification;
     if verification.disagreements.is_empty() {
         return Ok(());

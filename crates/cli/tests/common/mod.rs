@@ -225,7 +225,7 @@ pub fn stderr(output: &Output) -> String {
 }
 
 /// Standard error without the lines of progress that work of more than ten seconds has.
-pub fn told(output: &Output) -> String {
+pub fn reported(output: &Output) -> String {
     stderr(output)
         .lines()
         .filter(|line| !line.starts_with("progress: "))

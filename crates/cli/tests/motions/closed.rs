@@ -43,7 +43,7 @@ const REFUSED: &str =
 #[test]
 fn contacts_that_stay_closed_leave_nothing_to_give() {
     let workshop = weighed(1.0);
-    for (command, result, told) in [
+    for (command, result, reported) in [
         (COMMANDS[0], REFUSED, REFUSED.to_owned()),
         (COMMANDS[1], "no motion could be computed", format!("the sweep up ends at 0.17 Hz: {REFUSED}")),
         (COMMANDS[2], "no motion could be computed", format!("0.17 Hz, start 1: {REFUSED}")),
@@ -51,7 +51,7 @@ fn contacts_that_stay_closed_leave_nothing_to_give() {
     ] {
         let output = workshop.hammerbeam(&[command, &["--json"]].concat());
         assert_eq!(output.status.code(), Some(1), "{command:?}: {}", stderr(&output));
-        assert!(stderr(&output).contains(&told), "{command:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(&reported), "{command:?}: {}", stderr(&output));
         let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
         assert_eq!(document["error"]["exit_code"], 1);
         let message = document["error"]["message"].as_str().unwrap();

@@ -82,8 +82,8 @@ fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     let (done, all) = stored(&workshop);
     assert!(0 < done && done < all, "{done} of {all}");
     let verb = if done == 1 { "is" } else { "are" };
-    let told = format!("interrupted; {done} of {all} cells {verb} kept in out");
-    assert!(stderr(&output).contains(&told), "{}", stderr(&output));
+    let reported = format!("interrupted; {done} of {all} cells {verb} kept in out");
+    assert!(stderr(&output).contains(&reported), "{}", stderr(&output));
 }
 
 /// A long motion of any kind ends with what is finished, too.

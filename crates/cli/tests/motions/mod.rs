@@ -18,7 +18,7 @@ mod sweep;
 
 use std::fs;
 
-use crate::common::{Workshop, assert_success, stdout, told};
+use crate::common::{Workshop, assert_success, reported, stdout};
 use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../../studies/duffing.toml");
@@ -34,7 +34,7 @@ fn remembering() -> String {
 fn document(workshop: &Workshop, arguments: &[&str]) -> Value {
     let output = workshop.hammerbeam(arguments);
     assert_success(&output);
-    assert_eq!(told(&output), "", "nothing is told without a terminal");
+    assert_eq!(reported(&output), "", "nothing is reported without a terminal");
     serde_json::from_str(&stdout(&output)).expect("one JSON document")
 }
 

@@ -93,7 +93,7 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
     }
 }
 
-/// All cells of this grid lie behind the stop: there is nothing to give, and it is told.
+/// All cells of this grid lie behind the stop: there is nothing to give, and it is reported.
 #[test]
 fn basins_without_an_attractor_are_exit_code_1() {
     let workshop = Workshop::with(IMPACT_OSCILLATOR);

@@ -12,7 +12,7 @@ use std::{
 };
 
 use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
-use hammerbeam_jobs::orbit_course::{OrbitCourse, OrbitImpact, OrbitInstant, orbit_course};
+use hammerbeam_jobs::orbit_history::{OrbitHistory, OrbitImpact, OrbitInstant, orbit_history};
 use hammerbeam_motion::{
     PointMotion,
     exact::{ExactIntegrator, ExactSettings, MotionError},
@@ -143,8 +143,8 @@ impl OrbitDrawing {
     ) -> Result<PageOrbit, MotionError> {
         let (samples, stride) = sampling(solution.period_multiple);
         let count = samples * solution.period_multiple as usize;
-        let OrbitCourse { instants, impulses } =
-            orbit_course(integrator, solution, (2 * samples, IN_A_STEP))?;
+        let OrbitHistory { instants, impulses } =
+            orbit_history(integrator, solution, (2 * samples, IN_A_STEP))?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
         let response = model.response_motion(frequency_hz);
         let mut orbit = PageOrbit {

@@ -85,7 +85,7 @@ impl Curves {
         self.branches.iter().flat_map(|branch| &branch.points).filter(|point| point.value.is_nan()).count()
     }
 
-    /// All places where a branch of this period (any if none is told) meets a frequency.
+    /// All places where a branch of this period (any if none is given) meets a frequency.
     #[must_use]
     pub fn at(&self, frequency_hz: f64, period_multiple: Option<u32>) -> Vec<Hit> {
         let hits = self.segments(frequency_hz, period_multiple).filter_map(|(branch, a, b)| {

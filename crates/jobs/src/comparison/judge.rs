@@ -40,7 +40,7 @@ pub enum Verdict {
     },
     /// It does not repeat, so that no branch is compared.
     Aperiodic,
-    /// The measurement does not tell what it is.
+    /// The measurement does not show what it is.
     Doubtful,
 }
 

@@ -76,7 +76,7 @@ impl MeasuredPoints {
             }
             Err(SignalError::Points { source: PointsError::NotText, .. }) => self.record(path, reference),
             Err(error @ SignalError::Points { source: PointsError::NoFrequency { .. }, .. }) => {
-                // A time series has no column of frequencies either; what is wrong with the table is told if
+                // A time series has no column of frequencies either; what is wrong with the table is reported if
                 // it is none.
                 match records::looks_like_record(path) {
                     true => self.record(path, reference),

@@ -27,11 +27,11 @@
 //! frequency: at a fold the tangent says nothing of where points will lie. The errors hold for the matching
 //! that was found, and for differences that are independent; a model that is wrong makes them too small.
 //!
-//! **The residual** is told of the points within the reach, and of all that meet a branch. The latter is not
+//! **The residual** is reported of the points within the reach, and of all that meet a branch. The latter is not
 //! what the fit makes small: a shift at which more points meet a branch, one of them far off, has a smaller
 //! sum and a larger residual of all that meet one.
 //!
-//! **Another minimum** that is about as good is told, the lowest of those that worse shifts part from the
+//! **Another minimum** that is about as good is reported, the lowest of those that worse shifts part from the
 //! best one; with sums `F` and `F'` over all points, and `S` over the `n` points nearer than `R` to the best
 //! one, it counts if `(n - p)(F' - F)/S` is below 3.84 (chi-squared of one freedom, 95 %), or `(F' - F)/S`
 //! below 0.1. What points that never fit add to `F` and `F'` drops out.
@@ -42,19 +42,19 @@
 //! | file | what |
 //! |---|---|
 //! | `curve.rs` | branches as curves of one quantity, by frequency |
-//! | `course.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
+//! | `history.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
 //! | `observed.rs` | from stored branches to such curves |
 //! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
-//! | `overlay/` | a measured course laid over orbits |
+//! | `overlay/` | a measured history laid over orbits |
 //! | `measured.rs`, `records.rs` | tables of points, and records that are reduced to points |
 //! | `whole.rs`, `tables.rs`, `document.rs` | all quantities of a results folder, their tables, their document |
 
-pub mod course;
 mod curve;
 mod document;
 mod error;
 mod fit;
+pub mod history;
 mod judge;
 mod measured;
 mod measured_error;
@@ -67,12 +67,12 @@ mod whole;
 
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredPoint};
 
-pub use course::Filter;
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub(crate) use document::comparison_document;
 pub use document::{CompareReport, ComparedQuantity};
 pub use error::ComparisonError;
 pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, Residual, SecondMinimum};
+pub use history::Filter;
 pub use judge::{Match, PointOutcome, Verdict};
 pub use measured::{MeasuredPoints, read_measured};
 pub use measured_error::MeasuredError;

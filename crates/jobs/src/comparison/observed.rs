@@ -2,7 +2,7 @@
 //!
 //! Largest displacements and accelerations of the response point, and contact forces, are stored with each
 //! solution, exact on the continuous motion. Velocities, other points, and everything behind a filter, are
-//! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no
+//! computed again from the stored orbit, for solutions that are far enough apart: a filtered history has no
 //! feature narrower than the branch itself.
 
 use hammerbeam_orbit::BranchEventKind;
@@ -12,7 +12,7 @@ use hammerbeam_study::Model;
 
 use super::{
     BranchCurve, CurvePoint, Curves,
-    course::{Course, Filter, LEFT, NoneSampled, course, largest, largest_behind, sampled},
+    history::{Filter, LEFT, MotionHistory, NoneSampled, history, largest, largest_behind, sampled},
 };
 use crate::{StoredBranch, StoredBranches};
 
@@ -74,15 +74,15 @@ pub fn curves(
     if observation.filter.is_none() && is_stored {
         return Ok(stored(branches, observation.quantity));
     }
-    gone_over(branches, model, observation, |course| {
+    gone_over(branches, model, observation, |history| {
         let series = match observation.quantity {
-            MeasuredQuantity::Displacement => &course.displacement,
-            MeasuredQuantity::Velocity => &course.velocity,
-            MeasuredQuantity::Acceleration => &course.acceleration,
+            MeasuredQuantity::Displacement => &history.displacement,
+            MeasuredQuantity::Velocity => &history.velocity,
+            MeasuredQuantity::Acceleration => &history.acceleration,
             _ => return Err(ObservationError::FilteredForce),
         };
         match observation.filter {
-            Some(filter) => behind(series, course.duration_s, filter),
+            Some(filter) => behind(series, history.duration_s, filter),
             None => Ok(largest(series)),
         }
     })
@@ -103,7 +103,7 @@ fn gone_over(
     branches: &StoredBranches,
     model: &Model,
     observation: &Observation,
-    value: impl Fn(&Course) -> Result<f64, ObservationError>,
+    value: impl Fn(&MotionHistory) -> Result<f64, ObservationError>,
 ) -> Result<Curves, ObservationError> {
     let all = branches.branches();
     let places = all.iter().enumerate().flat_map(|(index, branch)| {
@@ -112,8 +112,8 @@ fn gone_over(
     let places: Vec<(usize, usize, &PlacedRow)> = places.collect();
     let (values, _) = sampled(places.iter().map(|(index, _, placed)| {
         let orbit = branches.solution(&all[*index], placed)?;
-        let course = course(model, &orbit, observation.samples);
-        course.map_or_else(|reason| Ok(Err(reason)), |course| value(&course).map(Ok))
+        let history = history(model, &orbit, observation.samples);
+        history.map_or_else(|reason| Ok(Err(reason)), |history| value(&history).map(Ok))
     }))?;
     let mut curves: Vec<BranchCurve> = all.iter().map(empty).collect();
     for ((index, row, placed), value) in places.into_iter().zip(values) {

@@ -11,7 +11,7 @@ use hammerbeam_signal::{
     spectrum::{Window, amplitude_spectrum},
 };
 
-use super::{course::largest, measured_error::MeasuredError};
+use super::{history::largest, measured_error::MeasuredError};
 
 /// Whether a file can be read as a time series with times or a rate.
 pub(super) fn looks_like_record(path: &Path) -> bool {

@@ -58,8 +58,8 @@ fn image_of(
     let there = states(&image);
     let first = there.first()?.clone();
     let stays = model.system.remembers_impacts() || model.system.has_rigid_stops();
-    let begun = if stays { image } else { PeriodicSolution { phase: 0.0, nodes: vec![first], ..image } };
-    Some((begun, there))
+    let started = if stays { image } else { PeriodicSolution { phase: 0.0, nodes: vec![first], ..image } };
+    Some((started, there))
 }
 
 /// The branch of which an orbit has one of these states.

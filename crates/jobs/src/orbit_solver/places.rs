@@ -1,4 +1,4 @@
-//! Frequencies at which the linear system tells to look for attractors.
+//! Frequencies at which the linear system suggests to look for attractors.
 //!
 //! Over a range in which the linear response reaches a contact every motion has impacts, and many solutions
 //! may follow one another within it, however narrow it is; some reach beyond its ends, at which the linear

@@ -3,7 +3,7 @@
 //!
 //! The paper calls most of its aperiodic signals chaotic and points to exponents of the series by Wolf's
 //! method. The same is done with the record here, behind the filter and with its noise. Beside it stands what
-//! no real rig can tell: the exponent of the motion by its tangent vectors, from the last state of the record
+//! no real rig can show: the exponent of the motion by its tangent vectors, from the last state of the record
 //! on.
 
 use hammerbeam_attractor::{LyapunovSettings, SystemMap, lyapunov};

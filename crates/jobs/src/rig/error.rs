@@ -8,7 +8,7 @@ use hammerbeam_study::file::StudyError;
 
 use crate::comparison::{
     ObservationError, OverlayError,
-    course::{CourseError, NoneSampled},
+    history::{HistoryError, NoneSampled},
 };
 
 /// Why a rig cannot be measured.
@@ -37,7 +37,7 @@ pub enum RigError {
     Signal(#[from] SignalError),
     /// An orbit cannot be gone over.
     #[error(transparent)]
-    Course(#[from] CourseError),
+    MotionHistory(#[from] HistoryError),
     /// No orbit of the branches can be gone over.
     #[error(transparent)]
     NoneSampled(#[from] NoneSampled),
@@ -68,7 +68,9 @@ impl RigError {
             self,
             Self::Motion(_)
                 | Self::Attractor(AttractorError::Motion(_))
-                | Self::Course(CourseError::Motion(_) | CourseError::Attractor(AttractorError::Motion(_)))
+                | Self::MotionHistory(
+                    HistoryError::Motion(_) | HistoryError::Attractor(AttractorError::Motion(_))
+                )
         )
     }
 }

@@ -14,7 +14,7 @@ use crate::{
     Observer, PooledOrder, StoredBranches,
     comparison::{
         BranchCurve, CurvePoint, Curves, Filter,
-        course::{Course, Sampled, course, largest_behind, sampled},
+        history::{MotionHistory, Sampled, history, largest_behind, sampled},
         thinned,
     },
 };
@@ -207,17 +207,17 @@ fn maxima(
     samples: usize,
     orbit: &PeriodicSolution,
 ) -> Sampled<Maxima, RigError> {
-    let course = match course(model, orbit, samples) {
-        Ok(course) => course,
+    let history = match history(model, orbit, samples) {
+        Ok(history) => history,
         Err(reason) => return Ok(Err(reason)),
     };
-    let behind = |of: fn(&Course) -> &Vec<f64>| -> Result<Vec<f64>, RigError> {
-        let largest = |filter: &Filter| Ok(largest_behind(of(&course), course.duration_s, *filter)?.0);
+    let behind = |of: fn(&MotionHistory) -> &Vec<f64>| -> Result<Vec<f64>, RigError> {
+        let largest = |filter: &Filter| Ok(largest_behind(of(&history), history.duration_s, *filter)?.0);
         filters.iter().map(largest).collect()
     };
     Ok(Ok(Maxima {
-        acceleration: behind(|course| &course.acceleration)?,
-        displacement: behind(|course| &course.displacement)?,
+        acceleration: behind(|history| &history.acceleration)?,
+        displacement: behind(|history| &history.displacement)?,
     }))
 }
 

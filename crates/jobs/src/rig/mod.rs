@@ -4,7 +4,7 @@
 //! stiffness, a contact that loses energy, a shaker that does not keep its amplitude. Its motion is swept up
 //! and down in steps; at each frequency it settles, is recorded through a measuring chain, and the record is
 //! classified as a measured one would be. What the rig knows of itself (the state once in each period,
-//! without noise) is kept beside it, to tell how often that is right.
+//! without noise) is kept beside it, to count how often that is right.
 //!
 //! | file | what |
 //! |---|---|

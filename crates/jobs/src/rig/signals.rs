@@ -19,7 +19,7 @@ use crate::{
     Observer, StoredBranches,
     comparison::{
         Filter, Overlay, OverlaySettings, Sought,
-        course::{follow, largest},
+        history::{follow, largest},
         overlay,
     },
 };
@@ -109,8 +109,8 @@ fn measure(
     let state = nearest.map_or(rest.as_slice(), |point| point.state.as_slice());
     let (mut simulation, _) = settled(rig, model, frequency_hz, state)?;
     let samples = (FINER * rig.sampling_hz / frequency_hz).ceil() as usize;
-    let course = follow(model, &mut simulation, frequency_hz, LEAD_IN + rig.recorded_periods, samples)?;
+    let history = follow(model, &mut simulation, frequency_hz, LEAD_IN + rig.recorded_periods, samples)?;
     let seed = u64::from(rig.seed) ^ frequency_hz.to_bits();
     let source = (samples as f64 * frequency_hz, seed);
-    Ok(record(rig, MeasuredQuantity::Acceleration, &course.acceleration, source)?)
+    Ok(record(rig, MeasuredQuantity::Acceleration, &history.acceleration, source)?)
 }

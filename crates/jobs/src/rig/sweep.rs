@@ -16,7 +16,7 @@ use hammerbeam_study::{Model, file::Rig};
 use super::{MotionExponents, RigError, chaos::exponents};
 use crate::{
     Observer, PooledOrder,
-    comparison::course::{Course, follow, largest},
+    comparison::history::{MotionHistory, follow, largest},
 };
 
 /// Rate at which a motion is gone over before the chain, over the sampling rate: at 10 kHz twelve
@@ -26,7 +26,7 @@ pub(super) const FINER: f64 = 8.0;
 pub(super) const LEAD_IN: u32 = 4;
 /// Distance of states, relative to their size, up to which a motion has come back.
 const SAME: f64 = 1e-3;
-/// States at and near rest from which a motion is begun anew.
+/// States at and near rest from which a motion is started anew.
 const TRIALS: u32 = 7;
 /// Longest period that is looked for in the states.
 const LONGEST: usize = 8;
@@ -67,7 +67,7 @@ pub struct RigPoint {
     pub exponents: Option<MotionExponents>,
     /// Largest acceleration before the filter [m/s²].
     pub unfiltered: f64,
-    /// Whether the motion was begun anew at or near rest, since the contact was closed when the frequency was
+    /// Whether the motion was started anew at or near rest, since the contact was closed when the frequency was
     /// changed, or the motion from there could not be computed.
     pub begun_anew: bool,
     /// State at phase 0 at the end.
@@ -177,17 +177,17 @@ fn at(
     let (mut simulation, begun_anew) = settled(rig, model, frequency_hz, state)?;
     let samples = (FINER * rig.sampling_hz / frequency_hz).ceil() as usize;
     let mut states = Vec::new();
-    let mut course = Course::default();
+    let mut history = MotionHistory::default();
     for _ in 0..LEAD_IN + rig.recorded_periods {
         states.push(simulation.state().to_vec());
-        append(&mut course, follow(model, &mut simulation, frequency_hz, 1, samples)?);
+        append(&mut history, follow(model, &mut simulation, frequency_hz, 1, samples)?);
     }
     let lead = LEAD_IN as usize * samples;
     let fine_hz = samples as f64 * frequency_hz;
-    let acceleration = measured(rig, MeasuredQuantity::Acceleration, &course.acceleration, (fine_hz, seed))?;
+    let acceleration = measured(rig, MeasuredQuantity::Acceleration, &history.acceleration, (fine_hz, seed))?;
     let displacement =
-        measured(rig, MeasuredQuantity::Displacement, &course.displacement, (fine_hz, seed ^ 0x5555))?;
-    let table: Vec<f64> = second_derivative(model, &course, samples, frequency_hz);
+        measured(rig, MeasuredQuantity::Displacement, &history.displacement, (fine_hz, seed ^ 0x5555))?;
+    let table: Vec<f64> = second_derivative(model, &history, samples, frequency_hz);
     let table = measured(rig, MeasuredQuantity::Acceleration, &table, (fine_hz, seed ^ 0xaaaa))?;
     let settings = ClassifySettings::default();
     let classification = classify(&acceleration, rig.sampling_hz, frequency_hz, &settings)?;
@@ -218,28 +218,28 @@ fn at(
         classification,
         exponents,
         period_of_states: period_of(&state_scales(&model.system, frequency_hz), &states),
-        unfiltered: largest(&course.acceleration[lead..]),
+        unfiltered: largest(&history.acceleration[lead..]),
         begun_anew,
         state: simulation.state().to_vec(),
     })
 }
 
-fn append(course: &mut Course, more: Course) {
-    course.duration_s += more.duration_s;
-    course.displacement.extend(more.displacement);
-    course.velocity.extend(more.velocity);
-    course.acceleration.extend(more.acceleration);
-    course.supports.resize(more.supports.len(), Vec::new());
-    course.supports.iter_mut().zip(more.supports).for_each(|(all, more)| all.extend(more));
+fn append(history: &mut MotionHistory, more: MotionHistory) {
+    history.duration_s += more.duration_s;
+    history.displacement.extend(more.displacement);
+    history.velocity.extend(more.velocity);
+    history.acceleration.extend(more.acceleration);
+    history.supports.resize(more.supports.len(), Vec::new());
+    history.supports.iter_mut().zip(more.supports).for_each(|(all, more)| all.extend(more));
 }
 
 /// Acceleration of the support, from the model: the table has a sensor of its own.
-fn second_derivative(model: &Model, course: &Course, samples: usize, frequency_hz: f64) -> Vec<f64> {
+fn second_derivative(model: &Model, history: &MotionHistory, samples: usize, frequency_hz: f64) -> Vec<f64> {
     // All supports of a rig move as its one table.
     let motions = |phase: f64| model.system.support_motions(frequency_hz, phase);
     let at =
         |k: usize| motions((k % samples) as f64 / samples as f64).first().map_or(0.0, |motion| motion[2]);
-    (0..course.acceleration.len()).map(at).collect()
+    (0..history.acceleration.len()).map(at).collect()
 }
 
 /// What the chain makes of a quantity: filtered if it is an acceleration, sampled, with noise, without the
@@ -253,7 +253,7 @@ fn measured(
     Ok(record(rig, quantity, samples, source)?.0)
 }
 
-/// The same, with the time of its first sample [s], counted from the beginning of the lead-in.
+/// The same, with the time of its first sample [s], counted from the start of the lead-in.
 pub(super) fn record(
     rig: &Rig,
     quantity: MeasuredQuantity,

@@ -53,7 +53,7 @@ fn is_on_circle([re, im]: [f64; 2]) -> bool {
 pub(super) struct WalkState {
     pub rows: Vec<Sketch>,
     pub end: Option<BranchEnd>,
-    /// A thread is at it; setting the flag tells it to leave.
+    /// A thread is at it; setting the flag asks it to leave.
     pub running: Option<Arc<AtomicBool>>,
     /// Of so many rows it is known whether they lie on a branch that was lost there.
     pub compared: usize,
@@ -70,7 +70,7 @@ impl WalkState {
         self.end.as_ref().is_some_and(BranchEnd::is_closed)
     }
 
-    /// Tells the thread that is at it to leave.
+    /// Asks the thread that is at it to leave.
     pub fn cancel(&mut self) {
         if let Some(flag) = self.running.take() {
             flag.store(true, Ordering::Relaxed);

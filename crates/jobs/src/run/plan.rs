@@ -69,7 +69,7 @@ impl Plan {
 
     /// The first jobs, in their order.
     ///
-    /// * `resonances_hz`: where the linear system tells to look; no more of them are looked at than the
+    /// * `resonances_hz`: where the linear system suggests to look; no more of them are looked at than the
     ///   survey has frequencies.
     pub(super) fn first_jobs(&self, resonances_hz: &[f64]) -> Vec<(JobKind, f64, Option<i64>, u32)> {
         let harmonic = self.harmonic_hz.iter().map(|&at| (JobKind::Harmonic, at, None, 0));

@@ -34,7 +34,7 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<Surveyed, String>;
 
-    /// Frequencies at which the linear system tells to look: near those at which the linear response reaches
+    /// Frequencies at which the linear system suggests to look: near those at which the linear response reaches
     /// a contact, and resonances [Hz].
     fn resonances_hz(&self) -> Vec<f64>;
 

@@ -48,7 +48,7 @@ pub(super) struct WalkTask {
     pub budget: u64,
     /// Solutions after which the thread leaves it for others, if it is to.
     pub share: Option<u64>,
-    /// Tells it to leave.
+    /// Asks it to leave.
     pub cancelled: Arc<AtomicBool>,
 }
 
@@ -73,7 +73,7 @@ pub(super) enum Report {
     Lost,
 }
 
-/// Tells of a panic, so that nobody waits for the thread.
+/// Reports a panic, so that nobody waits for the thread.
 struct Alarm<'a>(&'a SyncSender<Report>);
 
 impl Drop for Alarm<'_> {

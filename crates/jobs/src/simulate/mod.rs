@@ -117,7 +117,7 @@ impl Work<'_> {
     /// Takes over what is stored.
     ///
     /// # Returns
-    /// Where the motion is, if it has begun.
+    /// Where the motion is, if it has started.
     fn read(&mut self) -> Result<Option<SimulationCheckpoint>, JobError> {
         let Some((store, request)) = self.kept.stored() else { return Ok(None) };
         let (written, observer, done) = (&mut self.written, &mut *self.observer, self.done);

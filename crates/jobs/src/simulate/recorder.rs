@@ -25,7 +25,7 @@ pub struct Recorder<'a> {
     /// and whether it is one of the equal steps.
     shared: bool,
     chunk: SimulatedChunk,
-    begun: Instant,
+    started: Instant,
 }
 
 impl<'a> Recorder<'a> {
@@ -37,8 +37,8 @@ impl<'a> Recorder<'a> {
             phases.insert(section, layout.section_phase);
         }
         let response = model.response_motion(layout.frequency_hz);
-        let (chunk, begun) = (SimulatedChunk::default(), Instant::now());
-        Self { model, layout, response, phases, section, shared, chunk, begun }
+        let (chunk, started) = (SimulatedChunk::default(), Instant::now());
+        Self { model, layout, response, phases, section, shared, chunk, started }
     }
 
     /// Goes over a period of the transient, of which nothing is written down.
@@ -72,12 +72,12 @@ impl<'a> Recorder<'a> {
     pub fn is_due(&self) -> bool {
         let SimulatedChunk { samples, section, contacts, .. } = &self.chunk;
         let numbers = samples.len() + section.len() + SimulatedContact::NUMBERS * contacts.len();
-        numbers >= MOST_NUMBERS || self.begun.elapsed() >= LONGEST
+        numbers >= MOST_NUMBERS || self.started.elapsed() >= LONGEST
     }
 
-    /// The chunk, if there are periods in it; another one is begun.
+    /// The chunk, if there are periods in it; another one is started.
     pub fn take(&mut self, simulation: &Simulation) -> Option<SimulatedChunk> {
-        self.begun = Instant::now();
+        self.started = Instant::now();
         let chunk = std::mem::take(&mut self.chunk);
         let unfinished = || simulation.unfinished().iter().map(|contact| self.contact(contact)).collect();
         (chunk.periods > 0).then(|| SimulatedChunk {

@@ -2,7 +2,7 @@
 
 use hammerbeam_study::{Model, StudyError, StudyFile, changed::model_with, number::Number};
 
-use crate::comparison::course::CourseError;
+use crate::comparison::history::HistoryError;
 
 /// Why a model with some values of the parameters does not exist.
 #[derive(Debug, thiserror::Error)]
@@ -25,7 +25,7 @@ pub enum CandidateError {
     ResponseLost { frequency_hz: f64 },
     /// An orbit cannot be gone over.
     #[error("the velocity of the response at {frequency_hz} Hz cannot be computed: {source}")]
-    Course { frequency_hz: f64, source: CourseError },
+    MotionHistory { frequency_hz: f64, source: HistoryError },
     /// Its motion cannot be computed.
     #[error("the response at {frequency_hz} Hz cannot be computed: {source}")]
     Orbit { frequency_hz: f64, source: hammerbeam_orbit::OrbitError },

@@ -11,21 +11,21 @@ use super::data::UpdateData;
 /// Probability below which a model does not fit its data.
 const POOR: f64 = 0.01;
 
-/// Factor of the standard deviations beyond which it is told.
+/// Factor of the standard deviations beyond which it is reported.
 const LARGE: f64 = 10.0;
 
 /// Something that has to be said about a fit.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// The data do not determine a parameter, or do not tell several apart.
+    /// The data do not determine a parameter, or do not separate several.
     LeftOpen {
         /// Parameters with their parts of the direction, the largest first.
         direction: Vec<(String, f64)>,
         /// Half width of the interval along it, relative; infinite where the data see nothing.
         half_width: f64,
     },
-    /// Parameters make up for each other; the data tell them apart by their precision alone.
+    /// Parameters make up for each other; only the precision of the data separates them.
     Collinear {
         /// Parameters with their parts of the direction, the largest first.
         direction: Vec<(String, f64)>,
@@ -154,12 +154,12 @@ impl fmt::Display for Finding {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LeftOpen { direction, half_width } => {
-                let verb = if direction.len() == 1 { "determine" } else { "tell apart" };
+                let verb = if direction.len() == 1 { "determine" } else { "separate" };
                 write!(formatter, "the data do not {verb} {}", names(direction))?;
                 if let ([_], true) = (&direction[..], half_width.is_finite()) {
                     return write!(
                         formatter,
-                        ": its interval reaches {:.0} % of its value either way (told from {:.0} % on)",
+                        ": its interval reaches {:.0} % of its value either way (reported from {:.0} % on)",
                         100.0 * half_width,
                         100.0 * UNDETERMINED
                     );
@@ -169,7 +169,7 @@ impl fmt::Display for Finding {
                 } else {
                     write!(
                         formatter,
-                        ": changed together by steps of {}, they stay within the interval up to {:.0} % of their values either way (told from {:.0} % on)",
+                        ": changed together by steps of {}, they stay within the interval up to {:.0} % of their values either way (reported from {:.0} % on)",
                         steps(direction),
                         100.0 * half_width,
                         100.0 * UNDETERMINED
@@ -178,8 +178,8 @@ impl fmt::Display for Finding {
             }
             Self::Collinear { direction, index } => write!(
                 formatter,
-                "{} nearly make up for each other: of a step of {} only one part in {index:.0} is seen (told from {COLLINEAR:.0} on); \
-                 the precision of the data alone tells them apart",
+                "{} nearly make up for each other: of a step of {} only one part in {index:.0} is seen (reported from {COLLINEAR:.0} on); \
+                 only the precision of the data separates them",
                 names(direction),
                 steps(direction)
             ),

@@ -175,7 +175,7 @@ fn read_parameter(table: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> O
     }
     let typical = if start == 0.0 { bounds.high - bounds.low } else { start.abs() };
     if !typical.is_finite() {
-        let help = vec!["allowed: another `start`, or `low` and `high`, which tell its size".into()];
+        let help = vec!["allowed: another `start`, or `low` and `high`, which give its size".into()];
         table.problem("start", format!("`{key}` starts at 0, so that its size is not known"), help);
         return None;
     }

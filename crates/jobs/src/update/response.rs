@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, SurveyEffort, neighbouring_orbit, survey};
 use hammerbeam_study::{Model, file::Study};
 
-use crate::{comparison::course::course, orbit_solver};
+use crate::{comparison::history::history, orbit_solver};
 
 use super::{
     candidate::CandidateError,
@@ -100,8 +100,8 @@ pub(super) fn maximum(model: &Model, orbit: &PeriodicSolution, of: Maximum) -> R
 /// is of the fourth order where the velocity is smooth.
 fn largest_velocity(model: &Model, orbit: &PeriodicSolution) -> Result<f64, CandidateError> {
     let frequency_hz = orbit.frequency_hz;
-    let course = course(model, orbit, SAMPLES);
-    let velocity = course.map_err(|source| CandidateError::Course { frequency_hz, source })?.velocity;
+    let history = history(model, orbit, SAMPLES);
+    let velocity = history.map_err(|source| CandidateError::MotionHistory { frequency_hz, source })?.velocity;
     let size = |k: usize| velocity[k % velocity.len()].abs();
     let top = (0..velocity.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0);
     let (before, here, after) = (size(top + velocity.len() - 1), size(top), size(top + 1));

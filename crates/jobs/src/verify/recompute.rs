@@ -50,7 +50,7 @@ impl std::fmt::Display for Failed {
     }
 }
 
-/// States in each excitation period that tell the size of an orbit.
+/// States in each excitation period that give the size of an orbit.
 const PER_PERIOD: usize = 8;
 /// Tolerance of the steps to them: the size is a measure, not a result.
 const SIZE: f64 = 1e-6;

@@ -75,7 +75,7 @@ impl<'a> Table<'a> {
     /// The same; `help` says what is allowed where it is missing.
     pub fn required_with_help(&self, key: &'static str, help: Vec<String>) -> Option<Value<'a>> {
         let value = self.optional(key);
-        // What is given, but wrongly, is told as that and not as missing.
+        // What is given, but wrongly, is reported as that and not as missing.
         if value.is_none() && !self.entries.contains_key(key) && !self.refuse_without_quantity(key) {
             self.problem(key, format!("`{key}` is missing{}", self.place_name()), help);
         }
@@ -146,8 +146,8 @@ impl<'a> Table<'a> {
     /// Notes every key that was never asked for.
     pub fn finish(self) {
         let (asked, refused) = (self.asked.borrow(), self.refused.borrow());
-        let told = |key: &str| asked.contains(&key) || refused.contains(&key);
-        for key in self.entries.keys().filter(|key| !told(key.get_ref().as_ref())) {
+        let is_known = |key: &str| asked.contains(&key) || refused.contains(&key);
+        for key in self.entries.keys().filter(|key| !is_known(key.get_ref().as_ref())) {
             let name = key.get_ref().as_ref();
             if self.has_other_unit(name, &asked) {
                 continue;

@@ -101,7 +101,7 @@ struct Product {
 /// A text such as `258 mm`; `None` where it is no number with a unit.
 pub fn measured(text: &str) -> Option<Measured> {
     let text = text.trim();
-    // The number is the longest beginning that is one.
+    // The number is the longest start of the text that is one.
     let number = (1..=text.len()).rev().filter_map(|end| text.get(..end)).map(str::trim_end);
     let number = number.into_iter().find(|begin| begin.parse::<f64>().is_ok_and(f64::is_finite))?;
     let product = product(text[number.len()..].trim())?;

@@ -73,8 +73,9 @@ pub(super) fn check_range(
     if let Some([first, last]) = amplitude.ends()
         && (first > low || last < high)
     {
-        let message =
-            format!("`{key}` is told from {first} to {last} Hz, the excitation runs from {low} to {high} Hz");
+        let message = format!(
+            "`{key}` is given from {first} to {last} Hz, the excitation runs from {low} to {high} Hz"
+        );
         table.problem(key, message, vec!["allowed: a table that covers `frequency_hz`".to_owned()]);
     }
 }

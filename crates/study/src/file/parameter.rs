@@ -222,7 +222,7 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
     law.keys().filter_map(|(key, value)| of(key, value)).chain(gap).collect()
 }
 
-/// Reads `parameter` and `range`; the range in any case, so that all faults of both are told at once.
+/// Reads `parameter` and `range`; the range in any case, so that all faults of both are reported at once.
 pub(super) fn read(table: &Table<'_>, study: Variable<'_>) -> Option<VariedParameter> {
     let name = table.required("parameter");
     let range = table.required("range");
@@ -241,8 +241,8 @@ pub(super) fn read(table: &Table<'_>, study: Variable<'_>) -> Option<VariedParam
     Some(VariedParameter { name: text.to_owned(), kind, range })
 }
 
-/// What a name means and which values it can have; told if that is nothing, or more than one thing. Nothing
-/// is told of names in a table that is faulty itself.
+/// What a name means and which values it can have; reported if that is nothing, or more than one thing. Names in a
+/// table that is faulty itself are not judged.
 fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(ParameterKind, Quantity)> {
     let known = study.known();
     let mut kinds: Vec<(ParameterKind, Quantity)> = Vec::new();

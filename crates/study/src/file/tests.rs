@@ -320,7 +320,7 @@ fn tables_of_amplitudes_that_make_no_sense_are_refused() {
         ("[[19.0, 0.5e-3], [19.0, 0.4e-3], [110.0, 0.4e-3]]", "frequencies must rise"),
         (
             "[[20.0, 0.5e-3], [110.0, 0.4e-3]]",
-            "told from 20 to 110 Hz, the excitation runs from 19 to 110 Hz",
+            "given from 20 to 110 Hz, the excitation runs from 19 to 110 Hz",
         ),
         ("[[19.0, 0.5e-3], [110.0, 0.0]]", "is 0"),
         ("[[19.0, 0.5e-3], [110.0]]", "has 1 entries"),

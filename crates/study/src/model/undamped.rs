@@ -3,7 +3,7 @@
 //! With the modal damping matrix C a free vibration of mode i alone decays with the damping ratio `C_ii/(2
 //! w_i)`. C is positive semidefinite, so where `C_ii` vanishes the mode is not coupled to others by it
 //! either: it never decays, and a pair of multipliers of every orbit on which no stop acts has modulus one.
-//! Below a ratio of 1e-10 or so these multipliers are not told from the unit circle.
+//! Below a ratio of 1e-10 or so these multipliers cannot be kept apart from the unit circle.
 //!
 //! A formula that depends on the velocity always acts: the modes that it moves are not free of damping, be it
 //! positive or negative.

@@ -5,7 +5,7 @@
 //! of N, and its modes there are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth
 //! of a gear pair damps every mode of the open pair, but not the motion of both gears together, on the weak
 //! spring that holds them. As long as the teeth are closed it has a damping ratio like the square of the
-//! ratio of the stiffnesses, and multipliers that cannot be told from the unit circle.
+//! ratio of the stiffnesses, and multipliers that rounding cannot keep apart from the unit circle.
 //!
 //! Each element is closed alone, and all together. `undamped.rs` finds what is undamped with all elements
 //! open.

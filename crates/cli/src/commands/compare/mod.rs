@@ -71,7 +71,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The model with a point observed, that of the study if none is told, and its name.
+/// The model with a point observed, that of the study if none is named, and its name.
 pub fn observed(file: &StudyFile, point: Option<&str>) -> Result<(Model, String), Failure> {
     let model = Model::build(file)?;
     let Some(name) = point else { return Ok((model, file.study.response.point.clone())) };

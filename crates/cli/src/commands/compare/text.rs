@@ -57,7 +57,7 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
         ),
     ];
     let notes = fit_notes(fit).into_iter().chain(gaps(compared.curves.gaps())).chain(beyond(compared));
-    lines.extend(notes.map(|told| format!("  note: {told}")));
+    lines.extend(notes.map(|note| format!("  note: {note}")));
     let unexplained: Vec<&PointOutcome> =
         comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
     lines.extend(unexplained.iter().take(LISTED).map(|point| unexplained_text(point)));
@@ -67,7 +67,7 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
     lines
 }
 
-/// What has to be known of a fit: numbers that are no minimum, or not told apart, and another minimum.
+/// What has to be known of a fit: numbers that are no minimum, or hardly separated, and another minimum.
 pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let frequency = if fit.offset { "frequency offset" } else { "frequency factor" };
     let at_end = |(name, estimate): (&str, Estimate)| {
@@ -81,7 +81,7 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
         .filter_map(at_end)
         .collect();
     if fit.correlation.is_some_and(|value| value.abs() > 0.95 || !value.is_finite()) {
-        notes.push("the points hardly tell shift and factor apart".to_owned());
+        notes.push("the points hardly separate shift and factor".to_owned());
     }
     notes.extend(second_minimum(fit));
     notes

@@ -132,7 +132,7 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
         overlay.residual_after,
         overlay.factor,
     ));
-    lines.extend(table.map(|path| format!("{path}: both courses")));
+    lines.extend(table.map(|path| format!("{path}: both histories")));
     lines.extend(laid.notes().into_iter().map(|note| format!("note: {note}")));
     lines.extend(laid.input.notes());
     lines.join("\n")

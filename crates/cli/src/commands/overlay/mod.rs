@@ -59,8 +59,8 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let work: (usize, &mut dyn Observer) = (threads(None), &mut watch);
     let found = overlay((&model, &branches), (&measured, period_multiple), &settings, work)?;
     let overlay = found.ok_or_else(|| nothing(&branches, period_multiple, &settings))?;
-    if let Some(told) = nothing_alike(&overlay) {
-        return Err(Failure::NoResult(format!("{told}; are frequency, sensor and filter right?")));
+    if let Some(reason) = nothing_alike(&overlay) {
+        return Err(Failure::NoResult(format!("{reason}; are frequency, sensor and filter right?")));
     }
     let laid = Laid { input, quantity, point, classification, period_multiple, measured, overlay };
     let table = options.out.as_deref().map(|folder| give::write(folder, &laid)).transpose()?;
@@ -73,16 +73,16 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
 /// What the channel shows: its unit says so, or the user.
 fn sensor(input: &Input, options: &OverlayOptions) -> Result<MeasuredQuantity, Failure> {
     let channel = input.channel();
-    let told = options.sensor.map(quantity);
-    match (channel.quantity, told) {
-        (MeasuredQuantity::Other, Some(told)) => Ok(told),
+    let given = options.sensor.map(quantity);
+    match (channel.quantity, given) {
+        (MeasuredQuantity::Other, Some(given)) => Ok(given),
         (MeasuredQuantity::Other, None) => Err(Failure::BadInput(format!(
-            "the unit of channel {} does not tell what it measures: give --sensor",
+            "the unit of channel {} does not say what it measures: give --sensor",
             channel.name
         ))),
-        (found, Some(told)) if found != told => Err(Failure::BadInput(format!(
+        (found, Some(given)) if found != given => Err(Failure::BadInput(format!(
             "--sensor {}: channel {} is a {} by its unit",
-            told.word(),
+            given.word(),
             channel.name,
             found.word()
         ))),

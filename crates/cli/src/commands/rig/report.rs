@@ -50,7 +50,7 @@ pub fn text(found: &RigReport, folder: &Path, files: &[String]) -> String {
             comparison.after.rms
         ));
         let notes = fit_notes(&comparison.fit).into_iter().chain(gaps(curves.gaps()));
-        lines.extend(notes.map(|told| format!("    note: {told}")));
+        lines.extend(notes.map(|note| format!("    note: {note}")));
     }
     for (index, filter) in found.filters.iter().enumerate() {
         let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
@@ -163,15 +163,15 @@ fn comparisons(text: &mut String, found: &RigReport) {
         );
     }
     for (name, curves, comparison) in &found.comparisons {
-        for told in fit_notes(&comparison.fit).into_iter().chain(gaps(curves.gaps())) {
-            let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
+        for note in fit_notes(&comparison.fit).into_iter().chain(gaps(curves.gaps())) {
+            let _ = writeln!(text, "\nNote, {}: {note}.", what(name));
         }
     }
     let [right, wrong, doubtful] = found.agreement();
     let _ = writeln!(
         text,
         "\nIn brackets: periodic points that meet a stable branch of their period.\n\n\
-         The records tell what the states themselves do (known here, unlike on a rig) at {right} points, something else at {wrong}, and leave {doubtful} in doubt.\n",
+         The records show what the states themselves do (known here, unlike on a rig) at {right} points, something else at {wrong}, and leave {doubtful} in doubt.\n",
     );
 }
 
@@ -219,8 +219,8 @@ fn filters(text: &mut String, filters: &[Filter], filtered: &Filtered) {
             );
         }
     }
-    if let Some(told) = gaps(filtered.gaps) {
-        let _ = writeln!(text, "\nNote: {told}; they are in no ratio.");
+    if let Some(note) = gaps(filtered.gaps) {
+        let _ = writeln!(text, "\nNote: {note}; they are in no ratio.");
     }
     let _ = writeln!(
         text,
@@ -294,8 +294,8 @@ mod tests {
             filters(&mut text, &[filter], &Filtered { branches: Vec::new(), gaps });
             text
         };
-        let told = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they are in no ratio.";
-        assert!(of(3).contains(told), "{}", of(3));
+        let note = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they are in no ratio.";
+        assert!(of(3).contains(note), "{}", of(3));
         assert!(!of(0).contains("gone over"), "{}", of(0));
     }
 }

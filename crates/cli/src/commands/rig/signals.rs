@@ -102,7 +102,7 @@ mod tests {
         let signals = [aperiodic(0.58)];
         let mut text = String::new();
         report(&mut text, &signals);
-        let told = [
+        let expected = [
             // 0.58^2.
             "no orbit is alike: 34 % of the measured power is that of the most alike one",
             "the measured motion is aperiodic; its mean over 2 period(s) is compared",
@@ -113,9 +113,9 @@ mod tests {
         let document = signal_document((0, &signals[0]));
         let notes: Vec<&str> =
             document["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-        for told in told {
-            assert!(text.contains(&format!("Note, figure_07.csv: {told}")), "{text}");
-            assert!(notes.iter().any(|note| note.starts_with(told)), "{notes:?}");
+        for note in expected {
+            assert!(text.contains(&format!("Note, figure_07.csv: {note}")), "{text}");
+            assert!(notes.iter().any(|found| found.starts_with(note)), "{notes:?}");
         }
     }
 

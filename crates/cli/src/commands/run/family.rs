@@ -11,7 +11,7 @@ use crate::{
     args::RunOptions,
     failure::Failure,
     interrupt::Interrupt,
-    output::{Output, tell},
+    output::{Output, notify},
 };
 
 /// A study of the family.
@@ -40,7 +40,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(failed.join("\n")));
     }
     for message in &failed {
-        tell(&format!("no result: {message}"));
+        notify(&format!("no result: {message}"));
     }
     output.give(&json!({ "runs": documents, "failed": failed }), || texts.join("\n\n"))
 }

@@ -40,7 +40,7 @@ pub(super) fn run_into(
 ) -> Result<Summary, Failure> {
     let asked = &study.file.study;
     let mut terminal = Terminal::new(interrupt.clone(), asked.varies.len() + asked.curves.len());
-    let begun = Instant::now();
+    let started = Instant::now();
     let threads = threads(options.jobs);
     let request = RunRequest { out, from: &options.from, threads };
     let run = run_study(study, request, &mut terminal);
@@ -63,7 +63,7 @@ pub(super) fn run_into(
                 Ok(_) if summary.report.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
                     summary.report.figures = figures.names;
-                    summary.elapsed = begun.elapsed();
+                    summary.elapsed = started.elapsed();
                     Ok(summary)
                 }
             }

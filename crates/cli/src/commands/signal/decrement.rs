@@ -93,7 +93,7 @@ fn text(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> String {
                 first.value, second.value
             )),
             Some(_) => {}
-            None => lines.push("note: too few maxima to tell whether the decrement changes over the decay".to_owned()),
+            None => lines.push("note: too few maxima to see whether the decrement changes over the decay".to_owned()),
         }
     }
     if !decay.white {

@@ -66,14 +66,14 @@ fn normal(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
 fn inverse(matrix: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let [[a, b], [c, d]] = matrix;
     let determinant = a * d - b * c;
-    // Slopes that are all alike cannot be told from the factor.
+    // Slopes that are all alike cannot be separated from the factor.
     if determinant <= 1e-12 * a * d {
         return None;
     }
     Some([[d / determinant, -b / determinant], [-c / determinant, a / determinant]])
 }
 
-/// Infinite where the points cannot tell the numbers apart.
+/// Infinite where the points cannot separate the numbers.
 pub(super) fn covariance(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
     let fitted = free.iter().filter(|free| **free).count();
     let left = rows.len().saturating_sub(fitted).max(1);

@@ -1,4 +1,4 @@
-//! The orbit that is most alike, and those that the record cannot tell from it.
+//! The orbit that is most alike, and those that the record cannot separate from it.
 //!
 //! The noise is in the record: its waveform is `a = h b + e`, with the orbit `b` as it is delayed, so that an
 //! orbit leaves `u = |a - h b|^2/aa`. With the correlation `c` and `x = h sqrt(bb/aa)` that is
@@ -46,7 +46,7 @@ pub(super) fn alike(
     given: Option<f64>,
 ) -> Option<Alike> {
     let left = |one: &Overlay| left(one.alignment, given);
-    let most = left(best) + told(measured, best.alignment.sizes.0);
+    let most = left(best) + separable(measured, best.alignment.sizes.0);
     // Neighbours on a branch are nearly the same orbit.
     let apart = |one: &&Overlay| {
         let distance = (one.frequency_hz / best.frequency_hz - 1.0).abs();
@@ -62,10 +62,10 @@ pub(super) fn alike(
     (!others.is_empty()).then_some(Alike { count: others.len(), branches, frequency_hz })
 }
 
-/// Difference of squares that a record can tell, over the mean square of its waveform.
+/// Difference of squares that a record can show, over the mean square of its waveform.
 ///
 /// * `size`: root mean square of the waveform.
-pub(super) fn told(measured: &Waveform, size: f64) -> f64 {
+pub(super) fn separable(measured: &Waveform, size: f64) -> f64 {
     let freedom = 2.0 * measured.lines as f64 * measured.pieces as f64;
     NONE.max(CHI_SQUARED * (measured.scatter / size).powi(2) / freedom)
 }
@@ -144,7 +144,7 @@ mod tests {
         Waveform { samples, per_period: LENGTH, lines: LINES, pieces: PIECES, scatter }
     }
 
-    /// Of 400 records 380 ± 4.4 should have the orbit that they are of among those that are told: within
+    /// Of 400 records 380 ± 4.4 should have the orbit that they are of among those that are counted: within
     /// three of these standard deviations.
     fn assert_covered(noise: f64, given: Option<f64>, correlations: std::ops::Range<f64>) {
         let mut random = RandomSource::new(11);
@@ -189,7 +189,7 @@ mod tests {
             let best = &tried[most_alike(&tried, Some(factor)).unwrap()];
             assert!((best.frequency_hz - 1.0).abs() < 1e-9, "{}", best.frequency_hz);
             assert!((best.alignment.correlation - 0.5_f64.sqrt()).abs() < 1e-6);
-            // Not the least of the residuals that are told.
+            // Not the least of the residuals that are counted.
             assert!(tried.iter().any(|one| one.residual_after < 0.8 * best.residual_after));
         }
         assert_eq!(most_alike(&[], None), None);

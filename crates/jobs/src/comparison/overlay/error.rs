@@ -3,7 +3,7 @@
 use hammerbeam_results::StoreError;
 use hammerbeam_signal::SignalError;
 
-use crate::comparison::course::NoneSampled;
+use crate::comparison::history::NoneSampled;
 
 /// Why nothing is laid over.
 #[derive(Debug, thiserror::Error)]

@@ -17,7 +17,7 @@ pub struct Overlay {
     pub turned_correlation: f64,
     /// Factor on measured values: given, or the best one.
     pub factor: f64,
-    /// Root mean square of what is left over that of the computed course: with the factor 1, or -1 where
+    /// Root mean square of what is left over that of the computed history: with the factor 1, or -1 where
     /// [`Overlay::factor`] is negative,
     pub residual_before: f64,
     /// and with that factor.
@@ -33,7 +33,7 @@ pub struct Overlay {
     pub supports: Vec<Vec<f64>>,
     /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
     pub largest: (f64, f64),
-    /// Others that are as alike, as far as the record can tell: of other branches, or farther away than
+    /// Others that are as alike, as far as the record can show: of other branches, or farther away than
     /// neighbours on a branch.
     pub alike: Option<Alike>,
     /// Orbits that were tried,

@@ -8,7 +8,7 @@ use hammerbeam_signal::{
 use hammerbeam_study::Model;
 
 use super::{candidates::Candidate, error::OverlayError, found::Overlay, settings::OverlaySettings};
-use crate::comparison::course::{Course, LEFT, Sampled, course, largest, size};
+use crate::comparison::history::{LEFT, MotionHistory, Sampled, history, largest, size};
 
 /// Samples of an orbit in an excitation period, before the filter; a multiple of those of the waveform.
 const SAMPLES: usize = 4096;
@@ -24,12 +24,12 @@ pub(super) fn laid(
     settings: &OverlaySettings,
 ) -> Tried {
     let finer = SAMPLES.div_ceil(measured.per_period);
-    let course = match course(model, orbit, finer * measured.per_period) {
-        Ok(course) => course,
+    let history = match history(model, orbit, finer * measured.per_period) {
+        Ok(history) => history,
         Err(reason) => return Ok(Err(reason)),
     };
-    let unfiltered = sensed(&course, settings.quantity)?;
-    let filtered = behind(unfiltered, course.duration_s, settings)?;
+    let unfiltered = sensed(&history, settings.quantity)?;
+    let filtered = behind(unfiltered, history.duration_s, settings)?;
     let shown = band_limited(&filtered, measured.samples.len(), measured.lines)?;
     let lay = lay(&measured.samples, &shown, settings.shifts, settings.factor)?;
     // What is delayed by whole samples of the orbit has no overshoot at a contact.
@@ -49,8 +49,8 @@ pub(super) fn laid(
         turned_correlation: lay.turned_correlation,
         filtered: delayed(&shown, lay.alignment.shift)?,
         unfiltered: turned(unfiltered),
-        displacement: turned(&course.displacement),
-        supports: course.supports.iter().map(|series| turned(series)).collect(),
+        displacement: turned(&history.displacement),
+        supports: history.supports.iter().map(|series| turned(series)).collect(),
         largest: (largest(unfiltered), largest(&filtered)),
         alignment: lay.alignment,
         alike: None,
@@ -59,17 +59,17 @@ pub(super) fn laid(
     }))
 }
 
-/// The quantity of a course.
-fn sensed(course: &Course, quantity: MeasuredQuantity) -> Result<&[f64], OverlayError> {
+/// The quantity of a history.
+fn sensed(history: &MotionHistory, quantity: MeasuredQuantity) -> Result<&[f64], OverlayError> {
     match quantity {
-        MeasuredQuantity::Displacement => Ok(&course.displacement),
-        MeasuredQuantity::Velocity => Ok(&course.velocity),
-        MeasuredQuantity::Acceleration => Ok(&course.acceleration),
+        MeasuredQuantity::Displacement => Ok(&history.displacement),
+        MeasuredQuantity::Velocity => Ok(&history.velocity),
+        MeasuredQuantity::Acceleration => Ok(&history.acceleration),
         other => Err(OverlayError::NoSuchSensor { quantity: other.word() }),
     }
 }
 
-/// A course behind the filter of the measurement.
+/// A history behind the filter of the measurement.
 fn behind(unfiltered: &[f64], duration_s: f64, settings: &OverlaySettings) -> Result<Vec<f64>, OverlayError> {
     let Some((filter, zero_phase)) = settings.filter else { return Ok(unfiltered.to_vec()) };
     let low_pass = if zero_phase { periodic_zero_phase } else { periodic_low_pass };

@@ -1,4 +1,4 @@
-//! A measured course laid over computed orbits.
+//! A measured history laid over computed orbits.
 //!
 //! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable
 //! orbits of that period in a range of frequencies each goes through the same sensor and filter (line by line
@@ -29,7 +29,7 @@ use hammerbeam_attractor::InOrder;
 use hammerbeam_signal::waveform::Waveform;
 use hammerbeam_study::Model;
 
-use super::course::sampled;
+use super::history::sampled;
 use crate::{Observer, PooledOrder, StoredBranches};
 use candidates::Candidate;
 

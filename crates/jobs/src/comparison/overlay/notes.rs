@@ -13,7 +13,7 @@ use super::found::Overlay;
 const NOTHING: f64 = 0.1;
 /// Correlation below which less than half of the measured power is that of the orbit (its square).
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Correlation of a course turned around beyond which it is reported: half of what is left without.
+/// Correlation of a history turned around beyond which it is reported: half of what is left without.
 const TURNED: f64 = 0.5;
 /// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it
 /// is the square that counts.
@@ -95,7 +95,7 @@ impl LaidWaveform<'_> {
         let correlation = self.overlay.alignment.correlation;
         (correlation < HALF).then(|| {
             format!(
-                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than half; shift and factor tell little",
+                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than half; shift and factor mean little",
                 100.0 * correlation.max(0.0).powi(2)
             )
         })
@@ -107,7 +107,7 @@ impl LaidWaveform<'_> {
         let branches: Vec<String> = alike.branches.iter().map(u32::to_string).collect();
         let (low, high) = alike.frequency_hz;
         Some(format!(
-            "{} other orbit(s) between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter of the record can tell: which one it is, is not known",
+            "{} other orbit(s) between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter of the record can show: which of them it is remains open",
             alike.count,
             branches.join(", ")
         ))

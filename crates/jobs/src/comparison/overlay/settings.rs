@@ -1,8 +1,8 @@
-//! Which orbits a course is laid over, and how.
+//! Which orbits a history is laid over, and how.
 
 use hammerbeam_signal::{MeasuredQuantity, waveform::Shifts};
 
-use crate::comparison::course::Filter;
+use crate::comparison::history::Filter;
 
 /// Which orbits are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub enum Sought {
     At(f64),
 }
 
-/// How a course is laid over orbits.
+/// How a history is laid over orbits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverlaySettings {
     /// What the sensor measures: displacement, velocity or acceleration of the response point of the model.

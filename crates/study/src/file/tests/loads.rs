@@ -107,7 +107,7 @@ fn faults_of_forces_stand_at_their_keys() {
     );
     assert_refused(
         with(FORCES, "[[0.5, 1.0]", "[[1.5, 1.0]"),
-        &["`amplitude_n` is told from 1.5 to 2.5 Hz", "a table that covers `frequency_hz`", "load[0]"],
+        &["`amplitude_n` is given from 1.5 to 2.5 Hz", "a table that covers `frequency_hz`", "load[0]"],
     );
     assert_refused(
         with(FORCES, "order = 2", "order = 0"),
@@ -133,7 +133,7 @@ fn acceleration_stands_in_place_of_displacement() {
     assert_refused(with(SHAKEN, "= 3.0", "= -3.0"), &["`amplitude_m_s2` is -3 m/s^2"]);
     assert_refused(
         with(SHAKEN, "= 3.0", "= [[1.2, 3.0], [2.0, 4.0]]"),
-        &["`amplitude_m_s2` is told from 1.2 to 2 Hz"],
+        &["`amplitude_m_s2` is given from 1.2 to 2 Hz"],
     );
 }
 

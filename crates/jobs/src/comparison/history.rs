@@ -19,7 +19,7 @@ pub struct Filter {
 /// Why an orbit cannot be sampled.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum CourseError {
+pub enum HistoryError {
     /// Its motion cannot be computed.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -37,11 +37,11 @@ pub enum CourseError {
 #[expect(missing_docs, reason = "the message names its fields")]
 pub struct NoneSampled {
     pub count: usize,
-    pub first: CourseError,
+    pub first: HistoryError,
 }
 
-/// What came of an orbit: something was made of its course, or it could not be gone over.
-pub type Sampled<T, E> = Result<Result<T, CourseError>, E>;
+/// What came of an orbit: something was made of its history, or it could not be gone over.
+pub type Sampled<T, E> = Result<Result<T, HistoryError>, E>;
 
 /// What was made of each orbit, `None` for one that could not be gone over, and how many of these there are.
 ///
@@ -70,7 +70,7 @@ pub fn sampled<T, E: From<NoneSampled>>(
 
 /// Samples at equal steps over an orbit period, the first at phase 0 of the excitation.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Course {
+pub struct MotionHistory {
     /// Orbit period [s].
     pub duration_s: f64,
     /// Displacement of the response point [m].
@@ -88,8 +88,12 @@ pub struct Course {
 /// * `samples`: in an excitation period.
 ///
 /// # Errors
-/// [`CourseError`].
-pub fn course(model: &Model, orbit: &PeriodicSolution, samples: usize) -> Result<Course, CourseError> {
+/// [`HistoryError`].
+pub fn history(
+    model: &Model,
+    orbit: &PeriodicSolution,
+    samples: usize,
+) -> Result<MotionHistory, HistoryError> {
     let settings = ExactSettings::default();
     let state = if orbit.phase == 0.0 {
         orbit.nodes.first().cloned()
@@ -97,39 +101,39 @@ pub fn course(model: &Model, orbit: &PeriodicSolution, samples: usize) -> Result
         let mut integrator = ExactIntegrator::new(model.system.clone(), settings)?;
         states_at_phase(&mut integrator, orbit, 0.0)?.into_iter().next()
     };
-    let state = state.ok_or(CourseError::NoState)?;
+    let state = state.ok_or(HistoryError::NoState)?;
     let mut simulation = Simulation::new(model.system.clone(), orbit.frequency_hz, &state, settings)?;
-    let mut course = follow(model, &mut simulation, orbit.frequency_hz, orbit.period_multiple, samples)?;
-    course.duration_s = f64::from(orbit.period_multiple) / orbit.frequency_hz;
-    Ok(course)
+    let mut history = follow(model, &mut simulation, orbit.frequency_hz, orbit.period_multiple, samples)?;
+    history.duration_s = f64::from(orbit.period_multiple) / orbit.frequency_hz;
+    Ok(history)
 }
 
 /// Goes on with a motion over some periods.
 ///
 /// # Errors
-/// [`CourseError::Attractor`].
+/// [`HistoryError::Attractor`].
 pub fn follow(
     model: &Model,
     simulation: &mut Simulation,
     frequency_hz: f64,
     periods: u32,
     samples: usize,
-) -> Result<Course, CourseError> {
+) -> Result<MotionHistory, HistoryError> {
     let supports = vec![Vec::new(); model.system.model().supports.len()];
     let duration_s = f64::from(periods) / frequency_hz;
-    let mut course = Course { duration_s, supports, ..Course::default() };
+    let mut history = MotionHistory { duration_s, supports, ..MotionHistory::default() };
     let response = model.response_motion(frequency_hz);
     for _ in 0..periods {
         for sample in simulation.period(samples)?.0 {
             let [y, v, a] = response.at(sample.phase, &sample.state, &sample.forces);
-            course.displacement.push(y);
-            course.velocity.push(v);
-            course.acceleration.push(a);
+            history.displacement.push(y);
+            history.velocity.push(v);
+            history.acceleration.push(a);
             let motions = model.system.support_motions(frequency_hz, sample.phase);
-            course.supports.iter_mut().zip(motions).for_each(|(series, [u, ..])| series.push(u));
+            history.supports.iter_mut().zip(motions).for_each(|(series, [u, ..])| series.push(u));
         }
     }
-    Ok(course)
+    Ok(history)
 }
 
 /// Part of the motion that a filter has to leave: one step of a converter of 24 bits. What rounding leaves of
@@ -172,14 +176,14 @@ mod tests {
 
     #[test]
     fn orbit_that_cannot_be_gone_over_leaves_a_gap_and_is_counted() {
-        let skipped = || Ok(Err(CourseError::NoState));
+        let skipped = || Ok(Err(HistoryError::NoState));
         let of = |tried: Vec<Sampled<u32, Refused>>| sampled(tried);
         let (kept, count) = of(vec![skipped(), Ok(Ok(3)), skipped(), Ok(Ok(5))]).unwrap();
         assert_eq!((kept, count), (vec![None, Some(3), None, Some(5)], 2));
         assert_eq!(of(Vec::new()).unwrap(), (Vec::new(), 0));
         let none = of(vec![skipped(), skipped()]).unwrap_err();
         assert!(
-            matches!(none, Refused::None(NoneSampled { count: 2, first: CourseError::NoState })),
+            matches!(none, Refused::None(NoneSampled { count: 2, first: HistoryError::NoState })),
             "{none}"
         );
         // What is wrong with the measurement is wrong for all.

@@ -1,4 +1,4 @@
-//! The course of an orbit from phase 0 on: states at equal steps and impacts. If asked for, states stand as
+//! The history of an orbit from phase 0 on: states at equal steps and impacts. If asked for, states stand as
 //! densely within contacts as these need. The page and waveforms are made of it.
 
 use hammerbeam_motion::{
@@ -37,7 +37,7 @@ pub struct OrbitImpact {
 
 /// An orbit from phase 0 on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OrbitCourse {
+pub struct OrbitHistory {
     /// States at every step and within contacts, in their order in time.
     pub instants: Vec<OrbitInstant>,
     /// Impacts on rigid stops, in their order in time.
@@ -55,11 +55,11 @@ pub struct OrbitCourse {
 ///
 /// # Errors
 /// [`MotionError`]: the motion cannot be computed again.
-pub fn orbit_course(
+pub fn orbit_history(
     integrator: &mut ExactIntegrator,
     solution: &PeriodicSolution,
     (steps, in_a_step): (usize, usize),
-) -> Result<OrbitCourse, MotionError> {
+) -> Result<OrbitHistory, MotionError> {
     let (begin, periods) = (solution.phase, f64::from(solution.period_multiple));
     let count = steps * solution.period_multiple as usize;
     let first = (begin * steps as f64).ceil() as usize;
@@ -93,7 +93,7 @@ pub fn orbit_course(
     }
     instants.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
     impulses.sort_by(|a: &OrbitImpact, b| a.cycles.total_cmp(&b.cycles));
-    Ok(OrbitCourse { instants, impulses })
+    Ok(OrbitHistory { instants, impulses })
 }
 
 /// The impact with which a contact begins, if it does.

@@ -1,4 +1,4 @@
-//! The course of an orbit: its samples from phase 0 on, and its impacts on rigid stops.
+//! The history of an orbit: its samples from phase 0 on, and its impacts on rigid stops.
 
 use hammerbeam_attractor::{ContactRecord, Simulation};
 use hammerbeam_figure::{OrbitImpulse, OrbitSample};
@@ -18,7 +18,7 @@ pub(super) const SAMPLES: usize = 2048;
 const BESIDE: f64 = 1e-9;
 
 /// Samples of an orbit from phase 0 on, and its impacts on rigid stops.
-pub(super) fn course(
+pub(super) fn history(
     model: &Model,
     orbit: &PeriodicSolution,
 ) -> Result<(Vec<OrbitSample>, Vec<OrbitImpulse>), DrawingError> {
