@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{
+    biased::{RANGE_HZ, biased, flips},
     events::{leaving, side, with},
     independent::{Case, curve, marked, with as with_parameter},
 };
@@ -15,37 +16,6 @@ use hammerbeam_structure::{PointOutput, ReducedModel};
 
 const DAMPING: Parameter = Parameter::ADDED_DAMPING_RATIO;
 const FORCE: Parameter = Parameter::ExcitationScale;
-const RANGE_HZ: (f64, f64) = (0.3, 0.4);
-
-/// `x'' + 0.1 x' + x + x^3 = 2 + 8 cos(2 pi f t)`, as in `criticality.rs`.
-fn biased() -> Case {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| 0.1),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratios: vec![0.0] }],
-        supports: vec![],
-        uniform_acceleration: vec![1.0],
-    };
-    let force = |order, amplitude| HarmonicForce {
-        shape: vec![1.0],
-        harmonic: Harmonic { order, amplitude, phase: 0.0 },
-    };
-    let load = Load { support: vec![], forces: vec![force(0, 2.0), force(1, 8.0)] };
-    let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
-    (
-        System::new(model, &load, vec![spring]).unwrap(),
-        Response { shape: vec![1.0], support_ratios: vec![0.0] },
-    )
-}
-
-/// The flips of the orbits of one period.
-fn flips(case: &Case) -> Vec<BranchRow> {
-    let settings = OrbitSettings::for_range(RANGE_HZ);
-    let start = find_start(&case.0, &case.1, 0.31, 1, &settings).unwrap();
-    let (rows, _) = side(case, &start, Side::Up, RANGE_HZ, &settings);
-    with(&rows, |events| events.flip).into_iter().cloned().collect()
-}
 
 /// The degenerate flip of the curve of flips, which `criticality.rs` finds again by the orbits that branch
 /// off.

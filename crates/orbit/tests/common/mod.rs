@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses some of them")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
+pub mod biased;
 pub mod events;
 pub mod independent;
 
