@@ -149,24 +149,24 @@ fn what_both_sides_share_varies_for_both() {
              frequency_hz = 5.8\nsteps = 100\n"
         )
     };
+    let names = ["stop.wall.gap_m", "stop.wall (above).gap_m"];
+    let (workshop, _) = run(&shaken(&format!("{stop}{}", names.map(vary).concat())));
+    let text = fs::read_to_string(workshop.path("exported/parameter_branches.csv")).unwrap();
+    let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let of = |name: &str| columns.iter().position(|column| *column == name).unwrap();
+    let (named, value, force) = (of("parameter_name"), of("parameter"), of("max_contact_force_n"));
+    let lines: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let reached = |parameter: &str| {
-        let (workshop, _) = run(&shaken(&format!("{stop}{}", vary(parameter))));
-        let text = fs::read_to_string(workshop.path("exported/parameter_branches.csv")).unwrap();
-        let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-        let of = |name: &str| columns.iter().position(|column| *column == name).unwrap();
-        let (value, force) = (of("parameter"), of("max_contact_force_n"));
-        let row = |line: &str| {
-            let cells: Vec<&str> = line.split(',').collect();
-            [value, force].map(|column| cells[column].parse::<f64>().unwrap())
-        };
-        text.lines().skip(1).map(row).collect::<Vec<_>>()
+        let rows = lines.iter().filter(|cells| cells[named] == parameter);
+        rows.map(|cells| [value, force].map(|column| cells[column].parse::<f64>().unwrap()))
+            .collect::<Vec<_>>()
     };
     let at_end = |rows: &[[f64; 2]]| {
         let ends = rows.iter().fold([1.0, 0.0_f64], |[low, high], [gap, _]| [gap.min(low), gap.max(high)]);
         assert_eq!(ends, [0.0195, 0.0205]);
         rows.iter().find(|[gap, _]| *gap == 0.0205).unwrap()[1]
     };
-    let [both, one] = ["stop.wall.gap_m", "stop.wall (above).gap_m"].map(|name| at_end(&reached(name)));
+    let [both, one] = names.map(|name| at_end(&reached(name)));
     let set = Workshop::with(&shaken(&stop.replace("gap_m = 0.02", "gap_m = 0.0205")));
     let found = set.hammerbeam(&["orbit", "study.toml", "--frequency", "5.8", "--json"]);
     assert_success(&found);

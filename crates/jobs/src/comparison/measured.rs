@@ -76,8 +76,8 @@ impl MeasuredPoints {
             }
             Err(SignalError::Points { source: PointsError::NotText, .. }) => self.record(path, reference),
             Err(error @ SignalError::Points { source: PointsError::NoFrequency { .. }, .. }) => {
-                // A time series has no column of frequencies either; what is wrong with the table is reported if
-                // it is none.
+                // A time series has no column of frequencies either; what is wrong with the table is
+                // reported if it is none.
                 match records::looks_like_record(path) {
                     true => self.record(path, reference),
                     false => Err(error.into()),

@@ -67,8 +67,8 @@ pub struct RigPoint {
     pub exponents: Option<MotionExponents>,
     /// Largest acceleration before the filter [m/s²].
     pub unfiltered: f64,
-    /// Whether the motion was started anew at or near rest, since the contact was closed when the frequency was
-    /// changed, or the motion from there could not be computed.
+    /// Whether the motion was started anew at or near rest, since the contact was closed when the frequency
+    /// was changed, or the motion from there could not be computed.
     pub begun_anew: bool,
     /// State at phase 0 at the end.
     pub state: Vec<f64>,

@@ -34,8 +34,8 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<Surveyed, String>;
 
-    /// Frequencies at which the linear system suggests to look: near those at which the linear response reaches
-    /// a contact, and resonances [Hz].
+    /// Frequencies at which the linear system suggests to look: near those at which the linear response
+    /// reaches a contact, and resonances [Hz].
     fn resonances_hz(&self) -> Vec<f64>;
 
     /// Stable solutions of these minimal periods at a frequency that few motions lead to.
