@@ -104,6 +104,22 @@ def word(name: str, value: str) -> str:
     return value
 
 
+def setting(key: Any, value: Any) -> str:
+    """A key of a study with its value, as `--set` has it."""
+    if not isinstance(key, str):
+        raise BadInput(f"found the key {key!r}, must be a word")
+    if isinstance(value, str):
+        return f"{word('key', key)}={word(key, value)}"
+    if isinstance(value, Sequence) or isinstance(value, np.ndarray):
+        entries = (setting("", entry).removeprefix("=") for entry in value)
+        return f"{word('key', key)}=[{', '.join(entries)}]"
+    if isinstance(value, (bool, np.bool_)):
+        return f"{word('key', key)}={'true' if value else 'false'}"
+    if isinstance(value, SupportsIndex):
+        return f"{word('key', key)}={value.__index__()}"
+    return f"{word('key', key)}={number(key, value)!r}"
+
+
 def words(name: str, value: Any) -> list[str]:
     """A word or several."""
     if isinstance(value, str):
