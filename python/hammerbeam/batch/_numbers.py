@@ -48,8 +48,10 @@ def of_results(results: Results) -> Numbers:
     for name in rows.dtype.names or ():
         if name.startswith("max_") and rows.dtype[name].kind == "f" and len(stable):
             found[name] = float(stable[name].max())
-    for kind in sorted(set(events["event"].tolist())):
-        frequencies = events["frequency_hz"][events["event"] == kind]
+    # Two at one place stand as flip+grazing.
+    kinds = [set(event.split("+")) for event in events["event"].tolist()]
+    for kind in sorted(set[str]().union(*kinds)):
+        frequencies = events["frequency_hz"][[kind in of_row for of_row in kinds]]
         word = kind.replace("-", "_").replace(" ", "_")
         found[f"events_{word}"] = float(len(frequencies))
         found[f"lowest_{word}_hz"] = float(frequencies.min())
