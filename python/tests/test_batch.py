@@ -77,9 +77,9 @@ def test_values_are_placed_as_the_command_places_them(tmp_path: Path) -> None:
     assert "gap_m = 0.9" in text and 'point = "mass"' in text
     command = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "debug/hammerbeam"
     if command.is_file():
-        asked = [command, "check", EXAMPLE, "--set", f"{GAP}=0.9", "--set", "response.point=mass", "--json"]
+        asked: list[Any] = [command, "check", EXAMPLE, "--set", f"{GAP}=0.9", "--set", "response.point=mass", "--json"]
         by_command = subprocess.run(asked, capture_output=True, text=True, check=True).stdout
-        own = [command, "check", planned.item(1).study, "--json"]
+        own: list[Any] = [command, "check", planned.item(1).study, "--json"]
         assert subprocess.run(own, capture_output=True, text=True, check=True).stdout == by_command
 
 

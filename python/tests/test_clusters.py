@@ -3,6 +3,7 @@
 A package or a command that is not there is skipped, and the test says so.
 """
 
+import json
 import os
 import shutil
 import signal
@@ -58,13 +59,11 @@ def run_and_kill(batch: Batch, engine: Engine, kill: Callable[[], None]) -> Coun
         while batch.counts().finished < ITEMS // 4:
             assert time.monotonic() < deadline and not running.done(), batch.counts()
             time.sleep(0.05)
-        done = [folder for number in range(1, ITEMS + 1) if (folder := batch.item(number)).report.is_file()]
-        before = [folder.report.stat() for folder in done]
-        assert len(done) < ITEMS
+        before = products(batch)
+        assert len(before) < ITEMS
         kill()
         counts = running.result(timeout=240)
-    after = [folder.report.stat() for folder in done]
-    assert [(one.st_ino, one.st_mtime_ns) for one in after] == [(one.st_ino, one.st_mtime_ns) for one in before]
+    assert before == {number: products(batch)[number] for number in before}
     return counts
 
 
@@ -133,28 +132,45 @@ def test_hyperqueue_with_a_process_and_the_whole_cluster_ended(tmp_path: Path, a
     batch = planned(tmp_path / "batch")
     first = local_cluster(tmp_path / "first")
     client = hyperqueue.Client(tmp_path / "first")
-    ended = []
-
-    def kill() -> None:
-        kill_one(batch.folder)
-        while batch.counts().finished < ITEMS // 2:
-            time.sleep(0.05)
-        ended.append(batch.counts().finished)
-        first.kill()
-        first.wait()
-
+    # The package keeps the interpreter to itself while it waits, so another process does it.
+    command = [sys.executable, __file__, str(batch.folder), str(first.pid)]
+    ending = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
         with pytest.raises(Exception):  # noqa: B017, PT011: whatever the package says of a server that is gone
-            run_and_kill(batch, HyperQueue(client=client), kill)
+            batch.run(HyperQueue(client=client))
     finally:
+        ending.wait()
         first.kill()
-    assert ITEMS > batch.counts().finished >= ended[0] >= ITEMS // 2
+        first.wait()
+    assert ending.stdout is not None and ending.returncode == 0
+    before = json.loads(ending.stdout.read())
+    assert ITEMS // 2 <= len(before) < ITEMS
     second = local_cluster(tmp_path / "second")
     try:
         assert batch.run(HyperQueue(client=hyperqueue.Client(tmp_path / "second"))).finished == ITEMS
     finally:
         second.communicate(timeout=20)
+    assert before == {number: products(batch)[number] for number in before}
     assert exported(batch, tmp_path / "tables") == alone
+
+
+def products(batch: Batch) -> dict[str, list[int]]:
+    """What identifies the reports that are there: none of them is written twice."""
+    reports = {str(number): batch.item(number).report for number in range(1, ITEMS + 1)}
+    found = {number: report.stat() for number, report in reports.items() if report.is_file()}
+    return {number: [report.st_ino, report.st_mtime_ns] for number, report in found.items()}
+
+
+def end_both(folder: Path, cluster: int) -> None:
+    """Ends a process that computes an item, later the cluster, and says what was finished by then."""
+    batch = Batch(folder)
+    while batch.counts().finished < ITEMS // 4:
+        time.sleep(0.05)
+    kill_one(folder)
+    while batch.counts().finished < ITEMS // 2:
+        time.sleep(0.05)
+    print(json.dumps(products(batch)))
+    os.kill(cluster, signal.SIGKILL)
 
 
 @pytest.fixture
@@ -186,3 +202,7 @@ def test_the_command_of_hyperqueue_with_a_worker_ended(
     batch = planned(tmp_path / "batch")
     assert run_and_kill(batch, HyperQueue(server), one.kill).finished == ITEMS
     assert exported(batch, tmp_path / "tables") == alone
+
+
+if __name__ == "__main__":
+    end_both(Path(sys.argv[1]), int(sys.argv[2]))
