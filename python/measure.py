@@ -1,5 +1,5 @@
-"""What Python costs: a run by the command and by the package, in turn; a million rows into NumPy; the import; many
-studies.
+"""What Python costs: a run by the command and by the package, in turn; a million rows into NumPy; the
+import; many studies.
 
     python python/measure.py COMMAND [STUDY]
 
@@ -76,7 +76,8 @@ def imported() -> None:
 
 
 def many(folder: Path) -> None:
-    """A batch of ten thousand items is planned; two hundred items on two workers and in this process alone."""
+    """A batch of ten thousand items is planned; two hundred items on two workers and in this process
+    alone."""
     study = hammerbeam.Study.read(Path(__file__).parent / "examples/dakota/oscillator.toml")
     gaps = {"stop.stop.gap_m": (0.8, 1.2)}
     started = time.perf_counter(), time.process_time()
@@ -98,7 +99,10 @@ def many(folder: Path) -> None:
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     two_cpu = own_cpu + after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     print(f"200 items: alone {one_s:.1f} s ({one_cpu:.1f} s of processor time),", end=" ")
-    print(f"two workers {two_s:.1f} s ({two_cpu:.1f} s): {two_cpu / one_cpu:.3f} of the processor time,", end=" ")
+    print(
+        f"two workers {two_s:.1f} s ({two_cpu:.1f} s): {two_cpu / one_cpu:.3f} of the processor time,",
+        end=" ",
+    )
     print(f"{one_s / two_s:.2f} times as quick")
 
 

@@ -454,8 +454,8 @@ class Study:
             return _loads(self._placed(place).basins(hertz, asked, effort, folders, callbacks))
 
     def placed(self, folder: AnyPath) -> "Study":
-        """The same study, with matrices that are somewhere temporary copied into a folder, which goes on being
-        read."""
+        """The same study, with matrices that are somewhere temporary copied into a folder, which goes on
+        being read."""
         return Study(self._placed(_check.folder("folder", folder)))
 
     def _placed(self, out: Path | None) -> NativeStudy:

@@ -1,9 +1,9 @@
 """A study as the simulation of Dakota: `python -m hammerbeam.dakota [STUDY] PARAMS RESULTS`.
 
-Dakota writes a file of parameters, starts this, and reads a file of responses. Descriptors of its variables are keys of
-the study, such as `stop.1.gap_m`; descriptors of its responses are numbers of a run, such as `max_abs_displacement_m`
-(`hammerbeam.batch` has the same ones). Where there is no number the file of responses says FAIL, and standard error
-why; what Dakota does then is set by its `failure_capture`.
+Dakota writes a file of parameters, starts this, and reads a file of responses. Descriptors of its variables
+are keys of the study, such as `stop.1.gap_m`; descriptors of its responses are numbers of a run, such as
+`max_abs_displacement_m` (`hammerbeam.batch` has the same ones). Where there is no number the file of
+responses says FAIL, and standard error why; what Dakota does then is set by its `failure_capture`.
 
 * `STUDY`: the study file; without it the first analysis component, `analysis_components` in Dakota's input.
 * `PARAMS`: parameters in Dakota's standard format or in that for APREPRO.
@@ -33,7 +33,8 @@ class Asked:
     """What a file of parameters asks for.
 
     * `variables`: values by descriptors, as texts.
-    * `responses`: of each descriptor what is wanted: 1 the value, 2 the gradient, 4 the Hessian, or a sum of them.
+    * `responses`: of each descriptor what is wanted: 1 the value, 2 the gradient, 4 the Hessian, or a sum
+      of them.
     * `components`: the analysis components.
     """
 
@@ -70,7 +71,9 @@ def _counted(
             end = place + 1 + int(value)
             if end <= len(pairs):
                 return list(pairs[place + 1 : end]), pairs[end:]
-    raise BadInput(f"the file of parameters is not Dakota's: it has no number of {names[0]} with as many behind it")
+    raise BadInput(
+        f"the file of parameters is not Dakota's: it has no number of {names[0]} with as many behind it"
+    )
 
 
 def _tagged(name: str, tag: str) -> str:
@@ -85,8 +88,8 @@ def respond(study: str | Path, asked: Asked) -> str:
     """Runs the study with the values that Dakota gives: the file of responses."""
     derivatives = [name for name, wanted in asked.responses.items() if wanted & ~_VALUE]
     if derivatives:
-        message = f"{', '.join(derivatives)}: only values are given; allowed in Dakota: numerical_gradients, no_hessians"
-        raise BadInput(message)
+        allowed = "numerical_gradients, no_hessians"
+        raise BadInput(f"{', '.join(derivatives)}: only values are given; allowed in Dakota: {allowed}")
     given = Study.read(study)
     changed = Study.parse(given.text_with(asked.variables))
     with tempfile.TemporaryDirectory(prefix="hammerbeam-dakota-") as folder:

@@ -63,7 +63,7 @@ def test_a_table_is_read_as_it_is_written() -> None:
         ("a,a\n1,2\n", "the same key"),
         ("a,b\n1\n", "has 1 values"),
         ("a,\n1,2\n", "a column without a key"),
-        ("a\n\" \"\n", "no value"),
+        ('a\n" "\n', "no value"),
     ],
 )
 def test_tables_that_make_no_sense_are_refused(text: str, words: str) -> None:
@@ -77,7 +77,16 @@ def test_values_are_placed_as_the_command_places_them(tmp_path: Path) -> None:
     assert "gap_m = 0.9" in text and 'point = "mass"' in text
     command = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "debug/hammerbeam"
     if command.is_file():
-        asked: list[Any] = [command, "check", EXAMPLE, "--set", f"{GAP}=0.9", "--set", "response.point=mass", "--json"]
+        asked: list[Any] = [
+            command,
+            "check",
+            EXAMPLE,
+            "--set",
+            f"{GAP}=0.9",
+            "--set",
+            "response.point=mass",
+            "--json",
+        ]
         by_command = subprocess.run(asked, capture_output=True, text=True, check=True).stdout
         own: list[Any] = [command, "check", planned.item(1).study, "--json"]
         assert subprocess.run(own, capture_output=True, text=True, check=True).stdout == by_command
@@ -236,7 +245,8 @@ def test_basins_by_parts_are_those_of_one_process(tmp_path: Path, duffing: hamme
 def test_an_attractor_that_only_a_late_cell_finds_changes_nothing(
     tmp_path: Path, duffing: hammerbeam.Study
 ) -> None:
-    # The first 256 of 576 cells start near rest, which leads to the small motion: no part knows the large one.
+    # The first 256 of 576 cells start near rest, which leads to the small motion: the large one is not known to
+    # any part before.
     asked = (0.25, ("q1", -0.2, 0.2), ("v1", -0.3, 3.0))
     options: dict[str, Any] = {"grid": 24, "transient_periods": 5, "patience_periods": 100}
     duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
@@ -250,7 +260,13 @@ def test_an_attractor_that_only_a_late_cell_finds_changes_nothing(
 
 
 def test_a_sweep_by_parts_is_that_of_one_process(tmp_path: Path, duffing: hammerbeam.Study) -> None:
-    options: dict[str, Any] = {"from_hz": 0.2, "to_hz": 0.3, "step_hz": 0.02, "starts": 3, "patience_periods": 60}
+    options: dict[str, Any] = {
+        "from_hz": 0.2,
+        "to_hz": 0.3,
+        "step_hz": 0.02,
+        "starts": 3,
+        "patience_periods": 60,
+    }
     duffing.sweep(**options, out=tmp_path / "whole", progress=False)
     planned = Batch.plan(
         tmp_path / "b",

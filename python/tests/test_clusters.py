@@ -26,7 +26,9 @@ ITEMS = 40
 
 def planned(folder: Path) -> Batch:
     gaps = [0.8 + 0.01 * k for k in range(ITEMS // 2)]
-    return Batch.plan(folder, EXAMPLE, Parameters.grid({"stop.stop.gap_m": gaps, "stop.stop.restitution": [0.6, 0.8]}))
+    return Batch.plan(
+        folder, EXAMPLE, Parameters.grid({"stop.stop.gap_m": gaps, "stop.stop.restitution": [0.6, 0.8]})
+    )
 
 
 def exported(batch: Batch, folder: Path) -> dict[str, bytes]:
@@ -51,8 +53,8 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
 
 
 def run_and_kill(batch: Batch, engine: Engine, kill: Callable[[], None]) -> Counts:
-    """Runs a batch, and ends something of its engine once a quarter of the items are finished. What was finished
-    by then is not computed again."""
+    """Runs a batch, and ends something of its engine once a quarter of the items are finished. What was
+    finished by then is not computed again."""
     with ThreadPoolExecutor(1) as pool:
         running = pool.submit(batch.run, engine)
         deadline = time.monotonic() + 120
@@ -105,7 +107,7 @@ def kill_one(folder: Path) -> None:
     raise AssertionError("no process computes an item")
 
 
-# The workers of HyperQueue's LocalCluster are threads of the process that starts it, so it gets one of its own.
+# The workers of HyperQueue's LocalCluster are threads of the process that starts it, so it has one of its own.
 LOCAL_CLUSTER = """
 import sys
 from hyperqueue.cluster import LocalCluster, WorkerConfig
@@ -127,7 +129,9 @@ def local_cluster(folder: Path) -> "subprocess.Popen[str]":
     return cluster
 
 
-def test_hyperqueue_with_a_process_and_the_whole_cluster_ended(tmp_path: Path, alone: dict[str, bytes]) -> None:
+def test_hyperqueue_with_a_process_and_the_whole_cluster_ended(
+    tmp_path: Path, alone: dict[str, bytes]
+) -> None:
     hyperqueue = pytest.importorskip("hyperqueue", reason="the package hyperqueue is not there")
     batch = planned(tmp_path / "batch")
     first = local_cluster(tmp_path / "first")
@@ -136,7 +140,8 @@ def test_hyperqueue_with_a_process_and_the_whole_cluster_ended(tmp_path: Path, a
     command = [sys.executable, __file__, str(batch.folder), str(first.pid)]
     ending = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
-        with pytest.raises(Exception):  # noqa: B017, PT011: whatever the package says of a server that is gone
+        # Whatever the package says of a server that is gone.
+        with pytest.raises(Exception):  # noqa: B017, PT011
             batch.run(HyperQueue(client=client))
     finally:
         ending.wait()
@@ -182,7 +187,8 @@ def hq(tmp_path: Path) -> Iterator[tuple[str, Path, list["subprocess.Popen[bytes
     folder = tmp_path / "server"
     base = [command, f"--server-dir={folder}"]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    started = [subprocess.Popen([*base, "server", "start", "--host=127.0.0.1"], **quiet)]  # type: ignore[call-overload]
+    server = [*base, "server", "start", "--host=127.0.0.1"]
+    started = [subprocess.Popen(server, **quiet)]  # type: ignore[call-overload]
     for _ in range(200):
         if subprocess.run([*base, "server", "info"], capture_output=True).returncode == 0:
             break

@@ -62,6 +62,7 @@ pub mod simulate;
 pub mod special_point;
 pub mod sweep;
 mod sweep_parts;
+mod sweep_report;
 pub mod update;
 pub mod varied;
 pub mod verify;

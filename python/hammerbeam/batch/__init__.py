@@ -7,8 +7,8 @@
     gaps.run()
     print(gaps.gather().frame())
 
-Items run on all cores of this machine, on HyperQueue, on Dask or as an array of Slurm; `docs/how-to/many-studies.md`
-has what a batch folder holds.
+Items run on all cores of this machine, on HyperQueue, on Dask or as an array of Slurm;
+`docs/how-to/many-studies.md` has what a batch folder holds.
 
 | file | what it does |
 |---|---|

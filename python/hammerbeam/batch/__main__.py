@@ -7,8 +7,8 @@
     python -m hammerbeam.batch slurm FOLDER [OPTION ...]
     python -m hammerbeam.batch item [--jobs N] FOLDER WHICH ...
 
-WHICH is a number, a range such as 101-200, `--entry` for the entry of HyperQueue, or `-` for numbers from standard
-input. Exit codes are those of the command `hammerbeam`.
+WHICH is a number, a range such as 101-200, `--entry` for the entry of HyperQueue, or `-` for numbers from
+standard input. Exit codes are those of the command `hammerbeam`.
 """
 
 import argparse
@@ -44,7 +44,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m hammerbeam.batch", description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
-    for name, does in (("plan", _plan), ("run", _run), ("status", _status), ("gather", _gather), ("slurm", _slurm)):
+    for name, does in (
+        ("plan", _plan),
+        ("run", _run),
+        ("status", _status),
+        ("gather", _gather),
+        ("slurm", _slurm),
+    ):
         commands.add_parser(name).set_defaults(does=does)
         commands.choices[name].add_argument("folder")
     commands.choices["plan"].add_argument("study")

@@ -53,17 +53,23 @@ class Batch:
         self.parameters = Parameters.read(self.folder / "parameters.csv")
 
     @classmethod
-    def plan(cls, folder: AnyPath, study: AnyPath | Study, parameters: Parameters, task: Task | None = None) -> "Batch":
+    def plan(
+        cls, folder: AnyPath, study: AnyPath | Study, parameters: Parameters, task: Task | None = None
+    ) -> "Batch":
         """Makes a batch folder with a study file for each item; nothing is computed.
 
-        Every study is read as the command reads it, so a key or a value that is not allowed raises `StudyError` here.
-        A folder that holds the same batch already is opened.
+        Every study is read as the command reads it, so a key or a value that is not allowed raises
+        `StudyError` here. A folder that holds the same batch already is opened.
         """
         place = _check.folder("folder", folder).absolute()
         given = study.placed(place) if isinstance(study, Study) else Study.read(study)
         wanted = Task.run() if task is None else task
         plan = {"version": _VERSION, "task": wanted.document()}
-        files = {"batch.json": json_text(plan), "parameters.csv": _csv(parameters), "study.toml": given.text_with({})}
+        files = {
+            "batch.json": json_text(plan),
+            "parameters.csv": _csv(parameters),
+            "study.toml": given.text_with({}),
+        }
         if (place / "items").exists():
             _refuse_other(place, files)
             return cls(place)
@@ -121,9 +127,9 @@ class Batch:
     def run(self, engine: Engine | None = None, *, attempts: int = 3) -> Counts:
         """Has all items computed that are not finished, on all cores of this machine by default.
 
-        Items that are neither finished nor failed afterwards were lost with a process or a machine; they are handed
-        out again, until `attempts` times in a row nothing was finished. Those that failed are tried again by the next
-        call.
+        Items that are neither finished nor failed afterwards were lost with a process or a machine; they
+        are handed out again, until `attempts` times in a row nothing was finished. Those that failed are
+        tried again by the next call.
         """
         from ._local import Local
 
@@ -132,7 +138,9 @@ class Batch:
         most = tries = _check.whole("attempts", attempts, 1, 1000)
         while left and tries:
             chosen.compute(self, left)
-            lost = [number for number in left if self.item(number).status() in (Status.STARTED, Status.MISSING)]
+            lost = [
+                number for number in left if self.item(number).status() in (Status.STARTED, Status.MISSING)
+            ]
             tries = most if len(lost) < len(left) else tries - 1
             left = lost
         return self.counts()
@@ -142,7 +150,8 @@ class Batch:
         return compute_item(self, _check.whole("item", number, 1, len(self)), jobs)
 
     def merge(self, jobs: int | None = None) -> Counts:
-        """Puts studies together whose parts are all finished. Does what one process would do, to the same bytes."""
+        """Puts studies together whose parts are all finished. Does what one process would do, to the same
+        bytes."""
         threads = _check.jobs(jobs) or 1
         rows = range(1, len(self.parameters) + 1)
         if self.task.parts == 1:
@@ -191,4 +200,6 @@ def _refuse_other(place: Path, files: Mapping[str, str]) -> None:
     for name, text in files.items():
         path = place / name
         if not path.is_file() or path.read_bytes() != text.encode():
-            raise BadInput(f"{place} holds something else than this batch: {name} is another one, or is not there")
+            raise BadInput(
+                f"{place} holds something else than this batch: {name} is another one, or is not there"
+            )

@@ -15,9 +15,9 @@ ITEMS_A_FOLDER = 100
 class Status(enum.Enum):
     """How far an item is.
 
-    `FINISHED` needs its product: the results, and the report that is put beside them, whole, as the last thing.
-    `FAILED`: the last try says why in `failure.json`. `STARTED`: there are results without a report, of an item that
-    is computed just now or was stopped. `MISSING`: nothing is there.
+    `FINISHED` needs its product: the results, and the report that is put beside them, whole, as the last
+    thing. `FAILED`: the last try says why in `failure.json`. `STARTED`: there are results without a report,
+    of an item that is computed just now or was stopped. `MISSING`: nothing is there.
     """
 
     FINISHED = "finished"

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class Gathered:
     """What came of a batch, one row for each row of its parameters.
 
-    * `table`: a structured array: `row`, `status`, the parameters by their keys, the numbers of the results. Where
-      there is no number it is NaN.
+    * `table`: a structured array: `row`, `status`, the parameters by their keys, the numbers of the
+      results. Where there is no number it is NaN.
     * `quantities`: the names of these numbers.
     """
 
@@ -95,7 +95,11 @@ class Gathered:
         * `quantity`: by default the largest displacement, or else the first one.
         """
         usual = "max_abs_displacement_m"
-        chosen = (usual if usual in self.quantities else next(iter(self.quantities), "")) if quantity is None else quantity
+        chosen = (
+            (usual if usual in self.quantities else next(iter(self.quantities), ""))
+            if quantity is None
+            else quantity
+        )
         if chosen not in self.quantities:
             raise BadInput(f"there is no quantity {chosen!r}; found: {', '.join(self.quantities) or 'none'}")
         drawn, values = axes(ax), self.table[chosen]

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 class HyperQueue:
     """Workers of a HyperQueue server, each item a task.
 
-    Where the command `hq` is there, it submits a file with one entry for each item, `hq submit --from-json`. Without
-    it the package `hyperqueue` does; it needs `client`, or finds the server by `server_dir` as the command does.
+    Where the command `hq` is there, it submits a file with one entry for each item, `hq submit
+    --from-json`. Without it the package `hyperqueue` does; it needs `client`, or finds the server by
+    `server_dir` as the command does.
 
     * `server_dir`: the folder of the server.
     * `client`: a `hyperqueue.Client`, as from its `LocalCluster`; then the command is not used.
@@ -86,5 +87,3 @@ def item_command(batch: "Batch", jobs: int, *which: str) -> list[str]:
     """The command that computes items of a batch."""
     threads = [] if jobs == 1 else [f"--jobs={jobs}"]
     return [sys.executable, "-m", "hammerbeam.batch", "item", *threads, str(batch.folder), *which]
-
-

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def compute_item(batch: "Batch", number: int, jobs: int = 1) -> Status:
     """Computes an item unless it is finished; goes on where a try before was stopped.
 
-    The report is put there last, whole. Why there is none stands in `failure.json`, but for Ctrl-C, which raises
-    `Interrupted`.
+    The report is put there last, whole. Why there is none stands in `failure.json`, but for Ctrl-C, which
+    raises `Interrupted`.
     """
     folder = batch.item(number)
     if folder.status() is Status.FINISHED:

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class Local:
     """Processes on this machine, each computing one item after the other on one core.
 
-    They are `python -m hammerbeam.batch item FOLDER -`, so a script needs no guard around its main part. An item
-    whose process ends is handed out again, to a new one.
+    They are `python -m hammerbeam.batch item FOLDER -`, so a script needs no guard around its main part. An
+    item whose process ends is handed out again, to a new one.
 
     * `processes`: how many; by default as many as there are cores.
     """

@@ -25,15 +25,17 @@ def numbers(task: "Task", report: Mapping[str, Any], results: Path) -> Numbers:
     if task.method == "run":
         with Results(results) as read:
             return of_results(read)
-    return {"sweep": _sweep, "basins": _basins, "lyapunov": _lyapunov, "simulate": _plain}[task.method](report)
+    return {"sweep": _sweep, "basins": _basins, "lyapunov": _lyapunov, "simulate": _plain}[task.method](
+        report
+    )
 
 
 def of_results(results: Results) -> Numbers:
     """Those of the branches of a results folder.
 
-    `branches`, `solutions`, `stable_solutions`; the largest value over all stable solutions of every column that
-    starts with `max_`, and the frequency of the largest displacement; for every kind of event its number, as in
-    `events_fold`, and its lowest and highest frequency, as in `lowest_fold_hz`.
+    `branches`, `solutions`, `stable_solutions`; the largest value over all stable solutions of every column
+    that starts with `max_`, and the frequency of the largest displacement; for every kind of event its
+    number, as in `events_fold`, and its lowest and highest frequency, as in `lowest_fold_hz`.
     """
     rows, events = results.branches(), results.events()
     stable = rows[rows["stable"]]

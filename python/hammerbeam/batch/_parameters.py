@@ -28,13 +28,17 @@ class Parameters:
         if not self.rows:
             raise BadInput("the table of parameters has no row")
         if len(self.rows) > MOST_ROWS:
-            raise BadInput(f"the table of parameters has {len(self.rows)} rows, at most {MOST_ROWS} are allowed")
+            raise BadInput(
+                f"the table of parameters has {len(self.rows)} rows, at most {MOST_ROWS} are allowed"
+            )
         if len(set(self.keys)) < len(self.keys):
             raise BadInput("two columns of the table of parameters have the same key")
 
     def _paired(self, row: Sequence[Any]) -> Iterable[tuple[str, Any]]:
         if len(row) != len(self.keys):
-            raise BadInput(f"a row of the table of parameters has {len(row)} values, its columns are {len(self.keys)}")
+            raise BadInput(
+                f"a row of the table of parameters has {len(row)} values, its columns are {len(self.keys)}"
+            )
         return zip(self.keys, row, strict=True)
 
     @classmethod
@@ -43,11 +47,13 @@ class Parameters:
         return cls(list(values), itertools.product(*(list(column) for column in values.values())))
 
     @classmethod
-    def latin_hypercube(cls, ranges: Mapping[str, tuple[float, float]], count: int, seed: int) -> "Parameters":
+    def latin_hypercube(
+        cls, ranges: Mapping[str, tuple[float, float]], count: int, seed: int
+    ) -> "Parameters":
         """So many samples, of which each of `count` equal parts of every range has exactly one.
 
-        McKay, Beckman and Conover, Technometrics 21 (1979), 239-245. The same seed gives the same table with the
-        same version of NumPy; the batch folder keeps the values themselves.
+        McKay, Beckman and Conover, Technometrics 21 (1979), 239-245. The same seed gives the same table
+        with the same version of NumPy; the batch folder keeps the values themselves.
         """
         rows = _check.whole("count", count, 1, MOST_ROWS)
         random = np.random.default_rng(_check.whole("seed", seed, 0, 2**63 - 1))

@@ -29,8 +29,8 @@ def slurm_script(
     Run it with `sbatch slurm.sh`; written again later it has what is missing then.
 
     * `cpus`: cores of an item.
-    * `tasks`: at most so many tasks of the array: Slurm allows 1000 unless it is set up otherwise. With more items
-      than that a task computes several, one after the other.
+    * `tasks`: at most so many tasks of the array: Slurm allows 1000 unless it is set up otherwise. With
+      more items than that a task computes several, one after the other.
     * `options`: lines for Slurm, such as `["--time=01:00:00", "--partition=long"]`.
     """
     threads = _check.whole("cpus", cpus, 1, _check.MOST_JOBS)

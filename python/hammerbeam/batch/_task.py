@@ -21,7 +21,8 @@ class Task:
 
     * `method`: its name.
     * `options`: its keyword arguments.
-    * `parts`: items into which every study is cut: of basins the cells, of a sweep with `starts` the frequencies.
+    * `parts`: items into which every study is cut: of basins the cells, of a sweep with `starts` the
+      frequencies.
     """
 
     method: str = "run"
@@ -76,7 +77,9 @@ class Task:
         try:
             json.dumps(self.options)
         except TypeError as error:
-            raise BadInput(f"options: {error}; allowed: numbers, words, and lists and dictionaries of them") from None
+            raise BadInput(
+                f"options: {error}; allowed: numbers, words, and lists and dictionaries of them"
+            ) from None
         return {"method": self.method, "options": dict(self.options), "parts": self.parts}
 
     def compute(self, study: Study, out: Path, part: int, jobs: int) -> dict[str, Any]:
@@ -86,7 +89,9 @@ class Task:
         """
         if self.parts > 1:
             method = getattr(study, f"{self.method}_part")
-            report: dict[str, Any] = method((part, self.parts), out, jobs=jobs, progress=False, **self.options)
+            report: dict[str, Any] = method(
+                (part, self.parts), out, jobs=jobs, progress=False, **self.options
+            )
             return report
         return self._whole(study, out, {"jobs": jobs})
 
