@@ -3,6 +3,7 @@
 import csv
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -245,8 +246,8 @@ def test_basins_by_parts_are_those_of_one_process(tmp_path: Path, duffing: hamme
 def test_an_attractor_that_only_a_late_cell_finds_changes_nothing(
     tmp_path: Path, duffing: hammerbeam.Study
 ) -> None:
-    # The first 256 of 576 cells start near rest, which leads to the small motion: the large one is not known to
-    # any part before.
+    # The first 256 of 576 cells start near rest, which leads to the small motion: of the large one no part
+    # knows before.
     asked = (0.25, ("q1", -0.2, 0.2), ("v1", -0.3, 3.0))
     options: dict[str, Any] = {"grid": 24, "transient_periods": 5, "patience_periods": 100}
     duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
@@ -292,3 +293,18 @@ def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
         [one, _] = [child for child in psutil.Process().children() if "hammerbeam.batch" in child.cmdline()]
         one.kill()
         assert running.result().finished == 8
+
+
+def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.01 * k for k in range(40)]}))
+    script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
+    # A group of its own, as a terminal has it: all processes get the signal.
+    asked = [sys.executable, "-c", script]
+    running = subprocess.Popen(asked, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    while planned.counts().finished < 4:
+        time.sleep(0.01)
+    os.killpg(running.pid, signal.SIGINT)
+    _, said = running.communicate(timeout=60)
+    assert running.returncode != 0 and "the same call goes on from there" in said
+    assert 4 <= planned.counts().finished < 40
+    assert planned.counts().failed == 0

@@ -107,7 +107,7 @@ def kill_one(folder: Path) -> None:
     raise AssertionError("no process computes an item")
 
 
-# The workers of HyperQueue's LocalCluster are threads of the process that starts it, so it has one of its own.
+# The workers of HyperQueue's LocalCluster are threads of the process that starts it: one of its own.
 LOCAL_CLUSTER = """
 import sys
 from hyperqueue.cluster import LocalCluster, WorkerConfig

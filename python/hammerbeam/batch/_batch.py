@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from .. import _check
 from .._errors import BadInput
+from .._progress import interruptible
 from .._study import Study
 from ._folder import Counts, ItemFolder, Status, json_text, read_json, write_whole
 from ._item import compute_item, compute_whole
@@ -137,7 +138,9 @@ class Batch:
         left = self.missing()
         most = tries = _check.whole("attempts", attempts, 1, 1000)
         while left and tries:
-            chosen.compute(self, left)
+            kept = f"what was computed is kept in {self.folder}, the same call goes on from there"
+            with interruptible(kept):
+                chosen.compute(self, left)
             lost = [
                 number for number in left if self.item(number).status() in (Status.STARTED, Status.MISSING)
             ]
