@@ -239,7 +239,7 @@ def test_basins_by_parts_are_those_of_one_process(tmp_path: Path, duffing: hamme
     duffing.basins(*asked, **options, parts=folders, out=tmp_path / "again", progress=False)
     assert tables(tmp_path / "again") == tables(tmp_path / "whole")
     # A part of something else is refused.
-    with pytest.raises(hammerbeam.BadInput, match="holds no part of this"):
+    with pytest.raises(hammerbeam.StoreError, match="holds no part of this"):
         duffing.basins(*asked, **{**options, "grid": 41}, parts=folders, progress=False)
 
 

@@ -10,14 +10,12 @@ use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
 use hammerbeam_attractor::{Attractor, Basins, Round, SHARED_CELLS, rounds};
 use hammerbeam_results::{
-    Store,
+    Store, StoreError,
     store::{RequestKind, RequestRecord},
 };
+use hammerbeam_study::StudyFile;
 
-use crate::{
-    JobError, PreparedStudy,
-    part::{JobPart, read_parts},
-};
+use crate::part::{JobPart, read_parts};
 
 /// The rounds of a part: those that all parts compute, then its own.
 pub(crate) fn part_rounds(cells: usize, part: JobPart) -> Vec<Range<usize>> {
@@ -38,16 +36,14 @@ pub(crate) struct BasinParts {
 impl BasinParts {
     pub fn read(
         folders: &[PathBuf],
-        study: &PreparedStudy,
+        file: &StudyFile,
         (words, cells): (&[String], usize),
-    ) -> Result<Self, JobError> {
+    ) -> Result<Self, StoreError> {
         let read = |store: &Store, request: &RequestRecord, part: JobPart| {
             Ok((part_rounds(cells, part), store.basins(request.id)?))
         };
         let mut parts = Self::default();
-        for (order, (cells, attractors)) in
-            read_parts(folders, &study.file, (RequestKind::Basins, words), read)?
-        {
+        for (order, (cells, attractors)) in read_parts(folders, file, (RequestKind::Basins, words), read)? {
             parts.add(&order, &cells, attractors);
         }
         Ok(parts)

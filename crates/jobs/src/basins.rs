@@ -134,7 +134,7 @@ pub fn basins(
 /// * `parts`: results folders; what they do not have is computed here.
 ///
 /// # Errors
-/// [`JobError`]; [`JobError::NoPart`] of a folder that has no part of it.
+/// [`JobError`]; [`JobError::Store`] of a folder that has no part of it.
 pub fn basins_with_parts(
     study: &PreparedStudy,
     (request, parts): (&BasinsRequest, &[PathBuf]),
@@ -150,7 +150,7 @@ pub fn basins_with_parts(
     folders.branches(&study.file)?;
     let total = basins.grid().cells();
     let words = request.words();
-    let parts = BasinParts::read(parts, study, (&words, total))?;
+    let parts = BasinParts::read(parts, &study.file, (&words, total))?;
     let mut kept = KeptRequest::open(folders.out, &study.file, (RequestKind::Basins, &words), total as u64)?;
     let (mut cells, attractors) = kept.read(Store::basins)?;
     basins.resume(cells.len(), attractors);

@@ -57,9 +57,6 @@ pub enum JobError {
     /// A special point that a results folder does not have.
     #[error("{} has no special point {number}: it has {count}, numbered from 1", results.display())]
     NoSpecialPoint { results: PathBuf, number: u32, count: u32 },
-    /// A results folder without a part of what is put together.
-    #[error("{} holds no part of this: of the same study, with the same numbers", folder.display())]
-    NoPart { folder: PathBuf },
     /// A sweep that cannot be cut into parts.
     #[error(
         "a sweep with the state carried over has no parts: each motion starts where the one before has \

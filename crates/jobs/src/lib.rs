@@ -18,7 +18,7 @@
 //! | [`chosen_orbits`] | stored orbits by branch, frequency or event |
 //! | [`orbit_course`] | an orbit from phase 0 on: states at equal steps and within contacts, impacts |
 //! | `orbit_waveform` | the motion of an orbit over its period |
-//! | `part`, `basin_parts`, `basins_part`, `sweep_parts` | parts of basins and sweeps, and the whole from them |
+//! | `part`, `basin_parts`, `basins_part`, `sweep_parts` | parts of basins and sweeps, the whole from them |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |

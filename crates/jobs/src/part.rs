@@ -6,11 +6,14 @@
 
 use std::{fmt, ops::Range, path::PathBuf, str::FromStr};
 
-use hammerbeam_results::store::{RequestKind, RequestRecord, Store};
+use hammerbeam_results::{
+    Store, StoreError,
+    store::{RequestKind, RequestRecord},
+};
 use hammerbeam_study::StudyFile;
 use serde::Serialize;
 
-use crate::{JobError, crossings::open_for_study};
+use crate::crossings::open_for_study;
 
 /// One of so many parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -81,13 +84,13 @@ pub struct JobPartReport {
 /// * `read`: reads a part of a store.
 ///
 /// # Errors
-/// [`JobError::NoPart`]: a folder has none. [`JobError::Store`].
+/// [`StoreError::NoPart`]: a folder has none.
 pub(crate) fn read_parts<T>(
     folders: &[PathBuf],
     file: &StudyFile,
     (kind, words): (RequestKind, &[String]),
-    read: impl Fn(&Store, &RequestRecord, JobPart) -> Result<T, JobError>,
-) -> Result<Vec<T>, JobError> {
+    read: impl Fn(&Store, &RequestRecord, JobPart) -> Result<T, StoreError>,
+) -> Result<Vec<T>, StoreError> {
     let whole = format!("{}\npart = ", words.join("\n"));
     let mut parts = Vec::new();
     for folder in folders {
@@ -100,7 +103,7 @@ pub(crate) fn read_parts<T>(
             }
         }
         if parts.len() == known {
-            return Err(JobError::NoPart { folder: folder.clone() });
+            return Err(StoreError::NoPart { folder: folder.clone() });
         }
     }
     Ok(parts)

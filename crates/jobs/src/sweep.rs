@@ -73,7 +73,7 @@ pub fn sweep(
 /// * `parts`: results folders; what they do not have is computed here.
 ///
 /// # Errors
-/// [`JobError`]; [`JobError::NoPart`] of a folder that has no part of it, [`JobError::SweepWithoutParts`].
+/// [`JobError`]; [`JobError::Store`] of a folder that has no part of it, [`JobError::SweepWithoutParts`].
 pub fn sweep_with_parts(
     study: &PreparedStudy,
     (request, parts): (&SweepRequest, &[PathBuf]),
@@ -98,7 +98,7 @@ pub fn sweep_with_parts(
     if !parts.is_empty() && kind != RequestKind::Starts {
         return Err(JobError::SweepWithoutParts);
     }
-    let computed = read_sweep_parts(parts, study, (&words, &upward))?;
+    let computed = read_sweep_parts(parts, &study.file, (&words, &upward))?;
     let kept = KeptRequest::open(folders.out, &study.file, (kind, &words), pieces.len() as u64)?;
     let found = kept.read(Store::settled)?;
     let make = || sweeper(study, request);

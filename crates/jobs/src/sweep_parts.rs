@@ -3,14 +3,12 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use hammerbeam_results::{
-    Store,
+    Store, StoreError,
     store::{RequestKind, RequestRecord, SettledMotion},
 };
+use hammerbeam_study::StudyFile;
 
-use crate::{
-    JobError, PreparedStudy,
-    part::{JobPart, read_parts},
-};
+use crate::part::{JobPart, read_parts};
 
 /// The motions of frequencies, by the numbers of these from 0 on.
 pub(crate) type SweepPieces = BTreeMap<u64, Vec<SettledMotion>>;
@@ -20,17 +18,17 @@ pub(crate) type SweepPieces = BTreeMap<u64, Vec<SettledMotion>>;
 /// * `words`: of the whole sweep; `upward`: its frequencies [Hz].
 ///
 /// # Errors
-/// [`JobError::NoPart`]: a folder has none. [`JobError::Store`].
+/// [`StoreError::NoPart`]: a folder has none.
 pub(crate) fn read_sweep_parts(
     folders: &[PathBuf],
-    study: &PreparedStudy,
+    file: &StudyFile,
     (words, upward): (&[String], &[f64]),
-) -> Result<SweepPieces, JobError> {
+) -> Result<SweepPieces, StoreError> {
     let read = |store: &Store, request: &RequestRecord, part: JobPart| {
         let done = part.range(upward.len()).take(request.done as usize);
         Ok(by_frequency(done, upward, store.settled(request.id)?))
     };
-    let parts = read_parts(folders, &study.file, (RequestKind::Starts, words), read)?;
+    let parts = read_parts(folders, file, (RequestKind::Starts, words), read)?;
     Ok(parts.into_iter().flatten().collect())
 }
 
