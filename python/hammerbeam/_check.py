@@ -1,7 +1,7 @@
 """Numbers that are given, checked as the options of the command are, with the same words."""
 
-import math
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, SupportsFloat, SupportsIndex
@@ -15,46 +15,28 @@ MOST_JOBS = 65535
 
 def number(name: str, value: Any) -> float:
     """A finite number."""
-    found = _float(name, value, "must be a finite number")
-    if not math.isfinite(found):
-        raise BadInput(f"{name}: found {found}, must be a finite number")
-    return found
+    most = sys.float_info.max
+    return _between(name, value, (-most, most), "must be a finite number")
 
 
 def frequency(name: str, value: Any) -> float:
     """A frequency of the excitation [Hz]."""
-    must = "must be a number of hertz from 1e-10 to 1e10"
-    found = _float(name, value, must)
-    if not 1e-10 <= found <= 1e10:
-        raise BadInput(f"{name}: found {found}, {must}")
-    return found
+    return _between(name, value, (1e-10, 1e10), "must be a number of hertz from 1e-10 to 1e10")
 
 
 def seconds(name: str, value: Any) -> float:
     """A duration [s]."""
-    must = "must be a number of seconds from 1e-15 to 1e15"
-    found = _float(name, value, must)
-    if not 1e-15 <= found <= 1e15:
-        raise BadInput(f"{name}: found {found}, {must}")
-    return found
+    return _between(name, value, (1e-15, 1e15), "must be a number of seconds from 1e-15 to 1e15")
 
 
 def phase(name: str, value: Any) -> float:
     """A phase [cycles]."""
-    must = "must be a number of cycles from 0 to 1"
-    found = _float(name, value, must)
-    if not 0.0 <= found <= 1.0:
-        raise BadInput(f"{name}: found {found}, {must}")
-    return found
+    return _between(name, value, (0.0, 1.0), "must be a number of cycles from 0 to 1")
 
 
 def resolution(value: Any) -> float:
     """A resolution of figures [pixels per inch]."""
-    must = "must be 24 to 1200 pixels per inch"
-    found = _float("resolution", value, must)
-    if not 24.0 <= found <= 1200.0:
-        raise BadInput(f"resolution: found {found}, {must}")
-    return found
+    return _between("resolution", value, (24.0, 1200.0), "must be 24 to 1200 pixels per inch")
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
@@ -102,6 +84,22 @@ def word(name: str, value: str) -> str:
     except UnicodeEncodeError:
         raise BadInput(f"{name}: found {value!r}, must be Unicode") from None
     return value
+
+
+def setting(key: Any, value: Any) -> str:
+    """A key of a study with its value, as `--set` has it."""
+    if not isinstance(key, str):
+        raise BadInput(f"found the key {key!r}, must be a word")
+    if isinstance(value, str):
+        return f"{word('key', key)}={word(key, value)}"
+    if isinstance(value, Sequence) or isinstance(value, np.ndarray):
+        entries = (setting("", entry).removeprefix("=") for entry in value)
+        return f"{word('key', key)}=[{', '.join(entries)}]"
+    if isinstance(value, (bool, np.bool_)):
+        return f"{word('key', key)}={'true' if value else 'false'}"
+    if isinstance(value, SupportsIndex):
+        return f"{word('key', key)}={value.__index__()}"
+    return f"{word('key', key)}={number(key, value)!r}"
 
 
 def words(name: str, value: Any) -> list[str]:
@@ -154,10 +152,15 @@ def _array(name: str, value: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     return given.astype(np.float64)
 
 
-def _float(name: str, value: Any, must: str) -> float:
+def _between(name: str, value: Any, ends: tuple[float, float], must: str) -> float:
+    """A number in a range, both ends among it."""
     if isinstance(value, (bool, np.bool_, str, bytes)) or not isinstance(value, SupportsFloat):
         raise BadInput(f"{name}: found {value!r}, {must}")
     try:
-        return float(value)
+        found = float(value)
     except (TypeError, ValueError, OverflowError):
         raise BadInput(f"{name}: found {value!r}, {must}") from None
+    low, high = ends
+    if not low <= found <= high:
+        raise BadInput(f"{name}: found {found}, {must}")
+    return found

@@ -8,6 +8,7 @@ from typing import final
 _Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
 _Callbacks = tuple[Callable[[float | None, str], None] | None, Callable[[str], None] | None]
 _Folders = tuple[Path | None, Path | None]
+_Parts = tuple[str | None, Sequence[Path]]
 _Effort = tuple[int, int, int, int]
 _Series = tuple[float, float, float | None]
 _Axis = tuple[str, float, float]
@@ -25,6 +26,7 @@ class NativeStudy:
     def parse(name: str, text: str) -> NativeStudy: ...
     @property
     def text(self) -> str: ...
+    def text_with(self, settings: Sequence[str]) -> str: ...
     @property
     def name(self) -> str: ...
     @property
@@ -55,7 +57,7 @@ class NativeStudy:
         asked: _Series,
         motion: tuple[str, bool, int | None, int],
         spent_on: tuple[_Effort, int | None],
-        kept_in: _Folders,
+        kept_in: tuple[Path | None, Path | None, _Parts],
         callbacks: _Callbacks,
     ) -> str: ...
     def lyapunov(
@@ -66,7 +68,7 @@ class NativeStudy:
         frequency_hz: float,
         asked: tuple[_Axis, _Axis, int],
         spent_on: tuple[_Effort, int | None],
-        kept_in: _Folders,
+        kept_in: tuple[Path | None, Path | None, _Parts],
         callbacks: _Callbacks,
     ) -> str: ...
 

@@ -21,14 +21,16 @@ QUANTITIES = {
 }
 
 
-def _axes(ax: Any) -> Any:
+def axes(ax: Any) -> Any:
+    """What is given, or axes of a new figure."""
     if ax is not None:
         return ax
     pyplot = needed("matplotlib.pyplot", "plot")
     return pyplot.subplots(figsize=(7.1, 4.0), layout="constrained")[1]
 
 
-def _framed(ax: Any, x: str, y: str) -> Any:
+def framed(ax: Any, x: str, y: str) -> Any:
+    """Axes with their labels and a grid."""
     ax.set_xlabel(x, color=INK)
     ax.set_ylabel(y, color=INK)
     ax.grid(color=GRID, linewidth=0.5)
@@ -42,7 +44,7 @@ def response(table: Array, quantity: str, ax: Any, title: str) -> Any:
     if quantity not in QUANTITIES:
         raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
     column, label = QUANTITIES[quantity]
-    ax = _framed(_axes(ax), "Frequency (Hz)", label)
+    ax = framed(axes(ax), "Frequency (Hz)", label)
     known: set[int] = set()
     for number in np.unique(table["branch"]):
         rows = table[table["branch"] == number]
@@ -92,7 +94,7 @@ def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
     ]
     if point not in names:
         raise BadInput(f"there is no point {point!r}; allowed: {', '.join(names)}")
-    ax = _framed(_axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
+    ax = framed(axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
     colour = PERIODS[(solution.period_multiple - 1) % len(PERIODS)]
     ax.plot(waveform["phase_cycles"], waveform[f"{point}_displacement_m"], color=colour, linewidth=1.1)
     return ax
@@ -100,14 +102,14 @@ def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
 
 def motion(samples: Array, ax: Any) -> Any:
     """Displacement over time."""
-    ax = _framed(_axes(ax), "Time (s)", "Displacement (m)")
+    ax = framed(axes(ax), "Time (s)", "Displacement (m)")
     ax.plot(samples["time_s"], samples["displacement_m"], color=PERIODS[0], linewidth=0.9)
     return ax
 
 
 def sweep(samples: Array, ax: Any) -> Any:
     """Samples of settled motions over the frequency."""
-    ax = _framed(_axes(ax), "Frequency (Hz)", "Displacement at phase 0 (m)")
+    ax = framed(axes(ax), "Frequency (Hz)", "Displacement at phase 0 (m)")
     for place, origin in enumerate(np.unique(samples["from"])):
         rows = samples[samples["from"] == origin]
         colour = PERIODS[place % len(PERIODS)]
@@ -120,7 +122,7 @@ def sweep(samples: Array, ax: Any) -> Any:
 def basins(found: Any, ax: Any) -> Any:
     """Cells of a grid in the colour of their attractor."""
     colors = needed("matplotlib.colors", "plot")
-    ax = _framed(_axes(ax), str(found.report["x"]["coordinate"]), str(found.report["y"]["coordinate"]))
+    ax = framed(axes(ax), str(found.report["x"]["coordinate"]), str(found.report["y"]["coordinate"]))
     count = max(int(found.cells.max(initial=0)), 1)
     shown = colors.ListedColormap([INK, *(FILLS[k % len(FILLS)] for k in range(count))])
     extent = [found.report[axis][end] for axis in ("x", "y") for end in ("low", "high")]

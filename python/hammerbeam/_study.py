@@ -127,6 +127,13 @@ class Study:
         """The study file."""
         return self._native.text
 
+    def text_with(self, settings: Mapping[str, Any]) -> str:
+        """The study file with other values of its keys, as `--set` of the command gives them.
+
+        * `settings`: values by keys such as `stop.1.gap_m`; a text may have its unit, as in `"2 mm"`.
+        """
+        return self._native.text_with([_check.setting(key, value) for key, value in settings.items()])
+
     @property
     def title(self) -> str:
         """Its title."""
@@ -297,26 +304,66 @@ class Study:
         averaged_periods: int = 1000,
         results: AnyPath | None = None,
         out: AnyPath | None = None,
+        parts: Sequence[AnyPath] = (),
         jobs: int | None = None,
         progress: Progress = None,
     ) -> Sweep:
         """Settled motions over the frequency, the range of the study by default: each begun where the one
-        before has ended, or, with `starts`, at so many states at every frequency."""
+        before has ended, or, with `starts`, at so many states at every frequency.
+
+        * `parts`: folders of `sweep_part`, whose motions are taken from there; the rest is computed.
+        """
+        asked = self._sweep_asked(from_hz, to_hz, step_hz, starts, down, initial, samples)
+        spent = _effort(transient_periods, patience_periods, longest_period, averaged_periods)
+        place = _check.optional_folder("out", out)
+        folders = (_check.optional_folder("results", results), place, _taken(parts))
+        with interruptible(_kept(place)), watched(progress) as callbacks:
+            report = self._placed(place).sweep(*asked, (spent, _check.jobs(jobs)), folders, callbacks)
+        found = _loads(report)
+        if not found["motions"]:
+            raise NoResult("no motion could be computed", name="NoMotion")
+        return Sweep(found)
+
+    def sweep_part(
+        self,
+        part: tuple[int, int],
+        out: AnyPath,
+        *,
+        starts: int,
+        from_hz: float | None = None,
+        to_hz: float | None = None,
+        step_hz: float | None = None,
+        samples: int = 64,
+        jobs: int | None = None,
+        progress: Progress = None,
+        **spent: int,
+    ) -> dict[str, Any]:
+        """A part of the frequencies of a `sweep` with `starts`, into a folder.
+
+        * `part`: as `(2, 4)`, the second of four.
+        * `spent`: `transient_periods` and so on, as in `sweep`.
+        """
+        asked = self._sweep_asked(from_hz, to_hz, step_hz, starts, False, "rest", samples)
+        place = _check.folder("out", out)
+        folders = (None, place, _only(part))
+        effort = (_effort(**{**_EFFORT, **spent}), _check.jobs(jobs))
+        with interruptible(_kept(place)), watched(progress) as callbacks:
+            return _loads(self._placed(place).sweep(*asked, effort, folders, callbacks))
+
+    def _sweep_asked(
+        self, from_hz: Any, to_hz: Any, step_hz: Any, starts: Any, down: Any, initial: Any, samples: Any
+    ) -> tuple[tuple[float, float, float | None], tuple[str, bool, int | None, int]]:
         low, high = self.range_hz or (None, None)
         series = _series(low if from_hz is None else from_hz, high if to_hz is None else to_hz, step_hz)
         if starts is not None and (down or not isinstance(initial, str) or initial != "rest"):
             raise BadInput("starts: cannot be used with down or initial")
         many = None if starts is None else _check.whole("starts", starts, 1, 100_000)
-        begun = (_check.initial(initial), bool(down), many, _check.whole("samples", samples, 1, 100_000))
-        spent = _effort(transient_periods, patience_periods, longest_period, averaged_periods)
-        place = _check.optional_folder("out", out)
-        folders = (_check.optional_folder("results", results), place)
-        with interruptible(_kept(place)), watched(progress) as callbacks:
-            report = self._placed(place).sweep(series, begun, (spent, _check.jobs(jobs)), folders, callbacks)
-        found = _loads(report)
-        if not found["motions"]:
-            raise NoResult("no motion could be computed", name="NoMotion")
-        return Sweep(found)
+        return series, (
+            _check.initial(initial),
+            bool(down),
+            many,
+            _check.whole("samples", samples, 1, 100_000),
+        )
 
     def lyapunov(
         self,
@@ -358,6 +405,7 @@ class Study:
         averaged_periods: int = 1000,
         results: AnyPath | None = None,
         out: AnyPath | None = None,
+        parts: Sequence[AnyPath] = (),
         jobs: int | None = None,
         progress: Progress = None,
     ) -> Basins:
@@ -365,18 +413,50 @@ class Study:
 
         * `x`, `y`: coordinate with its range, such as `("q1", -1e-3, 1e-3)`: `q1` .. `qn`, `v1` .. `vn`,
           `displacement` or `velocity`.
+        * `parts`: folders of `basins_part`, whose cells are taken from there; the rest is computed.
         """
         hertz = _check.frequency("frequency_hz", frequency_hz)
         asked = (_axis("x", x), _axis("y", y), _check.whole("grid", grid, 1, 10_000))
         spent = _effort(transient_periods, patience_periods, longest_period, averaged_periods)
         place = _check.optional_folder("out", out)
-        folders = (_check.optional_folder("results", results), place)
+        folders = (_check.optional_folder("results", results), place, _taken(parts))
         with interruptible(_kept(place)), watched(progress) as callbacks:
             report = self._placed(place).basins(hertz, asked, (spent, _check.jobs(jobs)), folders, callbacks)
         found = _loads(report)
         if found["cells_not_computed"] == len(found["cells"]):
             raise NoResult(f"no motion from any of the {len(found['cells'])} cells", name="NoCell")
         return Basins(found)
+
+    def basins_part(
+        self,
+        part: tuple[int, int],
+        out: AnyPath,
+        *,
+        frequency_hz: float,
+        x: tuple[str, float, float],
+        y: tuple[str, float, float],
+        grid: int = 50,
+        jobs: int | None = None,
+        progress: Progress = None,
+        **spent: int,
+    ) -> dict[str, Any]:
+        """A part of the cells of `basins`, into a folder.
+
+        * `part`: as `(2, 4)`, the second of four.
+        * `spent`: `transient_periods` and so on, as in `basins`.
+        """
+        hertz = _check.frequency("frequency_hz", frequency_hz)
+        asked = (_axis("x", x), _axis("y", y), _check.whole("grid", grid, 1, 10_000))
+        place = _check.folder("out", out)
+        folders = (None, place, _only(part))
+        effort = (_effort(**{**_EFFORT, **spent}), _check.jobs(jobs))
+        with interruptible(_kept(place)), watched(progress) as callbacks:
+            return _loads(self._placed(place).basins(hertz, asked, effort, folders, callbacks))
+
+    def placed(self, folder: AnyPath) -> "Study":
+        """The same study, with matrices that are somewhere temporary copied into a folder, which goes on
+        being read."""
+        return Study(self._placed(_check.folder("folder", folder)))
 
     def _placed(self, out: Path | None) -> NativeStudy:
         """The study, with matrices that are somewhere temporary copied to its results, which go on being
@@ -414,13 +494,35 @@ def _series(from_hz: Any, to_hz: Any, step_hz: Any) -> tuple[float, float, float
     return _check.frequency("from_hz", from_hz), _check.frequency("to_hz", to_hz), step
 
 
-def _effort(transient: Any, patience: Any, longest: Any, averaged: Any) -> tuple[int, int, int, int]:
+_EFFORT = {"transient_periods": 50, "patience_periods": 500, "longest_period": 32, "averaged_periods": 1000}
+
+
+def _effort(
+    transient_periods: Any, patience_periods: Any, longest_period: Any, averaged_periods: Any
+) -> tuple[int, int, int, int]:
     return (
-        _check.whole("transient_periods", transient, 0, _MOST_PERIODS),
-        _check.whole("patience_periods", patience, 1, _MOST_PERIODS),
-        _check.whole("longest_period", longest, 1, 1024),
-        _check.whole("averaged_periods", averaged, 240, 10_000_000),
+        _check.whole("transient_periods", transient_periods, 0, _MOST_PERIODS),
+        _check.whole("patience_periods", patience_periods, 1, _MOST_PERIODS),
+        _check.whole("longest_period", longest_period, 1, 1024),
+        _check.whole("averaged_periods", averaged_periods, 240, 10_000_000),
     )
+
+
+def _taken(parts: Sequence[AnyPath]) -> tuple[None, list[Path]]:
+    """Folders of parts, as the extension takes them."""
+    if isinstance(parts, (str, bytes)) or not isinstance(parts, Sequence):
+        raise BadInput(f"parts: found {parts!r}, must be a list of folders")
+    return None, [_check.folder("parts", one) for one in parts]
+
+
+def _only(part: Any) -> tuple[str, list[Path]]:
+    """A part to compute, as the extension takes it."""
+    try:
+        number, of = part
+    except (TypeError, ValueError):
+        raise BadInput(f"part: found {part!r}, must be (K, N), as in (2, 4)") from None
+    most = 2**32 - 1
+    return f"{_check.whole('part', number, 1, most)}/{_check.whole('part', of, 1, most)}", []
 
 
 def _axis(name: str, axis: Any) -> tuple[str, float, float]:

@@ -13,8 +13,11 @@ from conftest import ROOT
 PAGE = ROOT / "docs/tutorials/python.md"
 
 
-def snippets(language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+MANY = ROOT / "docs/how-to/many-studies.md"
+
+
+def snippets(language: str, page: Path = PAGE) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
 
 
 @pytest.fixture(scope="module")
@@ -72,3 +75,13 @@ def test_octave_draws_the_diagram(place: Path) -> None:
     assert [int(count) for count in done.stdout.split()] == [
         rows.count(number) for number in sorted(set(rows))
     ]
+
+
+def test_many_studies_are_run_as_the_page_says(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(place)
+    names: dict[str, object] = {}
+    for number, snippet in enumerate(snippets("python", MANY)):
+        exec(compile(snippet, f"{MANY.name}, snippet {number + 1}", "exec"), names)
+    rows = (place / "results/forces/gathered.csv").read_text().splitlines()
+    assert len(rows) == 5 and all(",finished," in row for row in rows[1:])
+    assert list((place / "results/basins/merged").glob("*/*/results/basins.csv"))

@@ -15,6 +15,8 @@
 //! `sqrt(p (1 - p)/N)` of a sample of N random states. A grid samples a basin with smooth borders better than
 //! that.
 
+use std::ops::Range;
+
 use hammerbeam_motion::{System, exact::ExactSettings};
 
 use crate::{
@@ -39,6 +41,8 @@ const SAMPLED: usize = 100;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Cells in a round.
 const ROUND: usize = 256;
+/// Cells at the start of a grid that each of several parts of it computes, so that it knows the attractors.
+pub const SHARED_CELLS: usize = 256;
 
 /// An attractor that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,6 +123,17 @@ impl Basins {
         self.attractors = attractors;
     }
 
+    /// Goes on at a later round, which starts at that cell: what a part of a grid leaves out.
+    pub fn skip_to(&mut self, cell: usize) {
+        self.done = cell;
+    }
+
+    /// Takes the next round as another process has computed it, knowing the same attractors.
+    pub fn take(&mut self, round: &Round) {
+        self.attractors.extend_from_slice(&round.found);
+        self.done += round.cells.len();
+    }
+
     /// The grid.
     #[must_use]
     pub fn grid(&self) -> &Grid {
@@ -144,12 +159,9 @@ impl Basins {
     /// # Returns
     /// `None` if all cells are done, or if it was stopped: a round that was stopped leaves nothing.
     pub fn round(&mut self, workers: &mut impl InOrder) -> Option<Round> {
-        let first = self.done;
-        let size = first.clamp(1, ROUND).min(self.grid.cells() - first);
-        if size == 0 {
-            return None;
-        }
-        let cells: Vec<usize> = (first..first + size).collect();
+        let range = rounds_from(self.done, self.grid.cells()).next()?;
+        let (first, size) = (range.start, range.len());
+        let cells: Vec<usize> = range.collect();
         let make = || SystemMap::new(self.system.clone(), self.frequency_hz, 1, self.motion);
         let follow = |map: &mut Result<SystemMap, AttractorError>, cell: &usize| match map {
             Ok(map) => self.destination(map, *cell).unwrap_or(Destination::Lost),
@@ -212,6 +224,19 @@ impl Basins {
         };
         index as u32 + 1
     }
+}
+
+/// The cells of each round of a grid with so many cells.
+pub fn rounds(cells: usize) -> impl Iterator<Item = Range<usize>> {
+    rounds_from(0, cells)
+}
+
+fn rounds_from(mut first: usize, cells: usize) -> impl Iterator<Item = Range<usize>> {
+    std::iter::from_fn(move || {
+        let range = first..first + first.clamp(1, ROUND).min(cells - first);
+        first = range.end;
+        (!range.is_empty()).then_some(range)
+    })
 }
 
 /// Whether a motion comes near a periodic attractor, and closer than a period before.

@@ -59,7 +59,7 @@ mod sweep;
 mod tangents;
 mod zero_one;
 
-pub use basins::{Attractor, Basins, Round, behind_rigid_stops, fractions};
+pub use basins::{Attractor, Basins, Round, SHARED_CELLS, behind_rigid_stops, fractions, rounds};
 pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
 pub use error::AttractorError;
 pub use grid::{Axis, Grid};

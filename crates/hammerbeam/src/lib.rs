@@ -60,10 +60,10 @@
 
 pub use hammerbeam_jobs::{
     BranchRows, CountedProgress, FailureKind, FrequencySeries, InitialState, InitialStateError,
-    InitialWordsError, JobError as Error, JobFolders, MirrorImage, Observer, OrbitWaveform,
-    PreparedStudy as Study, Progress, Quiet, StoredBranches, VariedProgress, basins, check, chosen_orbits,
-    comparison, exponents, modes_document, orbit_waveform, orbits, pool, rig, run, simulate, sweep, update,
-    verify,
+    InitialWordsError, JobError as Error, JobFolders, JobPart, JobPartError, JobPartReport, MirrorImage,
+    Observer, OrbitWaveform, PreparedStudy as Study, Progress, Quiet, StoredBranches, VariedProgress, basins,
+    basins_part, check, chosen_orbits, comparison, exponents, modes_document, orbit_waveform, orbits, pool,
+    rig, run, simulate, sweep, update, verify,
 };
 pub use hammerbeam_orbit::{
     BranchEventKind, BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, Stability, StopReason,

@@ -1,5 +1,7 @@
 //! Basins of attraction: which attractor each of a grid of initial states leads to.
 
+use std::path::PathBuf;
+
 use hammerbeam_attractor::{Attractor, Axis, Basins, Class, Effort, Grid, fractions};
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_results::{Store, export::write_basins, store::RequestKind};
@@ -8,6 +10,7 @@ use serde::Serialize;
 
 use crate::{
     CountedProgress, JobError, JobFolders, Observer, PooledOrder, PreparedStudy, StoredBranches,
+    basin_parts::BasinParts,
     request::{KeptRequest, effort_words},
 };
 
@@ -100,6 +103,22 @@ pub fn basins(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<BasinsReport, JobError> {
+    basins_with_parts(study, (request, &[]), folders, threads, observer)
+}
+
+/// The same, with what parts of it have computed taken from their folders.
+///
+/// * `parts`: results folders; what they do not have is computed here.
+///
+/// # Errors
+/// [`JobError`]; [`JobError::Store`] of a folder that has no part of it.
+pub fn basins_with_parts(
+    study: &PreparedStudy,
+    (request, parts): (&BasinsRequest, &[PathBuf]),
+    folders: JobFolders<'_>,
+    threads: usize,
+    observer: &mut dyn Observer,
+) -> Result<BasinsReport, JobError> {
     study.file.forced()?;
     let grid = request.grid(&study.model)?;
     let system = study.model.system.clone();
@@ -107,13 +126,26 @@ pub fn basins(
         Basins::new(system, request.frequency_hz, grid, request.effort, ExactSettings::default())?;
     folders.branches(&study.file)?;
     let total = basins.grid().cells();
-    let identity = (RequestKind::Basins, request.words());
-    let mut kept = KeptRequest::open(folders.out, &study.file, (identity.0, &identity.1), total as u64)?;
+    let words = request.words();
+    let parts = BasinParts::read(parts, &study.file, (&words, total))?;
+    let mut kept = KeptRequest::open(folders.out, &study.file, (RequestKind::Basins, &words), total as u64)?;
     let (mut cells, attractors) = kept.read(Store::basins)?;
     basins.resume(cells.len(), attractors);
+    let mut again = 0;
     while !observer.interrupted() {
         let known = basins.attractors().len();
-        let Some(round) = basins.round(&mut PooledOrder::new(threads, observer)) else { break };
+        let was_computed = parts.has_round(&basins);
+        let round = match parts.round(&basins).cloned() {
+            Some(round) => {
+                basins.take(&round);
+                round
+            }
+            None => {
+                let Some(round) = basins.round(&mut PooledOrder::new(threads, observer)) else { break };
+                again += if was_computed { round.cells.len() } else { 0 };
+                round
+            }
+        };
         kept.add(|store, request| store.append_round(request, &round, known))?;
         cells.extend(round.cells);
         observer.counted(&CountedProgress {
@@ -124,6 +156,11 @@ pub fn basins(
         });
     }
     observer.finishing();
+    if again > 0 {
+        observer.notice(&format_args!(
+            "{again} cells were computed again: their parts did not know an attractor of earlier cells"
+        ));
+    }
     let done = cells.len() as u64;
     if cells.len() < total {
         kept.finish()?;
@@ -206,7 +243,7 @@ fn report(
 
 impl BasinsRequest {
     /// What identifies the request in the store.
-    fn words(&self) -> Vec<String> {
+    pub(crate) fn words(&self) -> Vec<String> {
         let axis = |name: &str, axis: &BasinAxis| {
             [
                 format!("{name}.coordinate = {}", axis.coordinate),
@@ -222,7 +259,7 @@ impl BasinsRequest {
         words
     }
 
-    fn grid(&self, model: &Model) -> Result<Grid, CoordinateError> {
+    pub(crate) fn grid(&self, model: &Model) -> Result<Grid, CoordinateError> {
         let axis = |axis: &BasinAxis, which: GridAxis| {
             let direction = direction(&axis.coordinate, which, model)?;
             Ok(Axis { direction, low: axis.low, high: axis.high, count: self.grid as usize })

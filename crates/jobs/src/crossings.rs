@@ -34,17 +34,23 @@ pub struct StoredBranch {
     pub rows: Vec<PlacedRow>,
 }
 
+/// Opens a results folder for reading, if it holds results of this study.
+pub(crate) fn open_for_study(folder: &Path, file: &StudyFile) -> Result<Store, StoreError> {
+    let store = Store::open(folder)?;
+    if store.about("identity")? == file.study.identity() {
+        return Ok(store);
+    }
+    let differences = differences(&store.about("canonical")?, &file.study.canonical(), 12);
+    Err(StoreError::OtherStudy { folder: folder.to_owned(), differences })
+}
+
 impl StoredBranches {
     /// Reads the branches of a results folder.
     ///
     /// # Errors
     /// [`StoreError`]: there are no results, or they are those of another study.
     pub fn open(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
-        let store = Store::open(folder)?;
-        if store.about("identity")? != file.study.identity() {
-            let differences = differences(&store.about("canonical")?, &file.study.canonical(), 12);
-            return Err(StoreError::OtherStudy { folder: folder.to_owned(), differences });
-        }
+        let store = open_for_study(folder, file)?;
         let branches = store.branches()?.into_iter().map(|record| {
             let rows = store.placed_rows(&record)?;
             Ok(StoredBranch { record, rows })

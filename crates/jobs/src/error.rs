@@ -57,6 +57,12 @@ pub enum JobError {
     /// A special point that a results folder does not have.
     #[error("{} has no special point {number}: it has {count}, numbered from 1", results.display())]
     NoSpecialPoint { results: PathBuf, number: u32, count: u32 },
+    /// A sweep that cannot be cut into parts.
+    #[error(
+        "a sweep with the state carried over has no parts: each motion starts where the one before has \
+         ended; allowed: motions from many states at every frequency, which depend on nothing else"
+    )]
+    SweepWithoutParts,
     /// There is nothing to compare with.
     #[error("{} holds no branch to compare with", results.display())]
     NoBranches { results: PathBuf },

@@ -19,6 +19,7 @@
 //! | [`chosen_orbits`] | stored orbits by branch, frequency or event |
 //! | [`orbit_history`] | an orbit from phase 0 on: states at equal steps and within contacts, impacts |
 //! | `orbit_waveform` | the motion of an orbit over its period |
+//! | `part`, `basin_parts`, `basins_part`, `sweep_parts` | parts of basins and sweeps, the whole from them |
 //! | [`settled`] | motions that sweeps and basins have met, from which branches begin |
 //! | [`special_point`] | special points of stored branches, from which branches begin |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
@@ -31,7 +32,9 @@
 //! it goes on, and what is in the store is skipped, so a run that was killed does exactly what is left, with
 //! the same bits.
 
+mod basin_parts;
 pub mod basins;
+mod basins_part;
 mod branch;
 pub mod check;
 pub mod chosen_orbits;
@@ -52,6 +55,7 @@ pub mod orbit_history;
 mod orbit_solver;
 mod orbit_waveform;
 pub mod orbits;
+mod part;
 pub mod pool;
 mod prepared;
 mod request;
@@ -61,11 +65,14 @@ pub mod settled;
 pub mod simulate;
 pub mod special_point;
 pub mod sweep;
+mod sweep_parts;
+mod sweep_report;
 pub mod update;
 pub mod varied;
 pub mod verify;
 mod walk;
 
+pub use basins_part::basins_part;
 pub use branch::BranchRows;
 pub use crossings::{MirrorImage, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
@@ -78,6 +85,7 @@ pub use modes_document::modes_document;
 pub use observer::{CountedProgress, Observer, Progress, Quiet, VariedProgress};
 pub use orbit_solver::OrbitSolver;
 pub use orbit_waveform::{OrbitWaveform, PointWaveform, orbit_waveform};
+pub use part::{JobPart, JobPartError, JobPartReport};
 pub use pool::PooledOrder;
 pub use prepared::PreparedStudy;
 pub use request::{FrequencySeries, JobFolders};

@@ -1,5 +1,14 @@
 //! Settled motions over the frequency: sweeps with the state carried over, and diagrams from many states.
 
+use std::path::PathBuf;
+
+use crate::{
+    CountedProgress, FrequencySeries, InitialState, JobError, JobFolders, Observer, PooledOrder,
+    PreparedStudy, StoredBranches,
+    part::{JobPart, JobPartReport},
+    request::{KeptRequest, effort_words, state_words},
+    sweep_parts::{SweepPieces, read_sweep_parts},
+};
 use hammerbeam_attractor::{
     AttractorError, Class, Effort, InOrder, Observable, SectionMap, SweepPoint, SweepSettings, Sweeper,
     SystemMap,
@@ -10,13 +19,8 @@ use hammerbeam_results::{
     export::write_sweep,
     store::{RequestKind, SettledMotion, SettledOrigin},
 };
-use serde::{Serialize, Serializer};
 
-use crate::{
-    CountedProgress, FrequencySeries, InitialState, JobError, JobFolders, Observer, PooledOrder,
-    PreparedStudy, StoredBranches,
-    request::{KeptRequest, effort_words, state_words},
-};
+pub use crate::sweep_report::{SweepReport, SweptMotion};
 
 /// What is asked of a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,62 +49,6 @@ pub enum SweepStarts {
     Many(usize),
 }
 
-/// The motions of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SweepReport {
-    /// `sweep`, or `starts` from many states at every frequency.
-    pub kind: &'static str,
-    /// Motions in the order in which they were computed.
-    pub motions: Vec<SweptMotion>,
-    /// The folder that keeps them, with their tables.
-    pub results: Option<String>,
-}
-
-/// A settled motion of a sweep.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SweptMotion {
-    /// The motion, and where it began.
-    pub motion: SettledMotion,
-    /// The stored branch that it lies on, if it is periodic and branches are known.
-    pub branch: Option<u32>,
-}
-
-impl Serialize for SweptMotion {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Document<'a> {
-            from: String,
-            frequency_hz: f64,
-            class: &'static str,
-            period: Option<usize>,
-            doubt: Option<&'static str>,
-            max_abs_displacement_m: f64,
-            contacts_per_period: f64,
-            largest_exponent_per_s: Option<f64>,
-            half_width_per_s: Option<f64>,
-            zero_one_k: Option<f64>,
-            branch: Option<u32>,
-            sampled_displacements_m: &'a [f64],
-        }
-        let SettledMotion { origin, point } = &self.motion;
-        let document = Document {
-            from: origin.to_string(),
-            frequency_hz: point.frequency_hz,
-            class: point.class.name(),
-            period: point.class.period(),
-            doubt: point.class.doubt(),
-            max_abs_displacement_m: point.max_abs_displacement,
-            contacts_per_period: point.contacts_per_period,
-            largest_exponent_per_s: point.largest_exponent.map(|exponent| exponent.value),
-            half_width_per_s: point.largest_exponent.map(|exponent| exponent.half_width),
-            zero_one_k: point.zero_one,
-            branch: self.branch,
-            sampled_displacements_m: &point.samples,
-        };
-        document.serialize(serializer)
-    }
-}
-
 /// Computes the motions of a sweep, or what is left of them, and writes `sweep.csv` and `sweep_samples.csv`.
 ///
 /// * `threads`: with many states at every frequency; results do not depend on it.
@@ -117,30 +65,46 @@ pub fn sweep(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<SweepReport, JobError> {
+    sweep_with_parts(study, (request, &[]), folders, threads, observer)
+}
+
+/// The same, with what parts of it have computed taken from their folders.
+///
+/// * `parts`: results folders; what they do not have is computed here.
+///
+/// # Errors
+/// [`JobError`]; [`JobError::Store`] of a folder that has no part of it, [`JobError::SweepWithoutParts`].
+pub fn sweep_with_parts(
+    study: &PreparedStudy,
+    (request, parts): (&SweepRequest, &[PathBuf]),
+    folders: JobFolders<'_>,
+    threads: usize,
+    observer: &mut dyn Observer,
+) -> Result<SweepReport, JobError> {
     study.file.forced()?;
     let upward = request.frequencies.frequencies()?;
     folders.branches(&study.file)?;
-    let motion = ExactSettings::default();
     let state = match &request.starts {
         // A diagram has states of its own.
         SweepStarts::Many(_) => Vec::new(),
         SweepStarts::CarriedOver { initial, .. } => {
-            let mut first = SystemMap::new(study.model.system.clone(), upward[0], 1, motion)?;
+            let mut first =
+                SystemMap::new(study.model.system.clone(), upward[0], 1, ExactSettings::default())?;
             initial.at(&mut first, study, folders.results)?
         }
     };
     let (kind, pieces) = pieces(request, &upward);
     let words = words(request, &upward, &state);
+    if !parts.is_empty() && kind != RequestKind::Starts {
+        return Err(JobError::SweepWithoutParts);
+    }
+    let computed = read_sweep_parts(parts, &study.file, (&words, &upward))?;
     let kept = KeptRequest::open(folders.out, &study.file, (kind, &words), pieces.len() as u64)?;
     let found = kept.read(Store::settled)?;
-    let response = &study.model.response;
-    let observable =
-        Observable { shape: response.shape.clone(), support_ratios: response.support_ratios.clone() };
-    let settings = SweepSettings { effort: request.effort, sampled: request.samples, motion };
-    let make = || Sweeper::new(&study.model.system, &observable, settings);
+    let make = || sweeper(study, request);
     let mut work = Work { pieces: &pieces, observer, kept, found };
     match request.starts {
-        SweepStarts::Many(starts) => work.diagram(&make, starts, threads)?,
+        SweepStarts::Many(starts) => work.diagram(&make, (starts, computed), threads)?,
         SweepStarts::CarriedOver { .. } => work.carried_over(&mut make()?, state)?,
     }
     let Work { found, kept, observer, .. } = work;
@@ -156,6 +120,48 @@ pub fn sweep(
     let motions = found.into_iter().zip(branches).map(|(motion, branch)| SweptMotion { motion, branch });
     let kind = if matches!(request.starts, SweepStarts::Many(_)) { "starts" } else { "sweep" };
     Ok(SweepReport { kind, motions: motions.collect(), results: folders.shown() })
+}
+
+/// Computes a part of a sweep from many states, or what is left of it, into a results folder.
+///
+/// * `threads`: results do not depend on it.
+///
+/// # Errors
+/// [`JobError`]; [`JobError::SweepWithoutParts`] with the state carried over, [`JobError::Interrupted`] with
+/// the number of frequencies.
+pub fn sweep_part(
+    study: &PreparedStudy,
+    (request, part): (&SweepRequest, JobPart),
+    folders: JobFolders<'_>,
+    threads: usize,
+    observer: &mut dyn Observer,
+) -> Result<JobPartReport, JobError> {
+    study.file.forced()?;
+    let SweepStarts::Many(starts) = request.starts else { return Err(JobError::SweepWithoutParts) };
+    let upward = request.frequencies.frequencies()?;
+    let (kind, pieces) = pieces(request, &upward);
+    let pieces = &pieces[part.range(upward.len())];
+    let words = part.words(&words(request, &upward, &[]));
+    let kept = KeptRequest::open(folders.out, &study.file, (kind, &words), pieces.len() as u64)?;
+    let mut work = Work { pieces, observer, kept, found: Vec::new() };
+    work.diagram(&|| sweeper(study, request), (starts, SweepPieces::new()), threads)?;
+    let Work { kept, observer, .. } = work;
+    observer.finishing();
+    let done = kept.done;
+    kept.finish()?;
+    match done {
+        done if done < pieces.len() as u64 => Err(JobError::Interrupted { done, part_s: None }),
+        done => Ok(JobPartReport { part: part.to_string(), pieces: done, results: folders.shown() }),
+    }
+}
+
+fn sweeper(study: &PreparedStudy, request: &SweepRequest) -> Result<Sweeper, AttractorError> {
+    let response = &study.model.response;
+    let observable =
+        Observable { shape: response.shape.clone(), support_ratios: response.support_ratios.clone() };
+    let motion = ExactSettings::default();
+    let settings = SweepSettings { effort: request.effort, sampled: request.samples, motion };
+    Sweeper::new(&study.model.system, &observable, settings)
 }
 
 /// Writes the tables.
@@ -271,10 +277,14 @@ impl Work<'_> {
     fn diagram(
         &mut self,
         make: &(impl Fn() -> Result<Sweeper, AttractorError> + Sync),
-        starts: usize,
+        (starts, mut computed): (usize, SweepPieces),
         threads: usize,
     ) -> Result<(), JobError> {
         for (piece, &(_, frequency_hz)) in (0..).zip(self.pieces).skip(self.kept.done as usize) {
+            if let Some(motions) = computed.remove(&piece) {
+                self.add(piece, motions)?;
+                continue;
+            }
             let states = make()?.starts(frequency_hz, starts)?;
             let at = |sweeper: &mut Result<Sweeper, AttractorError>, state: &Vec<f64>| match sweeper {
                 Ok(sweeper) => sweeper.begin_at(frequency_hz, state),
@@ -291,10 +301,16 @@ impl Work<'_> {
                     }
                 }
             }
-            self.kept.add(|store, request| store.append_settled(request, piece, &motions))?;
-            self.found.extend(motions);
+            self.add(piece, motions)?;
             self.count(piece + 1, &format_args!("{frequency_hz:.4} Hz"));
         }
+        Ok(())
+    }
+
+    fn add(&mut self, piece: u64, motions: Vec<SettledMotion>) -> Result<(), JobError> {
+        self.kept.add(|store, request| store.append_settled(request, piece, &motions))?;
+        self.kept.done = piece + 1;
+        self.found.extend(motions);
         Ok(())
     }
 }

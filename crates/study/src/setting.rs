@@ -180,7 +180,10 @@ impl Place<'_> {
             return replaced(self.text, name.span().start..old.span().end, &format!("{key} = {value}"));
         }
         let Some(span) = &self.span else { return format!("{key} = {value}\n{}", self.text) };
-        if !self.text[span.clone()].starts_with('{') {
+        if !self.text[span.clone()].starts_with(['{', '[']) {
+            return self.beside_dotted_key(span, key, value);
+        }
+        if self.text[span.clone()].starts_with('[') {
             let header_end = self.text[span.start..].find('\n').map(|end| span.start + end + 1);
             let at = header_end.unwrap_or(self.text.len());
             let line = if header_end.is_some() { "" } else { "\n" };
@@ -191,6 +194,16 @@ impl Place<'_> {
             Some(end) => replaced(self.text, end..end, &format!(", {key} = {value}")),
             None => replaced(self.text, span.clone(), &format!("{{ {key} = {value} }}")),
         }
+    }
+
+    /// The same in a table that has no header, but is named in a dotted key.
+    ///
+    /// * `span`: of its name there.
+    fn beside_dotted_key(&self, span: &Range<usize>, key: &str, value: &str) -> String {
+        let start = self.text[..span.start].rfind(['\n', '{', ',']).map_or(0, |before| before + 1);
+        let is_line = start == 0 || self.text[..start].ends_with('\n');
+        let (table, end) = (&self.text[start..span.end], if is_line { "\n" } else { "," });
+        replaced(self.text, start..start, &format!("{table}.{key} = {value}{end}"))
     }
 }
 
@@ -327,6 +340,10 @@ at = "tip"
         assert_written("stop.1.gap_m=1e-3", "[[stop]]\n", "[[stop]]\ngap_m = 1e-3\n");
         assert_written("structure.section.form=x", "0.003 }", "0.003, form = \"x\" }");
         assert_written("search.trials=3", "title", "search.trials = 3\ntitle");
+        let two = with(&["search.trials=3", "search.starts=2"]).unwrap();
+        assert!(two.starts_with("search.starts = 2\nsearch.trials = 3\ntitle"), "{two}");
+        let within = with(&["structure.section.web.x=1", "structure.section.web.y=2"]).unwrap();
+        assert!(within.contains("height_m = 0.003, web.y = 2, web.x = 1 }"), "{within}");
         assert_written("excitation.order=2", "[excitation]\n", "[excitation]\norder = 2\n");
     }
 

@@ -101,6 +101,7 @@ fn described(error: &Error) -> (&'static str, Value) {
         Error::FrequencyNotResolved { high_hz, resolved_hz } => {
             ("FrequencyNotResolved", json!({ "high_hz": high_hz, "resolved_hz": resolved_hz }))
         }
+        Error::SweepWithoutParts => ("BadInput", json!({})),
         Error::NoSearch { .. } => ("NoSearch", json!({})),
         Error::Stopped { source, done } => {
             let (class, mut numbers) = described(source);

@@ -6,9 +6,11 @@ use std::{
 };
 
 use hammerbeam::{
-    Error, FrequencySeries, InitialState, JobFolders, Quiet, Study,
+    Error, FrequencySeries, InitialState, JobFolders, JobPart, JobPartError, Quiet, Study, StudyError,
+    StudyFile,
     attractor::{Effort, Patience},
-    basins::{BasinAxis, BasinsRequest, basins},
+    basins::{BasinAxis, BasinsRequest, basins_with_parts},
+    basins_part,
     check::check,
     chosen_orbits::ChosenOrbit,
     drawing::{DrawSettings, DrawingError, FigureSelection, draw, draw_into},
@@ -18,7 +20,8 @@ use hammerbeam::{
     pool::threads,
     run::{RunOrigin, RunOutcome, RunRequest, WholeRun, run_study},
     simulate::{DurationTooLong, SimulationRequest, SimulationTime, simulate},
-    sweep::{SweepRequest, SweepStarts, sweep},
+    study_file::{Setting, file::Structure},
+    sweep::{SweepRequest, SweepStarts, sweep_part, sweep_with_parts},
 };
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -39,6 +42,10 @@ fn folders<'a>(results: &'a Option<PathBuf>, out: &'a Option<PathBuf>) -> JobFol
     JobFolders { results: results.as_deref(), out: out.as_deref() }
 }
 
+fn job_part(py: Python<'_>, text: &str) -> PyResult<JobPart> {
+    text.parse().map_err(|error: JobPartError| bad_input(py, "BadInput", error.to_string()))
+}
+
 fn initial(py: Python<'_>, text: &str, study: &Study) -> PyResult<InitialState> {
     let state = InitialState::parse(text, 2 * study.dof());
     state.map_err(|error| bad_input(py, "InitialStateError", format!("initial: {error}")))
@@ -47,6 +54,9 @@ fn initial(py: Python<'_>, text: &str, study: &Study) -> PyResult<InitialState> 
 /// What is spent on the kind of a motion: periods that are skipped, that it has to repeat in, that a period
 /// has at most, and that are averaged over.
 type EffortNumbers = (u64, u64, usize, u64);
+
+/// Of a job by parts: the part to compute, as `2/4`, or the folders that the whole is put together from.
+type Parts = (Option<String>, Vec<PathBuf>);
 
 /// Frequency [Hz], periods of the transient, periods, duration [s], samples in a period.
 type ForcedTime = (f64, u64, u64, Option<f64>, u32);
@@ -101,6 +111,23 @@ impl NativeStudy {
     #[getter]
     fn text(&self) -> &str {
         &self.study.file.text
+    }
+
+    /// The text of this study with other values of keys, in the form of `--set`, which can stand in another
+    /// folder. It is read again, unless that meant to read files of matrices once more.
+    fn text_with(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<String> {
+        let file = &self.study.file;
+        let text = file.text_with_whole_paths();
+        let written = || -> Result<String, StudyError> {
+            let settings = settings.iter().map(|text| text.parse()).collect::<Result<Vec<Setting>, _>>();
+            let text = settings.and_then(|settings| Setting::written_into(&settings, &text));
+            let text = text.map_err(StudyError::Setting)?;
+            if !matches!(file.study.structure, Structure::Matrices(_)) {
+                StudyFile::parse(&file.name, text.clone())?;
+            }
+            Ok(text)
+        };
+        written().map_err(|error| study_exception(py, error))
     }
 
     #[getter]
@@ -206,30 +233,41 @@ impl NativeStudy {
         Ok(json(&report.map_err(|error| exception(py, error))?))
     }
 
-    /// Settled motions over `(from_hz, to_hz, step_hz)`: carried over from a state, or from so many states.
+    /// Settled motions over `(from_hz, to_hz, step_hz)`: carried over from a state, or from so many states;
+    /// of the last also a part.
     fn sweep(
         &self,
         py: Python<'_>,
         asked: (f64, f64, Option<f64>),
         motion: (&str, bool, Option<usize>, usize),
         spent_on: (EffortNumbers, Option<u16>),
-        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        kept_in: (Option<PathBuf>, Option<PathBuf>, Parts),
         callbacks: (Callback, Callback),
     ) -> PyResult<String> {
         let (from_hz, to_hz, step_hz) = asked;
         let (start, down, starts, samples) = motion;
         let (spent, jobs) = spent_on;
-        let (results, out) = kept_in;
+        let (results, out, (part, parts)) = kept_in;
+        let part = part.map(|text| job_part(py, &text)).transpose()?;
         let starts = match starts {
             Some(starts) => SweepStarts::Many(starts),
             None => SweepStarts::CarriedOver { initial: initial(py, start, &self.study)?, down },
         };
         let frequencies = FrequencySeries { from_hz, to_hz, step_hz };
         let request = SweepRequest { frequencies, starts, samples, effort: effort(spent) };
-        let report = PythonObserver::run(py, callbacks, |observer| {
-            sweep(&self.study, &request, folders(&results, &out), threads(jobs), observer)
+        let folders = folders(&results, &out);
+        let report = PythonObserver::run(py, callbacks, |observer| match part {
+            Some(part) => {
+                let report = sweep_part(&self.study, (&request, part), folders, threads(jobs), observer);
+                report.map(|report| json(&report))
+            }
+            None => {
+                let asked = (&request, parts.as_slice());
+                let report = sweep_with_parts(&self.study, asked, folders, threads(jobs), observer);
+                report.map(|report| json(&report))
+            }
         })?;
-        Ok(json(&report.map_err(|error| exception(py, error))?))
+        report.map_err(|error| exception(py, error))
     }
 
     /// Lyapunov exponents over `(from_hz, to_hz, step_hz)`.
@@ -257,24 +295,34 @@ impl NativeStudy {
         Ok(json(&report.map_err(|error| exception(py, error))?))
     }
 
-    /// Basins over a grid of two coordinates `(name, low, high)`.
+    /// Basins over a grid of two coordinates `(name, low, high)`, or a part of them.
     fn basins(
         &self,
         py: Python<'_>,
         frequency_hz: f64,
         asked: ((String, f64, f64), (String, f64, f64), u32),
         spent_on: (EffortNumbers, Option<u16>),
-        kept_in: (Option<PathBuf>, Option<PathBuf>),
+        kept_in: (Option<PathBuf>, Option<PathBuf>, Parts),
         callbacks: (Callback, Callback),
     ) -> PyResult<String> {
         let (x, y, grid) = asked;
         let (spent, jobs) = spent_on;
-        let (results, out) = kept_in;
+        let (results, out, (part, parts)) = kept_in;
+        let part = part.map(|text| job_part(py, &text)).transpose()?;
         let axis = |(coordinate, low, high)| BasinAxis { coordinate, low, high };
         let request = BasinsRequest { frequency_hz, x: axis(x), y: axis(y), grid, effort: effort(spent) };
-        let report = PythonObserver::run(py, callbacks, |observer| {
-            basins(&self.study, &request, folders(&results, &out), threads(jobs), observer)
+        let folders = folders(&results, &out);
+        let report = PythonObserver::run(py, callbacks, |observer| match part {
+            Some(part) => {
+                let report = basins_part(&self.study, (&request, part), folders, threads(jobs), observer);
+                report.map(|report| json(&report))
+            }
+            None => {
+                let asked = (&request, parts.as_slice());
+                let report = basins_with_parts(&self.study, asked, folders, threads(jobs), observer);
+                report.map(|report| json(&report))
+            }
         })?;
-        Ok(json(&report.map_err(|error| exception(py, error))?))
+        report.map_err(|error| exception(py, error))
     }
 }

@@ -20,6 +20,9 @@ pub enum StoreError {
     /// There is nothing to read.
     #[error("there are no results in {}", folder.display())]
     NoResults { folder: PathBuf },
+    /// The folder has no part of what is put together from parts.
+    #[error("{} holds no part of this: of the same study, with the same numbers", folder.display())]
+    NoPart { folder: PathBuf },
     /// `results.db` is something else.
     #[error("{} was not written by hammerbeam", folder.join(DATABASE).display())]
     NotResults { folder: PathBuf },

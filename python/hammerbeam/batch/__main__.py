@@ -1,0 +1,145 @@
+"""`python -m hammerbeam.batch`: a batch folder from a terminal, and what engines call.
+
+    python -m hammerbeam.batch plan FOLDER STUDY TABLE.csv
+    python -m hammerbeam.batch run FOLDER [--processes N] [--hyperqueue]
+    python -m hammerbeam.batch status FOLDER
+    python -m hammerbeam.batch gather FOLDER
+    python -m hammerbeam.batch slurm FOLDER [OPTION ...]
+    python -m hammerbeam.batch item [--jobs N] FOLDER WHICH ...
+
+WHICH is a number, a range such as 101-200, `--entry` for the entry of HyperQueue, or `-` for numbers from
+standard input. Exit codes are those of the command `hammerbeam`.
+"""
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+
+from .._errors import BadInput, HammerbeamError
+from ._batch import Batch
+from ._folder import Status, read_json
+from ._hyperqueue import HyperQueue
+from ._local import Local
+from ._parameters import Parameters
+from ._slurm import slurm_script
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Does what was asked for: the exit code."""
+    given, rest = _parser().parse_known_args(arguments)
+    try:
+        if given.command == "item":
+            return _items(Batch(given.folder), rest, given.jobs)
+        code: int = given.does(given, rest)
+        return code
+    except HammerbeamError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m hammerbeam.batch", description=__doc__.splitlines()[0])
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, does in (
+        ("plan", _plan),
+        ("run", _run),
+        ("status", _status),
+        ("gather", _gather),
+        ("slurm", _slurm),
+    ):
+        commands.add_parser(name).set_defaults(does=does)
+        commands.choices[name].add_argument("folder")
+    commands.choices["plan"].add_argument("study")
+    commands.choices["plan"].add_argument("table")
+    commands.choices["run"].add_argument("--processes", type=int)
+    commands.choices["run"].add_argument("--hyperqueue", action="store_true")
+    item = commands.add_parser("item")
+    item.add_argument("--jobs", type=int, default=1)
+    item.add_argument("folder")
+    return parser
+
+
+def _none(rest: Sequence[str]) -> None:
+    if rest:
+        raise BadInput(f"{rest[0]!r} is not expected here")
+
+
+def _plan(given: argparse.Namespace, rest: Sequence[str]) -> int:
+    _none(rest)
+    print(Batch.plan(given.folder, given.study, Parameters.read(given.table)).counts())
+    return 0
+
+
+def _run(given: argparse.Namespace, rest: Sequence[str]) -> int:
+    _none(rest)
+    batch = Batch(given.folder)
+    counts = batch.run(HyperQueue() if given.hyperqueue else Local(given.processes))
+    print(counts)
+    return 0 if counts.finished == counts.items else 1
+
+
+def _status(given: argparse.Namespace, rest: Sequence[str]) -> int:
+    _none(rest)
+    batch = Batch(given.folder)
+    print(batch.counts())
+    for number, message in batch.failures().items():
+        print(f"  item {number}: {message}")
+    return 0
+
+
+def _gather(given: argparse.Namespace, rest: Sequence[str]) -> int:
+    _none(rest)
+    for path in Batch(given.folder).gather().write():
+        print(path)
+    return 0
+
+
+def _slurm(given: argparse.Namespace, rest: Sequence[str]) -> int:
+    print(slurm_script(Batch(given.folder), options=rest))
+    return 0
+
+
+def _items(batch: Batch, which: Sequence[str], jobs: int) -> int:
+    """Computes items: 0 if all are finished, else the exit code of the last one that failed."""
+    code = 0
+    for number in _numbers(which, len(batch)):
+        status = batch.compute(number, jobs)
+        if list(which) == ["-"]:
+            print(status.value, flush=True)
+        if status is Status.FAILED:
+            failure = read_json(batch.item(number).failure)
+            print(f"item {number}: {failure['message']}", file=sys.stderr)
+            code = int(failure["exit_code"])
+        elif status is not Status.FINISHED:
+            code = 1
+    return code
+
+
+def _numbers(which: Sequence[str], count: int) -> Iterator[int]:
+    if not which:
+        raise BadInput("which items are meant is missing")
+    for word in which:
+        low, _, high = word.partition("-")
+        if word == "-":
+            yield from (_number(line.strip()) for line in sys.stdin)
+        elif word == "--entry":
+            yield _number(str(json.loads(os.environ.get("HQ_ENTRY", "{}")).get("item", "")))
+        elif low.isdecimal() and high.isdecimal():
+            # The last task of an array may reach beyond the last item.
+            yield from range(int(low), min(int(high), count) + 1)
+        else:
+            yield _number(word)
+
+
+def _number(text: str) -> int:
+    if not text.isdecimal():
+        raise BadInput(f"found the item {text!r}, must be a number, or a range such as 101-200")
+    return int(text)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,310 @@
+"""Batches: planning, status, what is missing, one table; parts that merge to the bytes of one process."""
+
+import csv
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import hammerbeam
+import numpy as np
+import pytest
+from conftest import ROOT
+from hammerbeam import batch
+from hammerbeam.batch import Batch, Local, Parameters, Status, Task
+
+EXAMPLE = ROOT / "python/examples/dakota/oscillator.toml"
+GAP = "stop.stop.gap_m"
+
+
+@pytest.fixture(scope="module")
+def memory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A folder that is no disk, where there is one: the disk of a busy machine is not what is tested."""
+    shared = Path("/dev/shm")
+    if not os.access(shared, os.W_OK):
+        yield tmp_path_factory.mktemp("many")
+        return
+    folder = shared / f"hammerbeam-{os.getpid()}"
+    folder.mkdir()
+    yield folder
+    shutil.rmtree(folder)
+
+
+def test_a_grid_is_all_combinations() -> None:
+    table = Parameters.grid({"a.b": [1, 2.5], "c": ["x", "2 mm"]})
+    assert table.rows == [("1", "x"), ("1", "2 mm"), ("2.5", "x"), ("2.5", "2 mm")]
+    assert table.column("a.b").tolist() == [1.0, 1.0, 2.5, 2.5]
+
+
+def test_a_latin_hypercube_has_each_part_of_every_range_once() -> None:
+    table = Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=7)
+    parts = np.floor(50 * table.column("a")), np.floor(50 * (table.column("b") + 2) / 4)
+    assert all(sorted(part) == list(range(50)) for part in parts)
+    assert list(parts[0]) != list(parts[1])
+    assert table.rows == Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=7).rows
+    assert table.rows != Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=8).rows
+
+
+def test_a_table_is_read_as_it_is_written() -> None:
+    table = Parameters.parse(f'{GAP}, excitation.frequency_hz\n0.9, "[0.1, 0.2]"\n 1 mm ,"[0.1, 0.3]"\n')
+    assert table.rows == [("0.9", "[0.1, 0.2]"), ("1 mm", "[0.1, 0.3]")]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "is empty"),
+        ("a\n", "has no row"),
+        ("a,a\n1,2\n", "the same key"),
+        ("a,b\n1\n", "has 1 values"),
+        ("a,\n1,2\n", "a column without a key"),
+        ('a\n" "\n', "no value"),
+    ],
+)
+def test_tables_that_make_no_sense_are_refused(text: str, words: str) -> None:
+    with pytest.raises(hammerbeam.BadInput, match=words):
+        Parameters.parse(text)
+
+
+def test_values_are_placed_as_the_command_places_them(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9], "response.point": ["mass"]}))
+    text = planned.item(1).study.read_text()
+    assert "gap_m = 0.9" in text and 'point = "mass"' in text
+    command = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "debug/hammerbeam"
+    if command.is_file():
+        asked: list[Any] = [
+            command,
+            "check",
+            EXAMPLE,
+            "--set",
+            f"{GAP}=0.9",
+            "--set",
+            "response.point=mass",
+            "--json",
+        ]
+        by_command = subprocess.run(asked, capture_output=True, text=True, check=True).stdout
+        own: list[Any] = [command, "check", planned.item(1).study, "--json"]
+        assert subprocess.run(own, capture_output=True, text=True, check=True).stdout == by_command
+
+
+def test_two_keys_of_a_table_that_the_study_does_not_have() -> None:
+    study = hammerbeam.Study.read(ROOT / "studies/impact-oscillator.toml")
+    text = study.text_with({"search.frequencies": 3, "search.starts": 2})
+    assert text.startswith("search.starts = 2\nsearch.frequencies = 3\n")
+
+
+def test_a_wrong_key_or_value_is_refused_before_anything_is_made(tmp_path: Path) -> None:
+    for values in ({"stop.other.gap_m": [1.0]}, {GAP: [1.0, -1.0]}, {"stop.stop.gab_m": [1.0]}):
+        with pytest.raises(hammerbeam.StudyError):
+            Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid(values))
+        with pytest.raises(hammerbeam.BadInput, match="no batch folder"):
+            Batch(tmp_path / "b")
+    with pytest.raises(hammerbeam.BadInput, match="allowed: frequency_hz"):
+        Task.basins(0.2, ("q1", -1, 1), ("v1", -1, 1), other=3)
+    with pytest.raises(hammerbeam.BadInput, match="allowed: with starts"):
+        Task.sweep(parts=3)
+
+
+def test_ten_thousand_items_are_planned_in_five_seconds(memory: Path) -> None:
+    table = Parameters.latin_hypercube(
+        {GAP: (0.8, 1.2), "structure.damper.1.damping_n_s_m": (0.02, 0.06)}, 10_000, seed=1
+    )
+    started = time.process_time()
+    planned = Batch.plan(memory / "many", EXAMPLE, table)
+    counts = planned.counts()
+    # Processor seconds: other programs may be at work. Planned, and how far each is.
+    assert time.process_time() - started < 5.0
+    assert counts.missing == counts.items == 10_000
+    # None of its folders is too long to be listed.
+    assert max(len(files) + len(folders) for _, folders, files in os.walk(planned.folder)) <= 100
+
+
+def grazing_hz(gap: float) -> float:
+    """Where the linear amplitude of the example, 0.4/|1 - W^2 + 0.04 i W|, first reaches the gap."""
+    squares = np.roots([1, 0.04**2 - 2, 1 - (0.4 / gap) ** 2])
+    return float(np.sqrt(squares.real.min()) / (2 * np.pi))
+
+
+def test_a_batch_is_run_and_gathered(tmp_path: Path) -> None:
+    gaps = [0.8, 1.0, 1.2]
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: gaps}))
+    assert planned.run(Local(2)).finished == 3
+    gathered = planned.gather()
+    np.testing.assert_allclose(
+        gathered.table["lowest_grazing_hz"], [grazing_hz(gap) for gap in gaps], rtol=1e-6
+    )
+    np.testing.assert_allclose(gathered.table["max_abs_displacement_m"], gaps, rtol=1e-6)
+    assert set(gathered.branches()["row"]) == {1, 2, 3}
+    files = gathered.write()
+    rows = list(csv.DictReader(files[0].open(newline="")))
+    assert [row["status"] for row in rows] == ["finished"] * 3 and [float(row[GAP]) for row in rows] == gaps
+    pytest.importorskip("matplotlib")
+    assert files[1].read_text().count("</svg>") == 1
+
+
+def test_only_missing_items_are_computed(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.0]}))
+    assert planned.compute(1) is Status.FINISHED
+    before = planned.item(1).report.stat()
+    assert planned.missing() == [2] and planned.run(Local(1)).finished == 2
+    after = planned.item(1).report.stat()
+    assert (before.st_ino, before.st_mtime_ns) == (after.st_ino, after.st_mtime_ns)
+    # Neither a report alone nor results alone are a product.
+    shutil.rmtree(planned.item(1).results)
+    (planned.item(2).report).unlink()
+    assert planned.statuses() == [Status.MISSING, Status.STARTED]
+    # The same plan opens the folder, another one is refused.
+    assert len(Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.0]}))) == 2
+    with pytest.raises(hammerbeam.BadInput, match="parameters.csv"):
+        Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.1]}))
+
+
+def test_why_an_item_failed_is_kept_until_it_is_finished(tmp_path: Path) -> None:
+    table = Parameters.grid({"excitation.frequency_hz": [[0.11, 0.14], [1e9, 1.1e9]]})
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, table)
+    counts = planned.run(Local(1))
+    assert (counts.finished, counts.failed) == (1, 1)
+    assert list(planned.failures()) == [2] and planned.failures()[2]
+    asked = [sys.executable, "-m", "hammerbeam.batch", "item", str(planned.folder), "2"]
+    done = subprocess.run(asked, capture_output=True, text=True)
+    assert done.returncode in (1, 2) and done.stderr.startswith("item 2: ")
+
+
+def test_a_slurm_array_computes_what_is_missing(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.0, 1.1]}))
+    planned.compute(1)
+    script = batch.slurm_script(planned, options=["--time=00:10:00"], tasks=2)
+    text = script.read_text()
+    assert "#SBATCH --array=0-1\n" in text and "#SBATCH --time=00:10:00\n" in text
+    for task in ("0", "1"):
+        environment = {**os.environ, "SLURM_ARRAY_TASK_ID": task}
+        subprocess.run(["bash", script], env=environment, check=True)
+    assert planned.counts().finished == 3
+    with pytest.raises(hammerbeam.BadInput, match="all items are finished"):
+        batch.slurm_script(planned)
+
+
+def test_a_batch_from_a_terminal(tmp_path: Path) -> None:
+    def asked(*words: str) -> str:
+        command = [sys.executable, "-m", "hammerbeam.batch", *words]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+
+    (tmp_path / "gaps.csv").write_text(f"{GAP}\n0.9\n1.1\n")
+    assert asked("plan", "b", str(EXAMPLE), "gaps.csv").startswith("0 of 2")
+    assert asked("run", "b", "--processes", "2").startswith("2 of 2")
+    assert asked("gather", "b").splitlines()[0].endswith("gathered.csv")
+
+
+def test_matrices_of_arrays_go_with_the_batch(tmp_path: Path) -> None:
+    study = hammerbeam.Study.from_matrices(
+        np.diag([2.0, 1.0]),
+        np.array([[300.0, -100.0], [-100.0, 100.0]]),
+        points={"base": 0, "tip": 1},
+        excitation={"kind": "force", "at": "base", "amplitude_n": 1.0, "frequency_hz": [0.5, 0.6]},
+        damping={"modal_ratio": 0.02},
+        reduction={"method": "none"},
+        response={"point": "tip"},
+        search={"frequencies": 1, "starts": 1, "trials": 0},
+        continuation={"max_step_hz": 0.01},
+    )
+    planned = Batch.plan(tmp_path / "b", study, Parameters.grid({"excitation.amplitude_n": [1.0, 2.0]}))
+    del study
+    assert planned.run(Local(1)).finished == 2
+    one, two = planned.gather().table["max_abs_displacement_m"]
+    assert two == pytest.approx(2 * one, rel=1e-9)
+
+
+def tables(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.csv"))}
+
+
+def test_basins_by_parts_are_those_of_one_process(tmp_path: Path, duffing: hammerbeam.Study) -> None:
+    asked = (0.25, ("q1", -2.0, 2.0), ("v1", -3.0, 3.0))
+    options: dict[str, Any] = {"grid": 40, "transient_periods": 5, "patience_periods": 100}
+    whole = duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
+    task = Task.basins(*asked, **options, parts=3)
+    planned = Batch.plan(tmp_path / "b", duffing, Parameters.grid({"excitation.amplitude_n": [0.3]}), task)
+    assert len(planned) == 3 and planned.run(Local(2)).finished == 3
+    gathered = planned.gather()
+    assert gathered.table["attractors"][0] == len(whole.attractors)
+    assert tables(planned.whole(1).results) == tables(tmp_path / "whole") != {}
+    # Without one of the parts the rest is computed, to the same bytes again.
+    folders = [planned.item(number).results for number in (1, 3)]
+    duffing.basins(*asked, **options, parts=folders, out=tmp_path / "again", progress=False)
+    assert tables(tmp_path / "again") == tables(tmp_path / "whole")
+    # A part of something else is refused.
+    with pytest.raises(hammerbeam.StoreError, match="holds no part of this"):
+        duffing.basins(*asked, **{**options, "grid": 41}, parts=folders, progress=False)
+
+
+def test_an_attractor_that_only_a_late_cell_finds_changes_nothing(
+    tmp_path: Path, duffing: hammerbeam.Study
+) -> None:
+    # The first 256 of 576 cells start near rest, which leads to the small motion: of the large one no part
+    # knows before.
+    asked = (0.25, ("q1", -0.2, 0.2), ("v1", -0.3, 3.0))
+    options: dict[str, Any] = {"grid": 24, "transient_periods": 5, "patience_periods": 100}
+    duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
+    parts = [tmp_path / str(number) for number in (1, 2)]
+    for number, part in enumerate(parts, 1):
+        named: dict[str, Any] = {"frequency_hz": asked[0], "x": asked[1], "y": asked[2]}
+        duffing.basins_part((number, 2), part, **named, **options, progress=False)
+    with pytest.warns(hammerbeam.HammerbeamWarning, match="computed again"):
+        duffing.basins(*asked, **options, parts=parts, out=tmp_path / "merged", progress=False)
+    assert tables(tmp_path / "merged") == tables(tmp_path / "whole") != {}
+
+
+def test_a_sweep_by_parts_is_that_of_one_process(tmp_path: Path, duffing: hammerbeam.Study) -> None:
+    options: dict[str, Any] = {
+        "from_hz": 0.2,
+        "to_hz": 0.3,
+        "step_hz": 0.02,
+        "starts": 3,
+        "patience_periods": 60,
+    }
+    duffing.sweep(**options, out=tmp_path / "whole", progress=False)
+    planned = Batch.plan(
+        tmp_path / "b",
+        duffing,
+        Parameters.grid({"excitation.amplitude_n": [0.3]}),
+        Task.sweep(**options, parts=4),
+    )
+    assert planned.run(Local(2)).finished == 4
+    planned.merge()
+    assert tables(planned.whole(1).results) == tables(tmp_path / "whole") != {}
+    with pytest.raises(hammerbeam.BadInput, match="has no parts"):
+        folder = planned.item(1).results
+        duffing.sweep(0.2, 0.3, 0.02, parts=[folder], progress=False)
+
+
+def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
+    psutil = pytest.importorskip("psutil")
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.05 * k for k in range(8)]}))
+    with ThreadPoolExecutor(1) as pool:
+        running = pool.submit(planned.run, Local(2))
+        while not planned.counts().finished:
+            time.sleep(0.01)
+        [one, _] = [child for child in psutil.Process().children() if "hammerbeam.batch" in child.cmdline()]
+        one.kill()
+        assert running.result().finished == 8
+
+
+def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.01 * k for k in range(40)]}))
+    script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
+    # A group of its own, as a terminal has it: all processes get the signal.
+    asked = [sys.executable, "-c", script]
+    running = subprocess.Popen(asked, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    while planned.counts().finished < 4:
+        time.sleep(0.01)
+    os.killpg(running.pid, signal.SIGINT)
+    _, said = running.communicate(timeout=60)
+    assert running.returncode != 0 and "the same call goes on from there" in said
+    assert 4 <= planned.counts().finished < 40
+    assert planned.counts().failed == 0
