@@ -1,15 +1,11 @@
 //! Modes without damping that show only while stops are closed.
 //!
 //! While an element with the shape s presses, its stiff contact holds `s . q` next to constant. In the limit
-//! of a rigid
-//! contact the structure moves in the null space of the shapes, `q = N y` with orthonormal columns of N, and
-//! its modes there
-//! are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth of a gear pair damps every
-//! mode of the open
-//! pair, but not the motion of both gears together, on the weak spring that holds them: as long as the teeth
-//! are closed it has
-//! a damping ratio like the square of the ratio of the stiffnesses, and multipliers that are not told from
-//! the unit circle.
+//! of a rigid contact the structure moves in the null space of the shapes, `q = N y` with orthonormal columns
+//! of N, and its modes there are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth of
+//! a gear pair damps every mode of the open pair, but not the motion of both gears together, on the weak
+//! spring that holds them: as long as the teeth are closed it has a damping ratio like the square of the ratio
+//! of the stiffnesses, and multipliers that are not told from the unit circle.
 //!
 //! Each element is closed alone, and all together. What is undamped with all elements open is told by
 //! `undamped.rs`.
@@ -71,6 +67,9 @@ impl Model {
         if opening.len() > 1 {
             closed.push(opening);
         }
+        if self.every_motion_is_damped() {
+            return Vec::new();
+        }
         let mut known: Vec<f64> = self.undamped_modes().iter().map(|mode| mode.frequency_hz).collect();
         let mut found = Vec::new();
         for elements in closed {
@@ -84,6 +83,18 @@ impl Model {
         found
     }
 
+    /// Whether the smallest eigenvalue of C alone damps any motion enough, at any frequency up to the highest:
+    /// no N makes it smaller, as its columns are orthonormal. One eigenvalue problem takes the place of one
+    /// for each stop.
+    fn every_motion_is_damped(&self) -> bool {
+        let model = self.system.model();
+        let n = self.system.dof();
+        let symmetric = |i, j| 0.5 * (model.damping[(i, j)] + model.damping[(j, i)]);
+        let highest = model.natural_frequencies.iter().copied().fold(0.0, f64::max);
+        let losses = Mat::from_fn(n, n, symmetric).self_adjoint_eigenvalues(Side::Lower);
+        losses.is_ok_and(|losses| losses.first().is_some_and(|least| *least > 2.0 * NOTHING * highest))
+    }
+
     fn undamped_while_closed(&self, elements: &[usize]) -> Vec<UndampedInContact> {
         let model = self.system.model();
         let n = self.system.dof();
@@ -93,15 +104,9 @@ impl Model {
         if free.is_empty() {
             return Vec::new();
         }
-        let projected = |entry: &dyn Fn(usize, usize) -> f64| {
-            let of = |a: &[f64], b: &[f64]| -> f64 {
-                (0..n).map(|i| a[i] * (0..n).map(|j| entry(i, j) * b[j]).sum::<f64>()).sum()
-            };
-            Mat::from_fn(free.len(), free.len(), |i, j| of(&free[i], &free[j]))
-        };
         let rates = &model.natural_frequencies;
-        let stiffness = projected(&|i, j| if i == j { rates[i] * rates[i] } else { 0.0 });
-        let damping = projected(&|i, j| model.damping[(i, j)]);
+        let stiffness = projected(&free, |i, shape| rates[i] * rates[i] * shape[i]);
+        let damping = projected(&free, |i, shape| (0..n).map(|j| model.damping[(i, j)] * shape[j]).sum());
         let Ok(modes) = stiffness.self_adjoint_eigen(Side::Lower) else { return Vec::new() };
         let highest = rates.iter().copied().fold(0.0, f64::max);
         let mut found = Vec::new();
@@ -138,4 +143,14 @@ impl Model {
         let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
         scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
     }
+}
+
+/// `N^T A N` for the rows of `N^T`.
+///
+/// * `product`: entry `i` of A times a shape.
+fn projected(rows: &[Vec<f64>], product: impl Fn(usize, &[f64]) -> f64) -> Mat<f64> {
+    let products: Vec<Vec<f64>> =
+        rows.iter().map(|shape| (0..shape.len()).map(|i| product(i, shape)).collect()).collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum();
+    Mat::from_fn(rows.len(), rows.len(), |i, j| dot(&rows[i], &products[j]))
 }
