@@ -112,7 +112,7 @@ impl Terminal {
 }
 
 impl Observer for Terminal {
-    fn working(&mut self, job: &JobRecord) {
+    fn working(&mut self, job: &JobRecord, fraction: f64) {
         let what = match job.kind {
             JobKind::Harmonic => "looking for the harmonic branch",
             JobKind::Survey | JobKind::Resonance => "looking for branches by simulation",
@@ -121,7 +121,7 @@ impl Observer for Terminal {
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };
-        self.show(self.shown.0, format!("{what} at {:.4} Hz", job.frequency_hz));
+        self.show(self.diagram * fraction, format!("{what} at {:.4} Hz", job.frequency_hz));
         self.bar.tick();
     }
 

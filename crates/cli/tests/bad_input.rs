@@ -295,6 +295,21 @@ fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_sho
     }
 }
 
+/// A structure within the limits is checked, though every stop is closed in thought: work like the fourth
+/// power of the masses took minutes here.
+#[test]
+fn hundreds_of_masses_are_checked() {
+    let spring = |k: usize| format!("{{ between = [\"m{k}\", \"m{}\"], stiffness_n_m = 9.87 }}", k + 1);
+    let springs: Vec<String> = (0..399).map(spring).collect();
+    let held = "{ between = [\"m399\", \"ground\"], stiffness_n_m = 9.87 }";
+    let stop =
+        "[[stop]]\nat = \"m0\"\nlaw = \"linear\"\nstiffness_n_m = 1.0\nside = \"above\"\ngap_m = 0.1\n";
+    let all =
+        format!("spring = [{}, {held}]\n[damping]\nmodal_ratio = 0.01\n[excitation]", springs.join(", "));
+    let workshop = Workshop::with(&(large_study(400, 0).replace("[excitation]", &all) + stop));
+    assert_success(&workshop.hammerbeam(&["check", "study.toml"]));
+}
+
 /// Texts that a terminal would obey, or that would end a row of a table.
 #[test]
 fn titles_and_names_with_control_characters_are_refused() {

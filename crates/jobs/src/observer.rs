@@ -61,8 +61,9 @@ pub struct CountedProgress<'a> {
 
 /// Watches a job, from the thread that called it.
 pub trait Observer {
-    /// A search of a run is being worked at.
-    fn working(&mut self, _job: &JobRecord) {}
+    /// A search of a run is being worked at, when that part of the whole run is done: from 0 to 1, never less
+    /// than before.
+    fn working(&mut self, _job: &JobRecord, _fraction: f64) {}
     /// A search of a run ended; its outcome, in words.
     fn job_ended(&mut self, _job: &JobRecord, _outcome: JobOutcome) {}
     /// A start of a run is that of a new branch.

@@ -156,7 +156,9 @@ impl<'work> Run<'work> {
         while self.busy < self.threads {
             let Some(task) = next_task(&mut self.agenda, self.store, self.solver, self.plan)? else { break };
             if let Task::Evaluate(evaluation) = &task {
-                self.observer.working(&self.agenda.jobs[evaluation.job as usize].record);
+                self.fraction = self.fraction.max(self.estimate());
+                let job = &self.agenda.jobs[evaluation.job as usize].record;
+                self.observer.working(job, self.fraction);
             }
             let (solver, sender, stop) = (self.solver, desk.sender.clone(), desk.stop);
             desk.pool.hand(move || worker::work(solver, task, &sender, stop));

@@ -133,7 +133,7 @@ fn a_finished_run_started_again_computes_nothing() {
         fn progress(&mut self, progress: &Progress) {
             panic!("computed {progress:?}");
         }
-        fn working(&mut self, job: &hammerbeam_results::store::JobRecord) {
+        fn working(&mut self, job: &hammerbeam_results::store::JobRecord, _fraction: f64) {
             panic!("searched {job:?}");
         }
     }
@@ -171,6 +171,10 @@ fn a_larger_budget_lets_a_paused_walk_go_on_to_the_same_bytes() {
 fn progress_counts_and_its_fraction_never_decreases() {
     struct Watch(f64, u64);
     impl Observer for Watch {
+        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, fraction: f64) {
+            assert!((self.0..=1.0).contains(&fraction), "{fraction}");
+            self.0 = fraction;
+        }
         fn progress(&mut self, progress: &Progress) {
             assert!((self.0..=1.0).contains(&progress.fraction), "{progress:?}");
             assert!(progress.new_solutions > self.1);
@@ -182,6 +186,21 @@ fn progress_counts_and_its_fraction_never_decreases() {
     run_into(folder.path(), &study(), &mut watch);
     // How far it is when the last solutions come in depends on which thread was faster.
     assert!(watch.0 > 0.0, "{}", watch.0);
+}
+
+/// Searches that find nothing are work, too: when the last one begins most of the run is done.
+#[test]
+fn searches_that_end_count_in_the_fraction() {
+    struct Last(f64);
+    impl Observer for Last {
+        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, fraction: f64) {
+            self.0 = fraction;
+        }
+    }
+    let (mut last, folder) = (Last(0.0), tempdir().unwrap());
+    let mut store = Store::open_for_run(folder.path(), &study()).unwrap();
+    run(&mut store, &FakeSolver::default(), &Plan::of(&study().study), 1, &mut last).unwrap();
+    assert!(last.0 > 0.5, "{}", last.0);
 }
 
 /// States of six modes and four shooting segments; a real run also keeps a journal, which is thrown away at

@@ -59,19 +59,23 @@ impl Store {
         fs::create_dir_all(folder).map_err(|source| StoreError::folder(folder, source))?;
         let lock = Lock::take(folder)?;
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
-        let mut connection = open(&database, flags)?;
+        let connection = open(&database, flags)?;
         schema::check_study(&connection, folder, file)?;
-        connection.pragma_update(None, "journal_mode", "WAL")?;
-        connection.pragma_update(None, "synchronous", "NORMAL")?;
-        let writer = schema::create_or_update(&mut connection, file)?;
-        let damaged = checksum::check(&connection, schema::create_tables)?;
-        let writing = Writing { _lock: lock, writer, place: Place::of(&database)? };
-        let store = Self { connection, folder: folder.to_owned(), damaged, writing: Some(writing) };
+        // Before anything is written: a damaged row that is replaced has a checksum that fits again.
+        let damaged = match schema::is_empty(&connection, folder)? {
+            true => Vec::new(),
+            false => checksum::check(&connection, schema::create_tables)?,
+        };
+        let mut store = Self { connection, folder: folder.to_owned(), damaged, writing: None };
         // Nothing is computed behind a solution that may be another one.
-        match store.damaged.first() {
-            Some(key) => Err(store.damaged(*key, StoreError::OtherThanStored)),
-            None => Ok(store),
+        if let Some(&key) = store.damaged.first() {
+            return Err(store.damaged(key, StoreError::OtherThanStored));
         }
+        store.connection.pragma_update(None, "journal_mode", "WAL")?;
+        store.connection.pragma_update(None, "synchronous", "NORMAL")?;
+        let writer = schema::create_or_update(&mut store.connection, file)?;
+        store.writing = Some(Writing { _lock: lock, writer, place: Place::of(&database)? });
+        Ok(store)
     }
 
     /// Opens a results folder for reading.

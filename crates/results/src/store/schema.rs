@@ -223,7 +223,8 @@ pub(super) fn check_version(connection: &Connection, folder: &Path) -> Result<()
     Ok(())
 }
 
-fn is_empty(connection: &Connection, folder: &Path) -> Result<bool, StoreError> {
+/// Whether no run has made its tables yet.
+pub(super) fn is_empty(connection: &Connection, folder: &Path) -> Result<bool, StoreError> {
     let tables: i64 = connection
         .query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get(0))
         .map_err(|error| not_ours(error, folder))?;

@@ -2,7 +2,7 @@ use std::{fs, path::Path};
 
 use hammerbeam_orbit::{BranchEventKind, EventSet, OrbitMaxima, PeriodicSolution, Side};
 use hammerbeam_study::file::StudyFile;
-use rusqlite::Connection;
+use rusqlite::{Connection, functions::FunctionFlags};
 use tempfile::tempdir;
 
 use super::*;
@@ -305,6 +305,24 @@ fn a_changed_bit_of_a_number_is_found_and_named_by_its_place() {
     assert!(error.to_string().starts_with(sentence) && error.is_of_solutions(), "{error}");
     let error = Store::open_for_run(folder.path(), &study(STUDY)).unwrap_err();
     assert!(error.to_string().starts_with(sentence) && !error.is_bad_input(), "{error}");
+}
+
+/// A run writes the title, the text and its number again, and would give a damaged row a checksum that fits.
+#[test]
+fn a_run_refuses_a_damaged_note_on_the_study_and_writes_nothing() {
+    let folder = tempdir().unwrap();
+    walked_folder(folder.path());
+    let path = folder.path().join(DATABASE);
+    let connection = Connection::open(&path).unwrap();
+    let constant = |_: &rusqlite::functions::Context<'_>| Ok(7_i64);
+    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
+    connection.create_scalar_function("row_checksum", -1, flags, constant).unwrap();
+    connection.execute("UPDATE about SET value = 'x' WHERE key = 'title'", []).unwrap();
+    connection.close().unwrap();
+    let before = fs::read(&path).unwrap();
+    let error = Store::open_for_run(folder.path(), &study(STUDY)).unwrap_err();
+    assert!(matches!(error, StoreError::DamagedFile { .. }), "{error}");
+    assert!(fs::read(&path).unwrap() == before, "something was written");
 }
 
 #[test]

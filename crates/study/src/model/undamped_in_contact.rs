@@ -64,6 +64,9 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     if opening.len() > 1 {
         closed.push(opening);
     }
+    if every_motion_is_damped(system) {
+        return Vec::new();
+    }
     let mut known: Vec<f64> = undamped_modes(system).iter().map(|mode| mode.frequency_hz).collect();
     let mut found = Vec::new();
     for elements in closed {
@@ -77,6 +80,17 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     found
 }
 
+/// Whether the smallest eigenvalue of C alone damps any motion enough, at any frequency up to the highest: no N
+/// makes it smaller, as its columns are orthonormal. One eigenvalue problem takes the place of one for each
+/// stop.
+fn every_motion_is_damped(system: &System) -> bool {
+    let (model, n) = (system.model(), system.dof());
+    let symmetric = |i, j| 0.5 * (model.damping[(i, j)] + model.damping[(j, i)]);
+    let highest = model.natural_frequencies.iter().copied().fold(0.0, f64::max);
+    let losses = Mat::from_fn(n, n, symmetric).self_adjoint_eigenvalues(Side::Lower);
+    losses.is_ok_and(|losses| losses.first().is_some_and(|least| *least > 2.0 * NOTHING * highest))
+}
+
 fn undamped_while_closed(system: &System, elements: &[usize]) -> Vec<UndampedInContact> {
     let model = system.model();
     let n = system.dof();
@@ -86,15 +100,9 @@ fn undamped_while_closed(system: &System, elements: &[usize]) -> Vec<UndampedInC
     if free.is_empty() {
         return Vec::new();
     }
-    let projected = |entry: &dyn Fn(usize, usize) -> f64| {
-        let of = |a: &[f64], b: &[f64]| -> f64 {
-            (0..n).map(|i| a[i] * (0..n).map(|j| entry(i, j) * b[j]).sum::<f64>()).sum()
-        };
-        Mat::from_fn(free.len(), free.len(), |i, j| of(&free[i], &free[j]))
-    };
     let rates = &model.natural_frequencies;
-    let stiffness = projected(&|i, j| if i == j { rates[i] * rates[i] } else { 0.0 });
-    let damping = projected(&|i, j| model.damping[(i, j)]);
+    let stiffness = projected(&free, |i, shape| rates[i] * rates[i] * shape[i]);
+    let damping = projected(&free, |i, shape| (0..n).map(|j| model.damping[(i, j)] * shape[j]).sum());
     let Ok(modes) = stiffness.self_adjoint_eigen(Side::Lower) else { return Vec::new() };
     let highest = rates.iter().copied().fold(0.0, f64::max);
     let mut found = Vec::new();
@@ -130,4 +138,14 @@ fn points_in(system: &System, modal: &[f64]) -> Vec<(String, f64)> {
         moved.iter().map(|(_, size)| *size).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
     scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
+}
+
+/// `N^T A N` for the rows of `N^T`.
+///
+/// * `product`: entry `i` of A times a shape.
+fn projected(rows: &[Vec<f64>], product: impl Fn(usize, &[f64]) -> f64) -> Mat<f64> {
+    let products: Vec<Vec<f64>> =
+        rows.iter().map(|shape| (0..shape.len()).map(|i| product(i, shape)).collect()).collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum();
+    Mat::from_fn(rows.len(), rows.len(), |i, j| dot(&rows[i], &products[j]))
 }
