@@ -4,8 +4,8 @@ mod places;
 
 use hammerbeam_orbit::{
     BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
-    ProbeStarts, Response, Segments, Side, SurveyEffort, find_orbits, find_start_unless, harmonic_trials,
-    probe, reach_orbit, settled_orbit, survey,
+    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, find_orbits, find_start_unless,
+    harmonic_trials, probe, reach_orbit, settled_orbit, survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -22,9 +22,9 @@ use crate::{
 const TRIED_IN_A_PART: u32 = 8;
 
 /// Motions of a search at a single frequency.
-const PROBE: ProbeStarts<'_> = ProbeStarts { about_linear: 4, on_backbones: 3, known: &[] };
+const PROBE: ProbeStarts<'_> = ProbeStarts { about_linear: 4, on_backbones: 3, known: &[], unsettled: &[] };
 /// Motions from large amplitudes that a survey begins besides.
-const FAR: ProbeStarts<'_> = ProbeStarts { about_linear: 0, on_backbones: 4, known: &[] };
+const FAR: ProbeStarts<'_> = ProbeStarts { about_linear: 0, on_backbones: 4, known: &[], unsettled: &[] };
 
 /// Periodic solutions of one model and their branches.
 #[derive(Debug)]
@@ -111,15 +111,16 @@ impl<'m> OrbitSolver<'m> {
         fits.then(found)?.ok()?
     }
 
-    /// Stable solutions of large amplitude besides those known; motions that cannot be computed are no reason
+    /// Stable solutions of large amplitude besides those of a survey; motions that cannot be computed are no reason
     /// to give up what was found.
     fn far(
         &self,
         orbit: (f64, &[u32]),
-        known: &[PeriodicSolution],
+        surveyed: &SurveyedMotions,
         interrupted: Interruption<'_>,
     ) -> Result<FoundOrbits, String> {
-        let starts = (ProbeStarts { known, ..FAR }, &self.effort);
+        let (known, unsettled) = (&surveyed.found.orbits, &surveyed.unsettled);
+        let starts = (ProbeStarts { known, unsettled, ..FAR }, &self.effort);
         match probe(&self.model.system, self.response(), orbit, starts, &self.settings, interrupted) {
             Err(OrbitError::Interrupted) => Err(OrbitError::Interrupted.to_string()),
             Err(error) => Ok(FoundOrbits { orbits: Vec::new(), incomplete: Some(error) }),
@@ -190,8 +191,8 @@ impl Solver for OrbitSolver<'_> {
         let found =
             survey(system, response, frequency_hz, multiples, &self.effort, settings, &mut *interrupted)
                 .map_err(|error| error.to_string())?;
-        let FoundOrbits { orbits: mut found, mut incomplete } = found;
         let far = self.far((frequency_hz, multiples), &found, &mut *interrupted)?;
+        let FoundOrbits { orbits: mut found, mut incomplete } = found.found;
         // What has not settled yet may be near a stable solution, too.
         found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());
         if self.trials > 0 && multiples.contains(&1) {

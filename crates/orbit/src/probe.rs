@@ -18,10 +18,10 @@ use crate::{
     catalogue::{Arrived, Catalogue},
     cut::search_cut,
     matching::nearest_returns,
+    repetition::{nearly_repeats_after, repeats_after},
     solve::Wanted,
     start::starting_states,
     state_scale::StateScale,
-    survey::repeats_after,
 };
 
 /// Excitation periods between two looks, besides the largest multiple.
@@ -30,9 +30,6 @@ const BETWEEN_LOOKS: usize = 16;
 const KEPT: usize = 48;
 /// Near-returns from which Newton's method begins, of each multiple.
 const NEAR_RETURNS: usize = 2;
-/// Distance over a period below which a motion is on its way to an orbit when it has had its time.
-const NEARLY: f64 = 1e-2;
-
 /// Distance, relative to the motion, from a state of a motion that has not settled, at which another one is
 /// where that was.
 const SAME_PLACE: f64 = 2e-2;
@@ -49,12 +46,14 @@ pub struct ProbeStarts<'a> {
     pub on_backbones: usize,
     /// Orbits at this frequency; motions that come to a stable one of them end.
     pub known: &'a [PeriodicSolution],
+    /// States at this frequency where others wander that do not settle; motions that come there end.
+    pub unsettled: &'a [Vec<f64>],
 }
 
 /// Finds further stable orbits at a frequency whose minimal periods are among `multiples`. A start from which
 /// no motion can be computed makes the search incomplete.
 ///
-/// * `effort`: its settling and observed periods are the most of each motion; its starts are not used.
+/// * `effort`: a motion has its settling periods, and as many as are kept behind them; no more of it is used.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed from any start, [`OrbitError::Interrupted`].
@@ -73,13 +72,14 @@ pub fn probe(
         states.remove(0);
     }
     let largest = multiples.iter().copied().max().unwrap_or(1) as usize;
-    let most = effort.settling + effort.observed.max(3 * largest);
+    let most = effort.settling + KEPT.max(3 * largest);
     let mut catalogue = Catalogue::new(system, response, settings, frequency_hz)?;
     let mut reached = StableOrbits::default();
     for orbit in starts.known {
         reached.add(catalogue.integrator(), orbit)?;
     }
-    let mut probe = Probe { catalogue, reached, wandered: Vec::new(), multiples, largest, most };
+    let wandered = starts.unsettled.to_vec();
+    let mut probe = Probe { catalogue, reached, wandered, multiples, largest, most };
     let (mut failure, mut computed) = (None, false);
     for state in states {
         match probe.follow(state, &mut *interrupted) {
@@ -219,16 +219,4 @@ impl Probe<'_> {
         let known = self.catalogue.known.into_iter().map(|known| known.solution);
         known.filter(|orbit| orbit.stable() && multiples.contains(&orbit.period_multiple)).collect()
     }
-}
-
-/// The number of periods, up to `largest`, after which the last state has come back most closely, if it
-/// nearly has.
-fn nearly_repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
-    let last = states.len() - 1;
-    let distance = |period: usize| scale.distance(&states[last], &states[last - period]);
-    let closest = (1..=largest.min(last)).map(|period| (distance(period), period));
-    // A motion that comes back after one period comes back after two as well: a longer one has to be much
-    // closer.
-    let (off, period) = closest.reduce(|best, other| if other.0 < 0.1 * best.0 { other } else { best })?;
-    (off < NEARLY).then_some(period)
 }

@@ -13,10 +13,10 @@ use crate::{
     arrival::StableOrbits,
     cut::search_cut,
     matching::{distance_in_phase, nearest_returns, states_at_phase},
+    repetition::{nearly_repeats_after, repeats_after},
     size::{orbit_scale, scale_from},
     solve::integrator,
     start::{attempt, attempt_nodes, starting_states},
-    state_scale::StateScale,
 };
 
 /// How much is simulated.
@@ -38,13 +38,21 @@ impl Default for SurveyEffort {
     }
 }
 
-/// Distance, relative to the orbit, at which a motion counts as having repeated.
-const REPEATED: f64 = 1e-6;
 /// Two orbits this close, relative to the orbit, are the same.
 const SAME: f64 = 1e-6;
 
-/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the
-/// order in which they were met. A start from which no motion can be computed makes the search incomplete.
+/// What a survey has found at one frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurveyedMotions {
+    /// The orbits, by multiple, in the order in which they were met.
+    pub found: FoundOrbits,
+    /// States at phase 0 of motions that have not settled, nor come near a stable orbit: chaotic ones as a
+    /// rule. Others that come there need not be followed, see [`ProbeStarts`](crate::ProbeStarts).
+    pub unsettled: Vec<Vec<f64>>,
+}
+
+/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`. A start from which no
+/// motion can be computed makes the search incomplete.
 ///
 /// * `interrupted`: asked at each excitation period of a motion.
 ///
@@ -58,19 +66,19 @@ pub fn survey(
     effort: &SurveyEffort,
     settings: &OrbitSettings,
     interrupted: Interruption<'_>,
-) -> Result<FoundOrbits, OrbitError> {
+) -> Result<SurveyedMotions, OrbitError> {
     let survey = Survey { system, response, frequency_hz, multiples, effort, settings };
     let mut found: Vec<PeriodicSolution> = Vec::new();
-    let mut failure = None;
-    let mut computed = false;
+    let (mut failure, mut computed, mut unsettled) = (None, false, Vec::new());
     let (mut motion, mut reached) = (integrator(system, response, settings)?, StableOrbits::default());
     for start in starting_states(system, response, frequency_hz, effort.starts, settings)? {
         match survey.from(&start, &reached, &mut *interrupted) {
             Err(error @ (OrbitError::Motion(_) | OrbitError::NeverOpens { .. })) => failure = Some(error),
             Err(error) => return Err(error),
-            Ok(orbits) => {
+            Ok(motion_led_to) => {
                 computed = true;
-                for orbit in orbits {
+                unsettled.extend(motion_led_to.unsettled);
+                for orbit in motion_led_to.orbits {
                     if !survey.holds(&found, &orbit)? {
                         reached.add(&mut motion, &orbit)?;
                         found.push(orbit);
@@ -83,9 +91,17 @@ pub fn survey(
         Some(error) if !computed => Err(error),
         _ => {
             found.sort_by_key(|orbit| orbit.period_multiple);
-            Ok(FoundOrbits { orbits: found, incomplete: failure })
+            let found = FoundOrbits { orbits: found, incomplete: failure };
+            Ok(SurveyedMotions { found, unsettled })
         }
     }
+}
+
+/// What the motion from one start led to.
+#[derive(Default)]
+struct LedTo {
+    orbits: Vec<PeriodicSolution>,
+    unsettled: Vec<Vec<f64>>,
 }
 
 struct Survey<'a> {
@@ -98,13 +114,13 @@ struct Survey<'a> {
 }
 
 impl Survey<'_> {
-    /// Orbits that the motion from one state leads to, none if it comes to a known one.
+    /// What the motion from one state leads to, nothing if it comes to a known orbit.
     fn from(
         &self,
         start: &[f64],
         known: &StableOrbits,
         interrupted: Interruption<'_>,
-    ) -> Result<Vec<PeriodicSolution>, OrbitError> {
+    ) -> Result<LedTo, OrbitError> {
         let largest = self.multiples.iter().copied().max().unwrap_or(1) as usize;
         let mut integrator = integrator(self.system, self.response, self.settings)?;
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
@@ -116,7 +132,7 @@ impl Survey<'_> {
             }
             let next = integrator.advance(&stretch, &states[states.len() - 1])?;
             if known.are_reached(&next) {
-                return Ok(Vec::new());
+                return Ok(LedTo::default());
             }
             if period < self.effort.settling {
                 states[0] = next;
@@ -134,7 +150,7 @@ impl Survey<'_> {
             } else {
                 None
             };
-            return Ok(orbit.into_iter().collect());
+            return Ok(LedTo { orbits: orbit.into_iter().collect(), unsettled: Vec::new() });
         }
         let mut orbits = Vec::new();
         for &multiple in self.multiples {
@@ -151,7 +167,9 @@ impl Survey<'_> {
                 }
             }
         }
-        Ok(orbits)
+        let settles = nearly_repeats_after(&states, &scale, largest).is_some()
+            || orbits.iter().any(PeriodicSolution::stable);
+        Ok(LedTo { orbits, unsettled: if settles { Vec::new() } else { states } })
     }
 
     fn orbit(&self, begin: (f64, &[f64]), multiple: u32) -> Result<Option<PeriodicSolution>, OrbitError> {
@@ -178,10 +196,4 @@ impl Survey<'_> {
         }
         Ok(false)
     }
-}
-
-/// The smallest number of periods, up to `largest`, after which the last state has come back.
-pub(crate) fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
-    let last = states.len() - 1;
-    (1..=largest.min(last)).find(|&period| scale.distance(&states[last], &states[last - period]) < REPEATED)
 }

@@ -204,7 +204,7 @@ fn searches_find_an_orbit_that_is_in_contact_at_phase_0() {
     let (system, response) = oscillator(PLAIN + 2.0 * PI * middle);
     let effort = SurveyEffort { starts: 2, ..SurveyEffort::default() };
     let surveyed =
-        survey(&system, &response, 0.18, &[1], &effort, &settings(), &mut || false).unwrap().orbits;
+        survey(&system, &response, 0.18, &[1], &effort, &settings(), &mut || false).unwrap().found.orbits;
     let found = find_orbits(&system, &response, (0.18, 1), (0.17, 0.19), &settings(), &mut || false).unwrap();
     let started = find_start(&system, &response, 0.18, 1, &settings()).unwrap();
     for orbit in [&surveyed[0], &found.orbits[0], &started] {

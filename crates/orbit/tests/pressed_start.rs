@@ -98,7 +98,7 @@ fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     let tried = harmonic_trials(&system, &response, FREQUENCY, 4, &settings, &mut || false).unwrap();
     let found =
         find_orbits(&system, &response, (FREQUENCY, 1), (0.9, 1.1), &settings, &mut || false).unwrap();
-    for found in [surveyed, tried, found] {
+    for found in [surveyed.found, tried, found] {
         assert!(!matches!(found.incomplete, Some(OrbitError::Motion(_))), "{:?}", found.incomplete);
         let stable = found.orbits.iter().find(|orbit| orbit.stable()).unwrap();
         assert_near(stable.maxima.displacement, expected);

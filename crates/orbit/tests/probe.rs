@@ -50,7 +50,7 @@ fn a_gap_that_is_never_or_always_reached_gives_no_range() {
 }
 
 fn about(about_linear: usize, on_backbones: usize) -> ProbeStarts<'static> {
-    ProbeStarts { about_linear, on_backbones, known: &[] }
+    ProbeStarts { about_linear, on_backbones, unsettled: &[], known: &[] }
 }
 
 fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts<'_>) -> Vec<PeriodicSolution> {

@@ -59,7 +59,8 @@ impl Orbits {
         let (system, response) = (&model.system, &model.response);
         let found =
             survey(system, response, frequency_hz, &multiples, &self.effort, &self.settings, &mut || false);
-        let mut found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?.orbits;
+        let found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?;
+        let mut found = found.found.orbits;
         found.retain(PeriodicSolution::may_be_stable);
         Ok(found)
     }

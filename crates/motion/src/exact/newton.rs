@@ -113,11 +113,9 @@ impl ForceStep {
 
     fn evaluate(&mut self, laws: &[Law]) {
         for (a, &e) in self.active.iter().enumerate() {
-            for i in a * NODES..(a + 1) * NODES {
-                let force = laws[e].force(self.displacement[i], 0.0);
-                self.force[i] = force.value;
-                self.slope[i] = force.slope;
-            }
+            let nodes = a * NODES..(a + 1) * NODES;
+            let (force, slope) = (&mut self.force[nodes.clone()], &mut self.slope[nodes.clone()]);
+            laws[e].elastic_forces(&self.displacement[nodes], force, slope);
         }
     }
 

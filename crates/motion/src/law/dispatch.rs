@@ -10,6 +10,17 @@ impl Law {
         of_law!(self, law => law.force(displacement, velocity))
     }
 
+    /// Forces and their slopes at several displacements, of a law that does not depend on the velocity: the
+    /// law is asked for once.
+    pub(crate) fn elastic_forces(&self, displacements: &[f64], values: &mut [f64], slopes: &mut [f64]) {
+        of_law!(self, law => {
+            for ((&displacement, value), slope) in displacements.iter().zip(values).zip(slopes) {
+                let force = law.force(displacement, 0.0);
+                (*value, *slope) = (force.value, force.slope);
+            }
+        });
+    }
+
     /// The contacts of the law; none for a law that is always active.
     #[must_use]
     pub fn contacts(&self) -> &[Contact] {
