@@ -283,7 +283,7 @@ impl Series {
             || {
                 columns
                     .zip(&moments[..terms])
-                    .for_each(|(column, moment)| add_multiple(state, *moment, column))
+                    .for_each(|(column, moment)| add_multiple(state, *moment, column));
             },
         );
     }
