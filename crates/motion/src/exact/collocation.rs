@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 use faer::{Mat, linalg::solvers::DenseSolveCore};
 
 use super::{
-    lanes::{add_multiple, dot, vectorised},
+    lanes::{dot, vectorised},
     recurrence::{Recurrence, gauss_legendre},
 };
 
@@ -87,8 +87,6 @@ pub(crate) struct Rule {
     pub powers: Vec<[f64; NODES]>,
     /// `int_0^1 (1 - c)^m/m! l_j dc`, indexed `[m][j]`.
     pub at_end: Vec<[f64; NODES]>,
-    /// The same node by node, `[j][m]`, zero behind.
-    end_by_node: [[f64; MOMENTS]; NODES],
     /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed
     /// `[degree][node]`.
     pub coefficients: [[f64; NODES]; NODES],
@@ -114,9 +112,6 @@ pub(crate) const FINE: usize = 32;
 /// Its places, and as many behind them as make a multiple of four.
 pub(crate) const PLACES: usize = 36;
 
-/// [`TERMS`], and as many behind them as make a multiple of four.
-pub(crate) const MOMENTS: usize = TERMS.next_multiple_of(4);
-
 impl Rule {
     fn new(grading: Grading) -> Self {
         let fine = gauss_legendre(60);
@@ -134,7 +129,6 @@ impl Rule {
             at_nodes: Vec::new(),
             powers: powers(c),
             at_end: Vec::new(),
-            end_by_node: [[0.0; MOMENTS]; NODES],
             coefficients,
             fine: [[0.0; PLACES]; NODES],
             lag: s.map(|s| grading.map(s).0 / grading.map(s).1),
@@ -151,9 +145,6 @@ impl Rule {
         let moments = |end: f64| rule.moments(grading, end, &fine);
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
         rule.at_end = moments(1.0);
-        for (m, row) in rule.at_end.iter().enumerate() {
-            (0..NODES).for_each(|node| rule.end_by_node[node][m] = row[node]);
-        }
         rule.at_nodes = (0..TERMS)
             .map(|m| std::array::from_fn(|j| std::array::from_fn(|k| node_moments[k][m][j])))
             .collect();
@@ -172,26 +163,6 @@ impl Rule {
                 (0..NODES).for_each(|j| row[j] += power * lagrange[j]);
                 power *= (upper - c) / (m + 1) as f64;
             }
-        }
-        moments
-    }
-
-    /// `h z^m int_0^1 (1 - c)^m/m! F dc` for the first m, of a force given at the nodes of a step of the
-    /// length h.
-    pub fn moments_at_end(&self, force: &[f64], (length, z): (f64, f64), terms: usize) -> [f64; MOMENTS] {
-        let (mut moments, used) = ([0.0; MOMENTS], terms.next_multiple_of(4));
-        vectorised(
-            #[inline(always)]
-            || {
-                for (row, force) in self.end_by_node.iter().zip(force) {
-                    add_multiple(&mut moments[..used], *force, &row[..used]);
-                }
-            },
-        );
-        let mut factor = length;
-        for moment in &mut moments[..terms] {
-            *moment *= factor;
-            factor *= z;
         }
         moments
     }

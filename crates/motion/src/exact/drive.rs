@@ -50,18 +50,6 @@ pub(crate) struct Jet {
     pub curvature: f64,
 }
 
-impl std::ops::Add for Jet {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            slope: self.slope + other.slope,
-            curvature: self.curvature + other.curvature,
-        }
-    }
-}
-
 impl Drive {
     /// Solves for the particular solution of `system` over `stretch`.
     pub fn new(system: &System, blocks: &Blocks, outputs: &[Output], stretch: &Stretch) -> Self {

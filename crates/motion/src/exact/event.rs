@@ -246,8 +246,15 @@ impl ExactIntegrator {
 
     fn read_step_end(&self, run: &Run, output: usize) -> Jet {
         let end = self.step.start + self.step.length;
-        self.step.end_jet(output, &self.series, &self.outputs, &run.state)
-            + self.drive.jet(output, &self.outputs[output], end)
+        let (own, driven) = (
+            self.step.end_jet(output, &self.series, &self.outputs, &run.state),
+            self.drive.jet(output, &self.outputs[output], end),
+        );
+        Jet {
+            value: own.value + driven.value,
+            slope: own.slope + driven.slope,
+            curvature: own.curvature + driven.curvature,
+        }
     }
 
     /// The same with that.

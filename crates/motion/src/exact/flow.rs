@@ -262,7 +262,13 @@ impl ExactIntegrator {
     /// of forces.
     pub(super) fn output_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let o = &self.outputs[output];
-        self.drive.jet(output, o, time) + o.homogeneous_jet(state)
+        let mut jet = self.drive.jet(output, o, time);
+        for (i, &x) in state.iter().enumerate() {
+            jet.value += o.row[i] * x;
+            jet.slope += o.velocity_row[i] * x;
+            jet.curvature += o.acceleration_row[i] * x;
+        }
+        jet
     }
 
     pub(super) fn modal_state(&self, run: &Run, time: f64) -> Vec<f64> {

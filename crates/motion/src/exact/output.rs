@@ -1,11 +1,7 @@
 //! What is read off the motion: relative displacements of elements, displacement of a point.
 //! Equations (F5) and (F6) of the book, `docs/theory`.
 
-use super::{
-    block::Blocks,
-    drive::Jet,
-    lanes::{dot, vectorised},
-};
+use super::block::Blocks;
 
 /// A displacement `r = row . x + support_ratios . u` and the rows of its derivatives.
 #[derive(Debug, Clone)]
@@ -40,18 +36,6 @@ impl Output {
     /// Reads `shape . q + support_ratios . u`.
     pub fn new(blocks: &Blocks, shape: &[f64], support_ratios: &[f64]) -> Self {
         Self::of_row(blocks, blocks.output(shape), support_ratios)
-    }
-
-    /// What it reads from a homogeneous block state, and the derivatives of that, apart from inputs.
-    pub fn homogeneous_jet(&self, state: &[f64]) -> Jet {
-        vectorised(
-            #[inline(always)]
-            || Jet {
-                value: dot(&self.row, state),
-                slope: dot(&self.velocity_row, state),
-                curvature: dot(&self.acceleration_row, state),
-            },
-        )
     }
 
     /// Reads `row . x + support_ratios . u` from the block state.

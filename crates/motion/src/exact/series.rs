@@ -156,16 +156,6 @@ impl Series {
         factors
     }
 
-    /// `z^m/m!`.
-    fn exponential_terms(z: f64, terms: usize) -> [f64; TERMS] {
-        let (mut list, mut term) = ([0.0; TERMS], 1.0);
-        for (m, entry) in list[..terms].iter_mut().enumerate() {
-            *entry = term;
-            term *= z / (m + 1) as f64;
-        }
-        list
-    }
-
     /// Terms that each block needs: slow ones need few.
     fn terms_of_blocks(&self, length: f64) -> Vec<usize> {
         self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
@@ -275,15 +265,15 @@ impl Series {
         state: &mut [f64],
     ) {
         let z = length * self.rate;
-        let terms = Self::terms(z);
-        let moments = grading.rule().moments_at_end(force, (length, z), terms);
-        let columns = self.columns[element].iter();
+        let mut factor = length;
+        let columns = self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]);
         vectorised(
             #[inline(always)]
             || {
-                columns
-                    .zip(&moments[..terms])
-                    .for_each(|(column, moment)| add_multiple(state, *moment, column));
+                for (column, at_end) in columns {
+                    add_multiple(state, factor * dot(at_end, force), column);
+                    factor *= z;
+                }
             },
         );
     }
@@ -307,10 +297,16 @@ impl Series {
     pub fn free_values(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
         let rule = grading.rule();
         let z = length * self.rate;
-        let powers: [f64; TERMS] = Self::factors(1.0, z, Self::terms(z));
         let mut values = [0.0; NODES];
-        let weights = readings.iter().zip(&powers[..Self::terms(z)]).map(|(reading, power)| reading * power);
-        add_products(&mut values, rule.powers.as_flattened(), NODES, |_| weights.clone());
+        vectorised(
+            #[inline(always)]
+            || {
+                for m in (0..Self::terms(z)).rev() {
+                    let share = z / (m + 1) as f64;
+                    (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
+                }
+            },
+        );
         values
     }
 
@@ -319,11 +315,11 @@ impl Series {
     pub fn free_rates(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
         let rule = grading.rule();
         let z = length * self.rate;
-        let powers: [f64; TERMS] = Self::factors(1.0, z, Self::terms(z));
         let mut rates = [0.0; NODES];
-        let weights =
-            readings[1..].iter().zip(&powers[..Self::terms(z)]).map(|(reading, power)| reading * power);
-        add_products(&mut rates, rule.powers.as_flattened(), NODES, |_| weights.clone());
+        for m in (0..Self::terms(z)).rev() {
+            let share = z / (m + 1) as f64;
+            (0..NODES).for_each(|k| rates[k] = readings[m + 1] + rates[k] * share * rule.c[k]);
+        }
         rates.map(|rate| rate * self.rate)
     }
 
@@ -339,23 +335,28 @@ impl Series {
         let z = length * self.rate;
         let count = self.columns.len();
         let terms = Self::terms(z);
-        let powers = Self::exponential_terms(z, terms);
-        let mut sums = three_sums(readings, &powers[..terms]);
-        for (force, &e) in force.chunks_exact(NODES).zip(active) {
-            let moments = rule.moments_at_end(force, (length, z), terms);
-            let further = three_sums(&self.markov[output * count + e], &moments[..terms]);
-            (0..3).for_each(|d| sums[d] += further[d]);
-        }
+        let sums = vectorised(
+            #[inline(always)]
+            || {
+                let mut sums = [0.0; 3];
+                let (mut power, mut factor) = (1.0, length);
+                let three = |list: &[f64], m: usize| [list[m], list[m + 1], list[m + 2]];
+                for (m, at_end) in rule.at_end[..terms].iter().enumerate() {
+                    let reading = three(readings, m);
+                    (0..3).for_each(|d| sums[d] += power * reading[d]);
+                    power *= z / (m + 1) as f64;
+                    for (force, &e) in force.as_chunks::<NODES>().0.iter().zip(active) {
+                        let moment = factor * dot(at_end, force);
+                        let markov = three(&self.markov[output * count + e], m);
+                        (0..3).for_each(|d| sums[d] += markov[d] * moment);
+                    }
+                    factor *= z;
+                }
+                sums
+            },
+        );
         Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
-}
-
-/// `sum_m w_m L_(m + d)` for `d = 0, 1, 2`.
-fn three_sums(list: &[f64], weights: &[f64]) -> [f64; 3] {
-    vectorised(
-        #[inline(always)]
-        || std::array::from_fn(|d| dot(weights, &list[d..])),
-    )
 }
 
 /// `sum_m L_im f_m R_m` for each entry i of the state, with as many terms as its block needs; `list` is
