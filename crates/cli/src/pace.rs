@@ -1,9 +1,9 @@
 //! How long work still takes, and the lines that say so where no bar can be shown.
 //!
 //! What is left is estimated from the part that was done since this command began. That supposes that the
-//! rest goes on as fast, which work does not where new branches turn up. So an estimate is shown only while it
-//! holds: the time that the whole takes by it is the same, to a third, as by the part that was done at half
-//! of the time that has passed; and when at least a tenth is done, in at least two seconds.
+//! rest goes on as fast, which work does not where new branches turn up. So an estimate is shown only while
+//! it holds: the time that the whole takes by it is the same, to a third, as by the part that was done at
+//! half of the time that has passed; and when at least a tenth is done, in at least two seconds.
 
 use std::time::{Duration, Instant};
 

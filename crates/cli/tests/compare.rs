@@ -160,8 +160,8 @@ fn factor_at_an_end_of_what_is_tried_is_told_in_words_and_in_the_document() {
     );
 }
 
-/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are reported in words, in
-/// the document and in the figure.
+/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are reported in
+/// words, in the document and in the figure.
 #[test]
 fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     let workshop = measured();

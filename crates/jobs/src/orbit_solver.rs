@@ -111,8 +111,8 @@ impl<'m> OrbitSolver<'m> {
         fits.then(found)?.ok()?
     }
 
-    /// Stable solutions of large amplitude besides those of a survey; motions that cannot be computed are no reason
-    /// to give up what was found.
+    /// Stable solutions of large amplitude besides those of a survey; motions that cannot be computed are no
+    /// reason to give up what was found.
     fn far(
         &self,
         orbit: (f64, &[u32]),

@@ -8,7 +8,8 @@ use super::RigError;
 /// included, is replaced.
 ///
 /// # Errors
-/// [`RigError`]: there is no rig, or the result is no study. Faults name the merged text, which is not the file.
+/// [`RigError`]: there is no rig, or the result is no study. Faults name the merged text, which is not the
+/// file.
 pub fn changed_study(file: &StudyFile) -> Result<StudyFile, RigError> {
     let broken = |message: String| RigError::Changes { message };
     let mut study: toml::Table = toml::from_str(&file.text).map_err(|error| broken(error.to_string()))?;

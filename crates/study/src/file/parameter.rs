@@ -241,8 +241,8 @@ pub(super) fn read(table: &Table<'_>, study: Variable<'_>) -> Option<VariedParam
     Some(VariedParameter { name: text.to_owned(), kind, range })
 }
 
-/// What a name means and which values it can have; reported if that is nothing, or more than one thing. Names in a
-/// table that is faulty itself are not judged.
+/// What a name means and which values it can have; reported if that is nothing, or more than one thing. Names
+/// in a table that is faulty itself are not judged.
 fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(ParameterKind, Quantity)> {
     let known = study.known();
     let mut kinds: Vec<(ParameterKind, Quantity)> = Vec::new();

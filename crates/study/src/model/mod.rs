@@ -64,7 +64,8 @@ impl Model {
     /// Assembles, supports and reduces the structure, and puts loads and local elements on it.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`]: something of the study does not fit its structure, at the key that is to blame.
+    /// [`StudyError::Invalid`]: something of the study does not fit its structure, at the key that is to
+    /// blame.
     pub fn build(file: &StudyFile) -> Result<Self, StudyError> {
         Self::like(file, None)
     }

@@ -80,8 +80,8 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     found
 }
 
-/// Whether the smallest eigenvalue of C alone damps any motion enough, at any frequency up to the highest: no N
-/// makes it smaller, as its columns are orthonormal. One eigenvalue problem takes the place of one for each
+/// Whether the smallest eigenvalue of C alone damps any motion enough, at any frequency up to the highest: no
+/// N makes it smaller, as its columns are orthonormal. One eigenvalue problem takes the place of one for each
 /// stop.
 fn every_motion_is_damped(system: &System) -> bool {
     let (model, n) = (system.model(), system.dof());
