@@ -296,9 +296,10 @@ def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
-    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.01 * k for k in range(40)]}))
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.001 * k for k in range(400)]}))
     script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
-    # A group of its own, as a terminal has it: all processes get the signal.
+    # A group of its own, as a terminal has it: all processes get the signal. So many items that some are left
+    # however late it comes.
     asked = [sys.executable, "-c", script]
     running = subprocess.Popen(asked, stderr=subprocess.PIPE, text=True, start_new_session=True)
     while planned.counts().finished < 4:
@@ -306,5 +307,5 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
     os.killpg(running.pid, signal.SIGINT)
     _, said = running.communicate(timeout=60)
     assert running.returncode != 0 and "the same call goes on from there" in said
-    assert 4 <= planned.counts().finished < 40
+    assert 4 <= planned.counts().finished < 400
     assert planned.counts().failed == 0
