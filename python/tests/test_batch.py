@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -165,6 +165,24 @@ def test_only_missing_items_are_computed(tmp_path: Path) -> None:
         Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.1]}))
 
 
+def test_how_far_a_batch_is_is_reported_whatever_the_engine(tmp_path: Path) -> None:
+    reports = list[tuple[float | None, str]]()
+
+    class Slow:
+        """Computes one item after the other, and waits until it was seen."""
+
+        def compute(self, batch: Batch, numbers: Sequence[int]) -> None:
+            for done, number in enumerate(numbers, 1):
+                batch.compute(number)
+                while (done / 2, f"{done} of 2 items are finished") not in reports:
+                    time.sleep(0.05)
+
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.9, 1.0]}))
+    planned.run(Slow(), progress=lambda fraction, text: reports.append((fraction, text)))
+    assert reports[-1] == (1.0, "2 of 2 items are finished")
+    assert [fraction for fraction, _ in reports] == sorted(fraction or 0.0 for fraction, _ in reports)
+
+
 def test_why_an_item_failed_is_kept_until_it_is_finished(tmp_path: Path) -> None:
     table = Parameters.grid({"excitation.frequency_hz": [[0.11, 0.14], [1e9, 1.1e9]]})
     planned = Batch.plan(tmp_path / "b", EXAMPLE, table)
@@ -199,6 +217,11 @@ def test_a_batch_from_a_terminal(tmp_path: Path) -> None:
     assert asked("plan", "b", str(EXAMPLE), "gaps.csv").startswith("0 of 2")
     assert asked("run", "b", "--processes", "2").startswith("2 of 2")
     assert asked("gather", "b").splitlines()[0].endswith("gathered.csv")
+    (tmp_path / "no-text.csv").write_bytes(b"\xff\xfe")
+    for table, words in (("missing.csv", "No such file"), ("no-text.csv", "is no text")):
+        with pytest.raises(subprocess.CalledProcessError) as error:
+            asked("plan", "other", str(EXAMPLE), table)
+        assert error.value.returncode == 2 and words in error.value.stderr
 
 
 def test_matrices_of_arrays_go_with_the_batch(tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ from ._hyperqueue import HyperQueue
 from ._local import Local
 from ._parameters import Parameters
 from ._slurm import slurm_script
+from ._watch import Lines
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,6 +38,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except HammerbeamError as error:
         print(f"error: {error}", file=sys.stderr)
         return error.exit_code
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        print(f"error: {place}{error.strerror or error}", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         return 130
 
@@ -77,7 +82,8 @@ def _plan(given: argparse.Namespace, rest: Sequence[str]) -> int:
 def _run(given: argparse.Namespace, rest: Sequence[str]) -> int:
     _none(rest)
     batch = Batch(given.folder)
-    counts = batch.run(HyperQueue() if given.hyperqueue else Local(given.processes))
+    engine = HyperQueue() if given.hyperqueue else Local(given.processes)
+    counts = batch.run(engine, progress=True if sys.stderr.isatty() else Lines())
     print(counts)
     return 0 if counts.finished == counts.items else 1
 

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Protocol
 
 from .. import _check
 from .._errors import BadInput
-from .._progress import interruptible
+from .._progress import Progress, interruptible, watched
 from .._study import Study
 from ._folder import Counts, ItemFolder, Status, json_text, read_json, write_whole
 from ._item import compute_item, compute_whole
 from ._parameters import Parameters
 from ._task import Task
+from ._watch import followed
 
 if TYPE_CHECKING:
     from ._gather import Gathered
@@ -125,7 +126,9 @@ class Batch:
         failed = (number for number, status in enumerate(self.statuses(), 1) if status is Status.FAILED)
         return {number: read_json(self.item(number).failure)["message"] for number in failed}
 
-    def run(self, engine: Engine | None = None, *, attempts: int = 3) -> Counts:
+    def run(
+        self, engine: Engine | None = None, *, attempts: int = 3, progress: Progress = None
+    ) -> Counts:
         """Has all items computed that are not finished, on all cores of this machine by default.
 
         Items that are neither finished nor failed afterwards were lost with a process or a machine; they
@@ -139,7 +142,7 @@ class Batch:
         most = tries = _check.whole("attempts", attempts, 1, 1000)
         while left and tries:
             kept = f"what was computed is kept in {self.folder}, the same call goes on from there"
-            with interruptible(kept):
+            with interruptible(kept), watched(progress) as (report, _), followed(self, left, report):
                 chosen.compute(self, left)
             lost = [
                 number for number in left if self.item(number).status() in (Status.STARTED, Status.MISSING)

@@ -67,8 +67,14 @@ class Parameters:
     @classmethod
     def read(cls, path: str | PathLike[str]) -> "Parameters":
         """A file of comma-separated values with the keys in its first line."""
-        with _check.folder("path", path).open(encoding="utf-8-sig", newline="") as file:
-            return cls.parse(file.read())
+        place = _check.folder("path", path)
+        try:
+            text = place.read_text(encoding="utf-8-sig")
+        except OSError as error:
+            raise BadInput(f"{place}: {error.strerror}") from error
+        except UnicodeError as error:
+            raise BadInput(f"{place}: is no text in UTF-8") from error
+        return cls.parse(text)
 
     @classmethod
     def parse(cls, text: str) -> "Parameters":
