@@ -1,12 +1,22 @@
 """Motions that need not repeat: in time, swept, their exponents, their basins."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _plot
 from ._tables import Array
+
+
+class ForcedTime(NamedTuple):
+    """How long a forced motion is; `duration_s` outranks `periods`."""
+
+    frequency_hz: float
+    transient: int
+    periods: int
+    duration_s: float | None
+    samples: int
 
 
 class Motion:

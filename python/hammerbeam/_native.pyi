@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import final
+from typing import Protocol, final
 
 _Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
 _Callbacks = tuple[Callable[[float | None, str], None] | None, Callable[[str], None] | None]
@@ -12,6 +12,18 @@ _Parts = tuple[str | None, Sequence[Path]]
 _Effort = tuple[int, int, int, int]
 _Series = tuple[float, float, float | None]
 _Axis = tuple[str, float, float]
+
+class _ForcedTime(Protocol):
+    @property
+    def frequency_hz(self) -> float: ...
+    @property
+    def transient(self) -> int: ...
+    @property
+    def periods(self) -> int: ...
+    @property
+    def duration_s(self) -> float | None: ...
+    @property
+    def samples(self) -> int: ...
 
 def version() -> str: ...
 def write_matrix(
@@ -47,7 +59,7 @@ class NativeStudy:
     ) -> tuple[NativeOrbits, str | None]: ...
     def simulate(
         self,
-        asked: tuple[tuple[float, int, int, float | None, int] | None, tuple[float, float | None] | None],
+        asked: tuple[_ForcedTime | None, tuple[float, float | None] | None],
         motion: tuple[float, str],
         kept_in: _Folders,
         callbacks: _Callbacks,

@@ -13,7 +13,7 @@ import numpy as np
 from . import _check
 from ._errors import BadInput, Interrupted, NoResult
 from ._matrices import write_bundle
-from ._motions import Basins, Exponents, Motion, Sweep
+from ._motions import Basins, Exponents, ForcedTime, Motion, Sweep
 from ._native import NativeOrbits, NativeResults, NativeStudy
 from ._orbits import Orbit, Orbits
 from ._progress import Progress, interruptible, watched
@@ -264,13 +264,8 @@ class Study:
             count = 10 if periods is None else _check.whole("periods", periods, 1, _MOST_PERIODS)
             transient = _check.whole("transient_periods", transient_periods, 0, _MOST_PERIODS)
             samples = 100 if samples_per_period is None else samples_per_period
-            forced = (
-                hertz,
-                transient,
-                count,
-                seconds,
-                _check.whole("samples_per_period", samples, 1, 1_000_000),
-            )
+            sampled = _check.whole("samples_per_period", samples, 1, 1_000_000)
+            forced = ForcedTime(hertz, transient, count, seconds, sampled)
         start = (_check.phase("section_phase", section_phase), _check.initial(initial))
         stored = _check.optional_folder("results", results)
         place = _check.optional_folder("out", out)

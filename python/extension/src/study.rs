@@ -58,8 +58,15 @@ type EffortNumbers = (u64, u64, usize, u64);
 /// Of a job by parts: the part to compute, as `2/4`, or the folders that the whole is put together from.
 type Parts = (Option<String>, Vec<PathBuf>);
 
-/// Frequency [Hz], periods of the transient, periods, duration [s], samples in a period.
-type ForcedTime = (f64, u64, u64, Option<f64>, u32);
+/// How long a forced motion is, from attributes of these names; the duration [s] outranks the periods.
+#[derive(FromPyObject)]
+struct ForcedTime {
+    frequency_hz: f64,
+    transient: u64,
+    periods: u64,
+    duration_s: Option<f64>,
+    samples: u32,
+}
 
 fn effort((skipped, periods, longest, averaged): EffortNumbers) -> Effort {
     Effort { patience: Patience { skipped, periods, longest }, averaged, ..Effort::default() }
@@ -216,10 +223,11 @@ impl NativeStudy {
             (_, Some((duration, sampling))) => {
                 SimulationTime::free(duration, sampling, &self.study.model).map_err(too_long)?
             }
-            (Some((frequency_hz, transient, periods, duration, samples)), None) => {
-                let whole = |duration| SimulationTime::periods_in(duration, frequency_hz).map_err(too_long);
-                let periods = duration.map_or(Ok(periods), whole)?;
-                SimulationTime::periods(frequency_hz, transient, periods, samples)
+            (Some(asked), None) => {
+                let hz = asked.frequency_hz;
+                let whole = |duration| SimulationTime::periods_in(duration, hz).map_err(too_long);
+                let periods = asked.duration_s.map_or(Ok(asked.periods), whole)?;
+                SimulationTime::periods(hz, asked.transient, periods, asked.samples)
             }
             (None, None) => {
                 let message = "neither periods nor a duration are given".to_owned();
