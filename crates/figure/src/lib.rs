@@ -132,5 +132,5 @@ pub use structure_diagram::{
     SketchStop, StopKind, StructureDiagram,
 };
 pub use style::Style;
-pub use sweep_diagram::{SweepDiagram, SweepOrigin, SweptMotion};
+pub use sweep_diagram::{DrawnMotion, SweepDiagram, SweepOrigin};
 pub use text::plain_number;

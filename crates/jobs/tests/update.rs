@@ -364,7 +364,7 @@ fn the_updated_study_is_read_back_with_the_best_values_and_its_comments() {
     let study = study(&commented);
     let found = fitted(&study, &synthetic(&study, &parameters(&THREE), EIGENFREQUENCIES, Some((5, 1.0))));
     let again = self::study(&found.study_text);
-    let hammerbeam_study::file::Structure::Beam(beam) = &again.study.structure else { panic!("a beam") };
+    let hammerbeam_study::file::StructureTable::Beam(beam) = &again.study.structure else { panic!("a beam") };
     assert_eq!(beam.spans[0].profile.youngs_modulus_pa, found.parameters[0].value);
     assert_eq!(beam.points[0].at_m, found.parameters[2].value);
     assert!(found.study_text.contains("# as measured"));

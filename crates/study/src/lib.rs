@@ -37,7 +37,7 @@ pub mod number;
 mod setting;
 
 pub use document::{
-    Problem, Report,
+    FaultReport, Problem,
     unit::{hertz, readable},
 };
 pub use file::{Study, StudyError, StudyFile};

@@ -2,8 +2,6 @@
 
 /// The kernel is rebuilt on four nouns by an issue of its own (`motion/src/exact`).
 const KERNEL: &str = "until the kernel is rebuilt";
-/// Types that the study file shares with what it is read into, and the like.
-const SHARED: &str = "until one of them has a name of its own";
 /// Lines that the formatter cannot break: literals, tables, sentences.
 const UNBROKEN: &str = "not broken yet";
 
@@ -18,34 +16,7 @@ pub const DOORS: &[(&str, usize, &str)] = &[
 ];
 
 /// Public types of one name.
-pub const NAMES: &[(&str, usize, &str)] = &[
-    ("Attractor", 2, SHARED),
-    ("Beam", 2, SHARED),
-    ("BeamPoint", 2, SHARED),
-    ("Continuation", 2, SHARED),
-    ("Damping", 2, SHARED),
-    ("Direction", 2, SHARED),
-    ("Effort", 2, SHARED),
-    ("End", 2, SHARED),
-    ("Estimate", 2, SHARED),
-    ("Failure", 2, SHARED),
-    ("Load", 2, SHARED),
-    ("Lumped", 2, SHARED),
-    ("Match", 2, SHARED),
-    ("Matrices", 2, SHARED),
-    ("Observation", 2, SHARED),
-    ("Origin", 2, SHARED),
-    ("Quantity", 2, SHARED),
-    ("Reduction", 2, SHARED),
-    ("Report", 2, SHARED),
-    ("Response", 2, SHARED),
-    ("Section", 3, SHARED),
-    ("Segments", 2, SHARED),
-    ("Side", 2, SHARED),
-    ("Structure", 2, SHARED),
-    ("SweptMotion", 2, SHARED),
-    ("Table", 2, SHARED),
-];
+pub const NAMES: &[(&str, usize, &str)] = &[];
 
 /// Lines beyond column 110 below a folder.
 pub const LONG_LINES: &[(&str, usize, &str)] = &[

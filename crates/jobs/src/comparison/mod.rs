@@ -71,7 +71,7 @@ pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub(crate) use document::comparison_document;
 pub use document::{CompareReport, ComparedQuantity};
 pub use error::ComparisonError;
-pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, Residual, SecondMinimum};
+pub use fit::{Fit, FitEstimate, FitSettings, Fixed, Origin, Residual, SecondMinimum};
 pub use history::Filter;
 pub use judge::{Match, PointOutcome, Verdict};
 pub use measured::{MeasuredPoints, read_measured};

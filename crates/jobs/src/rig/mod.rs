@@ -44,6 +44,6 @@ pub use filter::{
 pub use modes::{RigMode, rig_modes};
 pub use signal_document::signal_document;
 pub use signals::{SignalPair, compare_signal};
-pub use sweep::{Direction, RigPoint, sweep};
+pub use sweep::{RigPoint, SweepDirection, sweep};
 pub use tables::{RigChaos, figure_name, write_rig_tables};
 pub use whole::{RigReport, measure_rig};

@@ -78,7 +78,7 @@ use hammerbeam_results::{Store, StoreError};
 use crate::{CountedProgress, Observer, PooledOrder, PreparedStudy};
 
 pub use document::VerifyReport;
-pub use quantity::Quantity;
+pub use quantity::VerifiedQuantity;
 pub use report::{Disagreement, Verification, VerifiedPlace, Worst};
 pub use settings::{TOLERANCE, VerifySettings};
 
@@ -163,7 +163,7 @@ fn compare_with(
     };
     let comparisons = with(0.0);
     let doubtful = |comparison: &Comparison| {
-        comparison.quantity == Quantity::Multipliers && comparison.difference > tolerance
+        comparison.quantity == VerifiedQuantity::Multipliers && comparison.difference > tolerance
     };
     if !comparisons.iter().any(doubtful) {
         return Ok(comparisons);

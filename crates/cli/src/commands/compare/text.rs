@@ -1,7 +1,7 @@
 //! A comparison in words.
 
 use hammerbeam_jobs::comparison::{
-    CompareReport, ComparedQuantity, Estimate, Filter, Fit, Origin, PointOutcome, Residual, Verdict,
+    CompareReport, ComparedQuantity, Filter, Fit, FitEstimate, Origin, PointOutcome, Residual, Verdict,
 };
 use hammerbeam_signal::MeasuredQuantity;
 
@@ -70,7 +70,7 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
 /// What has to be known of a fit: numbers that are no minimum, or hardly separated, and another minimum.
 pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let frequency = if fit.offset { "frequency offset" } else { "frequency factor" };
-    let at_end = |(name, estimate): (&str, Estimate)| {
+    let at_end = |(name, estimate): (&str, FitEstimate)| {
         let (low, high) = estimate.ends()?;
         Some(format!(
             "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may fall: this is no minimum and has no standard error, and all else is for this value; give the true one if it lies out there"
@@ -118,7 +118,7 @@ fn second_minimum(fit: &Fit) -> Option<String> {
 }
 
 /// A number and where it comes from.
-pub fn estimate(estimate: Estimate, digits: usize) -> String {
+pub fn estimate(estimate: FitEstimate, digits: usize) -> String {
     let value = estimate.value;
     match estimate.origin {
         Origin::Given => format!("{value:.digits$} (given)"),
