@@ -35,7 +35,8 @@ fn main() -> Result<(), BoxedError> {
                 let (branches, rows, events) = (study.branches.len(), study.solutions, study.events.len());
                 let count = found.len();
                 println!(
-                    "{seed}: {branches} branches, {rows} rows, {events} events, {count} differences, {seconds:.1} s"
+                    "{seed}: {branches} branches, {rows} rows, {events} events, {count} differences, \
+                    {seconds:.1} s"
                 );
                 found.iter().for_each(|difference| println!("{seed}:   {difference}"));
                 if found.is_empty() { same += 1 } else { different += 1 }

@@ -77,9 +77,11 @@ fn both_stops_are_hit_equally_hard_and_equally_deep() {
     for frequency_hz in SYMMETRIC_HZ {
         let orbit = orbit(&rig, frequency_hz);
         let (above, below) = (to_one_side(&rig, &orbit, 1.0), to_one_side(&rig, &orbit, -1.0));
-        assert_relative_eq!(above.0, below.0, max_relative = 1e-6); // Both read off at the same half-period grid.
+        // Both read off at the same half-period grid.
+        assert_relative_eq!(above.0, below.0, max_relative = 1e-6);
         assert_relative_eq!(above.1, below.1, max_relative = 1e-6);
-        assert_relative_eq!(orbit.maxima.impulse, above.1 + below.1, max_relative = 1e-4); // The trapezoidal rule.
+        // The trapezoidal rule.
+        assert_relative_eq!(orbit.maxima.impulse, above.1 + below.1, max_relative = 1e-4);
         assert_relative_eq!(orbit.maxima.contact_force, STIFFNESS * (above.0 - GAP), max_relative = 1e-4);
     }
 }

@@ -47,7 +47,8 @@ fn free_frequency(soft: f64, stiff: f64, amplitude: f64) -> f64 {
 fn bilinear_oscillator_frequency_is_1_1716_at_stiffness_ratio_2() {
     let found = free_frequency(1.0, 2.0, 1e-2);
     assert_abs_diff_eq!(found, 1.1716, epsilon = 0.00005); // Digits printed.
-    assert_relative_eq!(found, 2.0 * SQRT_2 / (1.0 + SQRT_2), max_relative = 1e-8); // Tolerance of the integrator.
+    // Tolerance of the integrator.
+    assert_relative_eq!(found, 2.0 * SQRT_2 / (1.0 + SQRT_2), max_relative = 1e-8);
 }
 
 #[test]

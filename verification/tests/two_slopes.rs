@@ -2,9 +2,10 @@
 //!
 //! Between kinks of the force the motion is harmonic, so a free period is a sum of arcs. In a region where
 //! `x'' = -w^2 (x - c)` the angle of the motion is `acos((x - c)/A)` with the amplitude A from the energy.
-//! The deepest penetration d of a mass that comes with the speed v follows from `m v^2/2 = k s^2/2 + k s b +
-//! k_2 b^2/2`, `b = d -
-//! s`. And a stop that stiffens is the sum of two linear stops, the second behind the second gap, which the integrator computes with two contacts and no kink.
+//! The deepest penetration d of a mass that comes with the speed v follows from
+//! `m v^2/2 = k s^2/2 + k s b + k_2 b^2/2` with `b = d - s`. And a stop that stiffens is the sum of two
+//! linear stops, the second behind the second gap, which the integrator computes with two contacts and no
+//! kink.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::{PI, TAU};

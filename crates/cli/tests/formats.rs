@@ -60,7 +60,7 @@ fn orbits_are_chosen_by_frequency_and_event_and_come_with_their_motion() {
     for (place, orbit) in orbits.iter().enumerate() {
         let motion = &waveforms[64 * place..64 * (place + 1)];
         let largest = motion.iter().map(|row| number(row, "mass_displacement_m").abs()).fold(0.0, f64::max);
-        // A maximum between two samples of a period is higher by 2 (pi / 64)^2 / 4 at most, and its harmonics.
+        // A maximum between two samples of a period is higher by 2 (pi / 64)^2 / 4 at most.
         let whole = number(orbit, "max_abs_displacement_m");
         assert!(largest <= whole * (1.0 + 1e-9) && largest > 0.98 * whole, "{largest} of {whole}");
         // m x'' = -c x' - x - x^3 + 0.3 cos(2 pi f t), the cubic spring among the forces.

@@ -225,7 +225,9 @@ fn the_orbit_is_found_by_its_size_where_the_factor_is_given() {
     let mut lines = table.lines();
     assert_eq!(
         lines.next().unwrap(),
-        "time_s,phase_cycles,measured_displacement_m,shifted_displacement_m,computed_displacement_m,computed_unfiltered_displacement_m,orbit_displacement_m,support_displacement_m"
+        "time_s,phase_cycles,measured_displacement_m,shifted_displacement_m,\
+         computed_displacement_m,computed_unfiltered_displacement_m,orbit_displacement_m,\
+         support_displacement_m"
     );
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();

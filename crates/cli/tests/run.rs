@@ -17,7 +17,8 @@ const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
 /// Columns that scripts rely on, in this order.
 const FIXED: &str = "branch,period_multiple,frequency_hz,max_abs_displacement_m,max_abs_acceleration_m_s2,\
-    max_contact_force_n,max_impact_velocity_m_s,contacts,leading_multiplier_re,leading_multiplier_im,stable,event";
+    max_contact_force_n,max_impact_velocity_m_s,contacts,leading_multiplier_re,\
+    leading_multiplier_im,stable,event";
 
 /// The two masses around their resonances in steps so small that a run takes a second and commits many times.
 fn long_study() -> String {

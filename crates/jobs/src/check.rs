@@ -82,12 +82,18 @@ fn by_name(motion: &[(String, f64)]) -> BTreeMap<&str, f64> {
 
 /// Modes without damping.
 pub(crate) fn undamped_documents(modes: &[UndampedMode]) -> Value {
-    let one = |mode: &UndampedMode| json!({ "mode": mode.number, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.ratio });
+    let one = |mode: &UndampedMode| {
+        let (number, hz) = (mode.number, mode.frequency_hz);
+        json!({ "mode": number, "frequency_hz": hz, "damping_ratio": mode.ratio })
+    };
     modes.iter().map(one).collect()
 }
 
 /// Modes without damping while stops are closed.
 pub(crate) fn in_contact_documents(modes: &[UndampedInContact]) -> Value {
-    let one = |mode: &UndampedInContact| json!({ "stops": mode.stops, "frequency_hz": mode.frequency_hz, "motion": by_name(&mode.motion) });
+    let one = |mode: &UndampedInContact| {
+        let motion = by_name(&mode.motion);
+        json!({ "stops": mode.stops, "frequency_hz": mode.frequency_hz, "motion": motion })
+    };
     modes.iter().map(one).collect()
 }

@@ -313,10 +313,10 @@ fn what_cannot_be_compared_is_refused() {
     let given = FitSettings { frequency: Fixed::Given(1.0), ..FitSettings::default() };
     let found = compare(&far, &curves(), MeasuredQuantity::Acceleration, &given).unwrap_err();
     let all = far.len();
-    assert!(
-        matches!(found, ComparisonError::TooFewPoints { quantity: "acceleration", measured, met, near: 0, .. } if (measured, met) == (all, all)),
-        "{found}"
-    );
+    let ComparisonError::TooFewPoints { quantity, measured, met, near, .. } = found else {
+        panic!("{found}")
+    };
+    assert_eq!((quantity, measured, met, near), ("acceleration", all, all, 0));
     let message = found.to_string();
     let parts = [
         "to acceleration",

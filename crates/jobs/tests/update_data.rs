@@ -227,7 +227,8 @@ fn modes_that_the_study_does_not_have_are_refused() {
 fn a_response_that_the_model_does_not_have_is_told() {
     let study =
         StudyFile::parse("study.toml", include_str!("../../../studies/two-masses.toml").to_owned()).unwrap();
-    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = 3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
+    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = \
+    3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
     let data = UpdateData::parse("data.toml", data.to_owned(), &study).unwrap();
     let message = update(&study, &data, &UpdateSettings::default()).expect_err("it was accepted").to_string();
     assert!(message.contains("no stable periodic response of 7 excitation period(s) at 3 Hz"), "{message}");

@@ -65,7 +65,8 @@
 //! A mass of 1 kg falls on a spring, from 1 m above it and from rest.
 //! ```
 //! use hammerbeam_motion::{
-//!     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System, exact::{ExactIntegrator, ExactSettings}, law::LinearStop,
+//!     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+//!     exact::{ExactIntegrator, ExactSettings}, law::LinearStop,
 //! };
 //! use hammerbeam_structure::{Damping, Lumped, LumpedMass, Reduction};
 //!
@@ -73,7 +74,8 @@
 //! let structure = Lumped { masses: vec![mass], ..Lumped::default() }.structure()?;
 //! let model = structure.reduce(&Reduction::None, &Damping::none(), &[])?.model;
 //! let shape = model.point("mass").expect("the mass has a point").shape.clone();
-//! let weight = HarmonicForce { shape: shape.clone(), harmonic: Harmonic { order: 0, amplitude: -9.81, phase: 0.0 } };
+//! let constant = Harmonic { order: 0, amplitude: -9.81, phase: 0.0 };
+//! let weight = HarmonicForce { shape: shape.clone(), harmonic: constant };
 //! // Laws take r positive towards the stop, which lies below.
 //! let floor = LocalElement {
 //!     name: "floor".into(),

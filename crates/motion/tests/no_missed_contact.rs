@@ -145,12 +145,14 @@ impl Flight {
 
 prop_compose! {
     fn modes()(frequency in 1.0f64..4.0, ratio in prop_oneof![Just(0.0), 0.0f64..0.1, 0.1f64..0.9],
-               shape in -2.0f64..2.0, start in [-1.0f64..1.0, -1.0f64..1.0], load in [-1.0f64..1.0, -1.0f64..1.0])
+               shape in -2.0f64..2.0, start in [-1.0f64..1.0, -1.0f64..1.0],
+               load in [-1.0f64..1.0, -1.0f64..1.0])
               -> Mode {
         let frequency = TAU * 10f64.powf(frequency);
         // Faster modes are smaller, as in structures.
         let size = 1e-2 / (frequency / 10.0).powf(1.2);
-        Mode { frequency, ratio, shape, start: [size * start[0], size * start[1] * frequency], load: load.map(|l| size * l) }
+        let start = [size * start[0], size * start[1] * frequency];
+        Mode { frequency, ratio, shape, start, load: load.map(|l| size * l) }
     }
 }
 

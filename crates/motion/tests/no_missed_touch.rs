@@ -184,12 +184,14 @@ impl<'a> Sampler<'a> {
 
 prop_compose! {
     fn modes()(frequency in 1.0f64..3.3, ratio in prop_oneof![Just(0.0), 0.0f64..0.1, 0.1f64..0.9],
-               shapes in [-1.0f64..1.0, -1.0f64..1.0], start in [-1.0f64..1.0, -1.0f64..1.0], load in -1.0f64..1.0)
+               shapes in [-1.0f64..1.0, -1.0f64..1.0], start in [-1.0f64..1.0, -1.0f64..1.0],
+               load in -1.0f64..1.0)
               -> Mode {
         let frequency = TAU * 10f64.powf(frequency);
         // Faster modes are smaller, as in structures.
         let size = 3e-3 / (frequency / 63.0).powf(1.2);
-        Mode { frequency, ratio, shapes, start: [size * start[0], size * start[1] * frequency], load: size * load }
+        let start = [size * start[0], size * start[1] * frequency];
+        Mode { frequency, ratio, shapes, start, load: size * load }
     }
 }
 
@@ -222,7 +224,7 @@ proptest! {
 
     /// A stop just below the highest point is struck, one just above it is not.
     #[test]
-    fn a_motion_under_force_touches_what_it_reaches_and_nothing_else(motion in motions(), hertz in any::<bool>()) {
+    fn under_force_what_is_reached_is_touched_and_nothing_else(motion in motions(), hertz in any::<bool>()) {
         let highest = motion.highest();
         prop_assume!(highest.is_some_and(|(_, height)| height > 1e-5));
         let (_, height) = highest.unwrap();

@@ -41,7 +41,8 @@ fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {
         others => format!(" (and {others} more of this kind)"),
     };
     Some(format!(
-        "undamped     {first}{others}: steady states with closed contacts may be marginal, and simulation takes long \
+        "undamped     {first}{others}: steady states with closed contacts may be marginal, and simulation \
+        takes long \
          to settle; {UNDAMPED_ADVICE}"
     ))
 }
@@ -60,7 +61,8 @@ fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
         }
     };
     Some(format!(
-        "undamped     {which}: free vibration there never decays, so steady states are marginal and simulation does not settle; {UNDAMPED_ADVICE}"
+        "undamped     {which}: free vibration there never decays, so steady states are marginal and \
+        simulation does not settle; {UNDAMPED_ADVICE}"
     ))
 }
 

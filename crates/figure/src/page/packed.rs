@@ -121,8 +121,10 @@ pub(super) mod tests {
             let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
             prop_assert_eq!(bits(&columns.double(doubles.len())), bits(&doubles));
             prop_assert_eq!(columns.whole(wholes.len(), 3), wholes);
-            let single: Vec<u32> = columns.single(doubles.len()).iter().map(|number| number.to_bits()).collect();
-            prop_assert_eq!(single, doubles.iter().map(|number| (*number as f32).to_bits()).collect::<Vec<_>>());
+            let single = columns.single(doubles.len());
+            let single: Vec<u32> = single.iter().map(|number| number.to_bits()).collect();
+            let wanted: Vec<u32> = doubles.iter().map(|number| (*number as f32).to_bits()).collect();
+            prop_assert_eq!(single, wanted);
             prop_assert!(columns.is_at_the_end());
         }
     }

@@ -27,9 +27,9 @@
 //! frequency: at a fold the tangent says nothing of where points will lie. The errors hold for the matching
 //! that was found, and for differences that are independent; a model that is wrong makes them too small.
 //!
-//! **The residual** is reported of the points within the reach, and of all that meet a branch. The latter is not
-//! what the fit makes small: a shift at which more points meet a branch, one of them far off, has a smaller
-//! sum and a larger residual of all that meet one.
+//! **The residual** is reported of the points within the reach, and of all that meet a branch. The latter is
+//! not what the fit makes small: a shift at which more points meet a branch, one of them far off, has a
+//! smaller sum and a larger residual of all that meet one.
 //!
 //! **Another minimum** that is about as good is reported, the lowest of those that worse shifts part from the
 //! best one; with sums `F` and `F'` over all points, and `S` over the `n` points nearer than `R` to the best
@@ -39,16 +39,15 @@
 //! Aperiodic and doubtful points take no part: branches are of periodic solutions. They are listed with the
 //! branch that is nearest, stable or not.
 //!
-//! | file | what |
-//! |---|---|
-//! | `curve.rs` | branches as curves of one quantity, by frequency |
-//! | `history.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
-//! | `observed.rs` | from stored branches to such curves |
-//! | `fit/` | shift and factor |
-//! | `judge.rs` | what becomes of each point |
-//! | `overlay/` | a measured history laid over orbits |
-//! | `measured.rs`, `records.rs` | tables of points, and records that are reduced to points |
-//! | `whole.rs`, `tables.rs`, `document.rs` | all quantities of a results folder, their tables, their document |
+//! * `curve.rs`: branches as curves of one quantity, by frequency.
+//! * `history.rs`: an orbit in samples, also behind a filter; orbits that cannot be gone over.
+//! * `observed.rs`: from stored branches to such curves.
+//! * `fit/`: shift and factor.
+//! * `judge.rs`: what becomes of each point.
+//! * `overlay/`: a measured history laid over orbits.
+//! * `measured.rs`, `records.rs`: tables of points, and records that are reduced to points.
+//! * `whole.rs`, `tables.rs`, `document.rs`: all quantities of a results folder, their tables, their
+//!   document.
 
 mod curve;
 mod document;

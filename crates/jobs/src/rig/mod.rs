@@ -6,17 +6,16 @@
 //! classified as a measured one would be. What the rig knows of itself (the state once in each period,
 //! without noise) is kept beside it, to count how often that is right.
 //!
-//! | file | what |
-//! |---|---|
-//! | `build.rs` | the study of the rig |
-//! | `sweep.rs` | stepped sweeps; a record at each frequency, and its point |
-//! | `chaos.rs` | largest exponents of aperiodic motions, from record and motion |
-//! | `decay.rs` | a free decay of the structure without its stops: eigenfrequencies and damping as they are measured |
-//! | `modes.rs` | which modes these are |
-//! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
-//! | `signals.rs` | measured and computed signals laid over one another |
-//! | `whole.rs` | all of it |
-//! | `tables.rs`, `document.rs`, `signal_document.rs` | its tables and its document |
+//! * `build.rs`: the study of the rig.
+//! * `sweep.rs`: stepped sweeps; a record at each frequency, and its point.
+//! * `chaos.rs`: largest exponents of aperiodic motions, from record and motion.
+//! * `decay.rs`: a free decay of the structure without its stops: eigenfrequencies and damping as they are
+//!   measured.
+//! * `modes.rs`: which modes these are.
+//! * `filter.rs`: what low-pass filters leave of the maxima along the branches.
+//! * `signals.rs`: measured and computed signals laid over one another.
+//! * `whole.rs`: all of it.
+//! * `tables.rs`, `document.rs`, `signal_document.rs`: its tables and its document.
 //!
 //! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and
 //! threads take whole sweeps, signals or solutions.

@@ -83,7 +83,8 @@ impl Update {
             .map(|parameter| format!("{} = {:e}", parameter.key, parameter.value))
             .collect();
         Some(format!(
-            "the fit does not converge: {why}, and a further step would still be {:.1e} standard errors long. It had come to {}, with chi-squared {:.4e}. \
+            "the fit does not converge: {why}, and a further step would still be {:.1e} standard errors \
+            long. It had come to {}, with chi-squared {:.4e}. \
              Another start, bounds, or fewer parameters may help",
             found.end.distance(),
             reached.join(", "),

@@ -124,7 +124,8 @@ fn refuse_what_cannot_be_fitted(
         );
         let why = if more == 1 {
             format!(
-                "allowed: {needed} data or more, since the standard deviations are estimated from what is left"
+                "allowed: {needed} data or more, since the standard deviations are estimated from what is \
+                left"
             )
         } else {
             format!("allowed: {needed} data or more, or fewer parameters")

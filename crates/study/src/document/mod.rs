@@ -1,8 +1,8 @@
 //! Reading a TOML document so that everything wrong with it is found, and found where it stands.
 //!
 //! A derived deserialiser stops at the first fault and loses positions inside tagged tables. Here every table
-//! is asked for its keys one by one ([`TomlTable`]), every value is checked against its [`Quantity`], all faults
-//! are collected ([`Problem`]), and what was never asked for is unknown by definition.
+//! is asked for its keys one by one ([`TomlTable`]), every value is checked against its [`Quantity`], all
+//! faults are collected ([`Problem`]), and what was never asked for is unknown by definition.
 
 mod problem;
 pub mod quantity;

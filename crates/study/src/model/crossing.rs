@@ -100,7 +100,9 @@ mod tests {
         let between = if coupling > 0.0 { between } else { String::new() };
         let text = format!(
             r#"title = "Two masses"
-structure = {{ kind = "lumped", mass = [{{ name = "a", mass_kg = 1.0 }}, {{ name = "b", mass_kg = 1.0 }}], spring = [
+structure = {{ kind = "lumped", mass = [
+    {{ name = "a", mass_kg = 1.0 }}, {{ name = "b", mass_kg = 1.0 }}
+], spring = [
     {{ between = ["a", "ground"], stiffness_n_m = 900.0 }},
     {{ between = ["b", "ground"], stiffness_n_m = 1000.0 }},
     {between}

@@ -120,7 +120,7 @@ impl Drive {
                 });
             }
             file::LoadTable::ActingForce { force, order } => {
-                self.act(force, (*order, force.phase_rad), model)
+                self.act(force, (*order, force.phase_rad), model);
             }
             file::LoadTable::DrivenSupport { support, motion, order, phase_rad } => match motion {
                 SupportDrive::Displacement(amplitude) => {

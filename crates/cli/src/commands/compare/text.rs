@@ -42,7 +42,8 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
         format!("  residual before         {}", residual(comparison.before)),
         format!("  residual after          {}", residual(comparison.after)),
         format!(
-            "  explained {}, too far {}, only unstable branches {}, no branch {}{}; aperiodic {}, doubtful {}",
+            "  explained {}, too far {}, only unstable branches {}, no branch {}{}; aperiodic {}, doubtful \
+            {}",
             count("explained"),
             count("too-far"),
             count("only-unstable"),
@@ -73,7 +74,9 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let at_end = |(name, estimate): (&str, FitEstimate)| {
         let (low, high) = estimate.ends()?;
         Some(format!(
-            "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may fall: this is no minimum and has no standard error, and all else is for this value; give the true one if it lies out there"
+            "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may \
+            fall: this is no minimum and has no standard error, and all else is for this value; give the \
+            true one if it lies out there"
         ))
     };
     let mut notes: Vec<String> = [(frequency, fit.frequency), ("amplitude factor", fit.amplitude)]
@@ -98,7 +101,10 @@ fn beyond(compared: &ComparedQuantity) -> Option<String> {
     let [low, high] = compared.range_hz;
     let beyond = compared.beyond();
     (beyond > 0).then(|| {
-        format!("{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where nothing is computed or drawn")
+        format!(
+            "{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where \
+        nothing is computed or drawn"
+        )
     })
 }
 
@@ -112,7 +118,8 @@ fn second_minimum(fit: &Fit) -> Option<String> {
     };
     let end = if second.at_end { ", at an end of what is tried" } else { "" };
     Some(format!(
-        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
+        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} \
+        times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
         second.amplitude, second.cost_ratio, second.points, fit.points
     ))
 }

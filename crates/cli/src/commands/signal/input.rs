@@ -92,7 +92,8 @@ fn with_hint(error: RecordError) -> Failure {
         RecordError::TimeMissing { .. } => "with --rate the times in the file are not used",
         RecordError::TimeDecreases { .. } => "--repair order sorts by time",
         RecordError::DuplicateTimes { .. } => {
-            "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the samples"
+            "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the \
+            samples"
         }
         RecordError::Gaps { .. } => "--repair gaps fills them by interpolation",
         RecordError::Uneven { .. } => "--repair uneven interpolates to an even grid",
@@ -156,7 +157,10 @@ impl Input {
 
 /// Findings about a record, for documents.
 pub fn findings(record: &Record) -> Vec<Value> {
-    let finding = |finding: &RecordFinding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
+    let finding = |finding: &RecordFinding| {
+        let message = finding.to_string();
+        json!({ "kind": finding.kind(), "channel": finding.channel(), "message": message })
+    };
     record.findings.iter().map(finding).collect()
 }
 
