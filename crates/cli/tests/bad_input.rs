@@ -286,6 +286,13 @@ fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_sho
             format!("title = \"{}\"\n", "x".repeat(100_000)),
             ["`title` is 100000 bytes long", "at most 1000 bytes"],
         ),
+        // Every start of a number with a unit is tried, and every edit of an unknown word.
+        (
+            large_study(1, 0).replace("mass_kg", &format!("mass = \"{}x\", mass_kg", "1".repeat(300_000))),
+            ["`mass`", "unit"],
+        ),
+        (format!("{} = 1\n", "k".repeat(2_000_000)), ["unknown key", "known keys"]),
+        ((0..200_000).map(|k| format!("k{k} = 1\n")).collect(), ["unknown key `k0`", "and 199"]),
     ] {
         let workshop = Workshop::with(&text);
         let begun = std::time::Instant::now();

@@ -119,6 +119,8 @@ impl JobError {
     pub fn stopped_after(self, done: u64) -> Self {
         match self {
             stopped @ (Self::Stopped { .. } | Self::Interrupted { .. } | Self::TablesInterrupted) => stopped,
+            // Nothing is left of what was done.
+            gone @ Self::Store(StoreError::Gone { .. }) => gone,
             other => Self::Stopped { source: Box::new(other), done },
         }
     }

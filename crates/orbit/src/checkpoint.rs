@@ -169,7 +169,7 @@ fn read(
         return None;
     }
     let scale = scale.about(state_of_rest(system));
-    let point_length = segments * scale.values().len() + 1;
+    let point_length = segments.checked_mul(scale.values().len())?.checked_add(1)?;
     let integrator = match integrator(system, response, settings) {
         Ok(integrator) => integrator,
         Err(error) => return Some(Err(error)),

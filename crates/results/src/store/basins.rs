@@ -6,13 +6,13 @@
 use hammerbeam_attractor::{Attractor, Round};
 use rusqlite::{Connection, Row as SqlRow, Transaction, params, types::Value};
 
-use super::{StoreError, blob, class::Kind, requests};
+use super::{StoreError, blob, class::Kind, requests, values::whole};
 
 /// Basins of a request: the attractor of each cell, from the first one on, and the attractors.
 pub fn basins(connection: &Connection, request: i64) -> Result<(Vec<u32>, Vec<Attractor>), StoreError> {
     let mut statement =
         connection.prepare("SELECT attractor FROM cell WHERE request = ?1 ORDER BY number")?;
-    let cells = statement.query_map([request], |row| row.get(0))?.collect::<Result<_, _>>()?;
+    let cells: Vec<u32> = statement.query_map([request], |row| row.get(0))?.collect::<Result<_, _>>()?;
     let select = "SELECT class, period, doubt, exponent_per_s, exponent_half_width_per_s, zero_one,
         state_length, states
         FROM attractor WHERE request = ?1 ORDER BY number";
@@ -22,6 +22,8 @@ pub fn basins(connection: &Connection, request: i64) -> Result<(Vec<u32>, Vec<At
     while let Some(row) = rows.next()? {
         attractors.push(attractor(row)?);
     }
+    let last = cells.iter().copied().max().unwrap_or(0);
+    whole("attractor of a cell", last.into(), 0, attractors.len() as i64)?;
     Ok((cells, attractors))
 }
 
@@ -55,8 +57,9 @@ pub fn append_round(
 }
 fn attractor(row: &SqlRow<'_>) -> Result<Attractor, StoreError> {
     let Kind { class, largest_exponent, zero_one } = Kind::read(row, 0)?;
-    let length = (row.get::<_, i64>(6)? as usize).max(1);
     let bytes: Vec<u8> = row.get(7)?;
+    // Of one state at least.
+    let length = whole("length of a state", row.get(6)?, 2, (bytes.len() / 8) as i64)? as usize;
     let states = blob::unpack("states of an attractor", &bytes, bytes.len() / (8 * length) * length)?;
     Ok(Attractor {
         class,

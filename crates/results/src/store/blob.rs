@@ -8,8 +8,8 @@ pub(super) fn pack<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Vec<u8> {
 
 /// The numbers, of which there must be `expected`.
 pub(super) fn unpack(what: &'static str, bytes: &[u8], expected: usize) -> Result<Vec<f64>, StoreError> {
-    if bytes.len() != 8 * expected {
-        return Err(StoreError::Damaged { what, found: bytes.len(), expected: 8 * expected });
+    if Some(bytes.len()) != expected.checked_mul(8) {
+        return Err(StoreError::Damaged { what, found: bytes.len(), expected: expected.saturating_mul(8) });
     }
     let (numbers, _) = bytes.as_chunks::<8>();
     Ok(numbers.iter().map(|number| f64::from_le_bytes(*number)).collect())

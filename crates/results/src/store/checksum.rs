@@ -17,8 +17,8 @@
 //! in little-endian order: any change of up to 32 bits in a row is found for certain, of all others one in
 //! 4e9 is not.
 //!
-//! Whoever opens the database reads it once from end to end: its tables have to be those that this version
-//! makes, its pages whole (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide
+//! Whoever opens the database reads it once from end to end: it has to hold what this version makes and
+//! nothing else (a trigger or a view that someone else has put there would do as it likes), its pages whole (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide
 //! some), each checksum that of its row.
 
 use crc32fast::Hasher;
@@ -90,6 +90,13 @@ fn tables_of(connection: &Connection) -> rusqlite::Result<Vec<(String, String)>>
     connection.prepare(select)?.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect()
 }
 
+/// All that a database consists of: kind, name, table and statement.
+fn contents_of(connection: &Connection) -> rusqlite::Result<Vec<[Option<String>; 4]>> {
+    let select = "SELECT type, name, tbl_name, sql FROM sqlite_master ORDER BY type, name";
+    let mut statement = connection.prepare(select)?;
+    statement.query_map([], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?.collect()
+}
+
 /// Names of the columns of a table without the checksum, separated by commas.
 fn columns_of(connection: &Connection, table: &str) -> rusqlite::Result<String> {
     let select = "SELECT group_concat(name, ', ') FROM
@@ -115,10 +122,12 @@ pub(super) fn check(
     let made = Connection::open_in_memory()?;
     add_checksums(&made)?;
     create_tables(&made)?;
-    let tables = tables_of(connection)?;
-    if tables != tables_of(&made)? {
-        return Err(damaged("its tables are not those that were made".to_owned()));
+    if contents_of(connection)? != contents_of(&made)? {
+        return Err(damaged(
+            "its tables are not those that were made, or there is more than tables".to_owned(),
+        ));
     }
+    let tables = tables_of(connection)?;
     let found: String = connection.query_row("PRAGMA integrity_check(1)", [], |row| row.get(0))?;
     if found != "ok" {
         return Err(damaged(found));

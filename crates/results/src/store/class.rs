@@ -4,7 +4,10 @@
 use hammerbeam_attractor::{Class, Doubt, Estimate};
 use rusqlite::{Row as SqlRow, types::Value};
 
-use super::StoreError;
+use super::{StoreError, values::whole};
+
+/// The longest period that a motion is looked at for [excitation periods], and some.
+const MOST: i64 = 1 << 16;
 
 /// What is known of a motion's kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +49,9 @@ impl Kind {
 
 fn class(name: String, period: Option<i64>, doubt: Option<String>) -> Result<Class, StoreError> {
     match (name.as_str(), period) {
-        ("periodic", Some(period)) => Ok(Class::Periodic { period: period as usize }),
+        ("periodic", Some(period)) => {
+            Ok(Class::Periodic { period: whole("period", period, 1, MOST)? as usize })
+        }
         ("quasi-periodic", _) => Ok(Class::QuasiPeriodic),
         ("chaotic", _) => Ok(Class::Chaotic),
         ("doubtful", _) => {

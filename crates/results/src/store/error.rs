@@ -63,6 +63,9 @@ pub enum StoreError {
     /// Something stored has a name that this program does not know.
     #[error("the stored {what} {found} is unknown")]
     Unknown { what: &'static str, found: String },
+    /// Something stored is a number that nothing has.
+    #[error("the stored {what} is {found}")]
+    Impossible { what: &'static str, found: f64 },
     /// Somebody else has gone on with a request in the meantime.
     #[error("request {request} is at piece {found}, piece {expected} cannot follow")]
     OutOfOrder { request: i64, found: u64, expected: u64 },
@@ -143,6 +146,7 @@ impl StoreError {
                 | Self::TakenOver { .. }
                 | Self::Gone { .. }
                 | Self::Unknown { .. }
+                | Self::Impossible { .. }
                 | Self::OutOfOrder { .. }
         )
     }

@@ -1,14 +1,14 @@
 //! The results folder itself: opening it for a run or for reading, transactions, closing it.
 
 use std::{
-    fs,
+    fs, io,
     path::{Path, PathBuf},
     thread,
     time::{Duration, Instant},
 };
 
 use hammerbeam_study::file::StudyFile;
-use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
+use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior, config::DbConfig};
 
 use super::{
     checksum::{self, add_checksums},
@@ -195,7 +195,11 @@ impl Store {
 fn refuse_links(database: &Path) -> Result<(), StoreError> {
     for suffix in ["", "-wal", "-shm", "-journal"] {
         let path = database.with_file_name(format!("{DATABASE}{suffix}"));
-        refuse_link(&path).map_err(|source| StoreError::Folder { folder: path, source })?;
+        let refused = refuse_link(&path).and_then(|()| match path.exists() && !path.is_file() {
+            true => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no file")),
+            false => Ok(()),
+        });
+        refused.map_err(|source| StoreError::Folder { folder: path, source })?;
     }
     Ok(())
 }
@@ -217,6 +221,10 @@ fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
     let database = Path::new(".").join(database);
     let connection = Connection::open_with_flags(database, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)?;
     connection.busy_timeout(READER)?;
+    // Nothing in the file may act by itself.
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_TRIGGER, false)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_VIEW, false)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
     add_checksums(&connection)?;
     Ok(connection)
 }

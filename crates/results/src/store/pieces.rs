@@ -162,7 +162,7 @@ pub fn finish_piece(
 pub fn starts(connection: &Connection, piece: u32) -> Result<Vec<StartRecord>, StoreError> {
     let select = "SELECT id, period_multiple, branch FROM start WHERE piece = ?1 ORDER BY id";
     let mut statement = connection.prepare(select)?;
-    Ok(statement.query_map([piece], StartRecord::read)?.collect::<Result<_, _>>()?)
+    statement.query_and_then([piece], StartRecord::read)?.collect()
 }
 
 /// The pieces whose starts are known, in the order of the study.

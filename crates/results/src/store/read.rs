@@ -8,7 +8,7 @@ use super::{
     event::event,
     keys::{first_key, is_of_piece, solution_key, start_of_key, walk_id},
     stability,
-    values::{END_COLUMNS, read_end, read_row, row_columns},
+    values::{END_COLUMNS, finite, period_multiple, read_end, read_row, row_columns},
 };
 use crate::{
     columns::TableColumn,
@@ -334,7 +334,8 @@ pub(super) fn branches_of(
     let mut statement = connection.prepare(select)?;
     let ids = statement.query_map([piece], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
     ids.map(|ids| {
-        let (id, start, period_multiple) = ids?;
+        let (id, start, multiple) = ids?;
+        let period_multiple = period_multiple(multiple)?;
         let (up, down) = (walk(connection, start, Side::Up)?, walk(connection, start, Side::Down)?);
         Ok(BranchRecord { id, start, period_multiple, up, down })
     })
@@ -361,11 +362,11 @@ fn read_solution(row: &SqlRow<'_>) -> Result<SolvedRow, StoreError> {
     let size = |column| row.get::<_, u32>(column).map(|size| size as usize);
     let (segments, state_length) = (size(OF_ROW)?, size(OF_ROW + 1)?);
     let node_bytes: Vec<u8> = row.get(OF_ROW + 4)?;
-    let nodes = blob::unpack("nodes", &node_bytes, segments * state_length)?;
+    let nodes = blob::unpack("nodes", &node_bytes, segments.saturating_mul(state_length))?;
     let solution = PeriodicSolution {
         frequency_hz: shown.frequency_hz,
-        period_multiple: row.get(OF_ROW + 5)?,
-        phase: row.get(OF_ROW + 6)?,
+        period_multiple: period_multiple(row.get(OF_ROW + 5)?)?,
+        phase: finite("phase", row.get(OF_ROW + 6)?)?,
         nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
         floquet_multipliers: read_multipliers(row, OF_ROW + 2)?,
         on_circle: stability::marks(&row.get::<_, Vec<u8>>(OF_ROW + 7)?),

@@ -8,7 +8,7 @@ use super::{
     event::event,
     jobs::{JobKind, JobRecord},
     keys::{MOST_STARTS, first_key, side_word, starts_of_job, walk_id},
-    values::{END_COLUMNS, values_of_end},
+    values::{END_COLUMNS, period_multiple, values_of_end},
     write::{forget_walked, insert_solution},
 };
 use crate::{end::BranchEnd, row::SolvedRow};
@@ -31,8 +31,9 @@ impl StartRecord {
         self.key / MOST_STARTS
     }
 
-    pub(super) fn read(row: &SqlRow<'_>) -> rusqlite::Result<Self> {
-        Ok(Self { key: row.get(0)?, period_multiple: row.get(1)?, branch: row.get(2)? })
+    pub(super) fn read(row: &SqlRow<'_>) -> Result<Self, StoreError> {
+        let period_multiple = period_multiple(row.get(1)?)?;
+        Ok(Self { key: row.get(0)?, period_multiple, branch: row.get(2)? })
     }
 }
 
@@ -87,7 +88,7 @@ fn seen_from_new_branch(source: &LocatedEvent, root: &PeriodicSolution) -> Locat
 pub fn starts(connection: &Connection) -> Result<Vec<StartRecord>, StoreError> {
     let select = "SELECT id, period_multiple, branch FROM start WHERE piece IS NULL ORDER BY id";
     let mut statement = connection.prepare(select)?;
-    Ok(statement.query_map([], StartRecord::read)?.collect::<Result<_, _>>()?)
+    statement.query_and_then([], StartRecord::read)?.collect()
 }
 
 /// Notes what came of a job: its starts, each with the walks that will begin there.

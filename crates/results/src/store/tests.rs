@@ -325,6 +325,51 @@ fn a_run_refuses_a_damaged_note_on_the_study_and_writes_nothing() {
     assert!(fs::read(&path).unwrap() == before, "something was written");
 }
 
+/// A database with a trigger would change rows as they are written, with checksums that fit.
+#[test]
+fn a_folder_with_more_than_tables_is_refused() {
+    let added = [
+        "CREATE TRIGGER t AFTER UPDATE ON walk BEGIN UPDATE solution SET max_abs_displacement_m = 42.0; END",
+        "CREATE VIEW v AS SELECT * FROM walk",
+        "CREATE INDEX i ON walk (solutions)",
+        "CREATE TABLE further (a)",
+    ];
+    for statement in added {
+        let folder = tempdir().unwrap();
+        walked_folder(folder.path());
+        let connection = Connection::open(folder.path().join(DATABASE)).unwrap();
+        add_checksums(&connection).unwrap();
+        connection.execute_batch(statement).unwrap();
+        connection.close().unwrap();
+        let error = Store::open(folder.path()).unwrap_err();
+        assert!(matches!(error, StoreError::DamagedFile { .. }), "{statement}: {error}");
+        let error = Store::open_for_run(folder.path(), &study(STUDY)).unwrap_err();
+        assert!(matches!(error, StoreError::DamagedFile { .. }), "{statement}: {error}");
+    }
+}
+
+/// Numbers that nothing has, in rows whose checksums fit: someone else has written them.
+#[test]
+fn impossible_numbers_are_refused_where_they_are_read() {
+    for (change, what) in [
+        ("UPDATE solution SET phase_cycles = 9e999", "phase is inf"),
+        ("UPDATE start SET period_multiple = 2147483648", "multiple of the period is 2147483648"),
+        ("UPDATE start SET period_multiple = 0", "multiple of the period is 0"),
+        ("UPDATE solution SET segments = 4294967295, state_length = 4294967295", "nodes"),
+    ] {
+        let folder = tempdir().unwrap();
+        walked_folder(folder.path());
+        let connection = Connection::open(folder.path().join(DATABASE)).unwrap();
+        add_checksums(&connection).unwrap();
+        connection.execute_batch(change).unwrap();
+        connection.close().unwrap();
+        let store = Store::open(folder.path()).unwrap();
+        let error =
+            store.branches().and_then(|branches| store.solution(branches[0].start, Side::Up, 0)).unwrap_err();
+        assert!(error.to_string().contains(what) && !error.is_bad_input(), "{change}: {error}");
+    }
+}
+
 #[test]
 fn values_that_databases_convert_keep_their_checksums() {
     let folder = tempdir().unwrap();

@@ -46,6 +46,24 @@ pub(super) fn read_row(found: &SqlRow<'_>) -> Result<Row, StoreError> {
     Ok(row)
 }
 
+/// A whole number between two others, both included.
+pub(super) fn whole(what: &'static str, found: i64, low: i64, high: i64) -> Result<i64, StoreError> {
+    if (low..=high).contains(&found) {
+        return Ok(found);
+    }
+    Err(StoreError::Impossible { what, found: found as f64 })
+}
+
+/// A finite number.
+pub(super) fn finite(what: &'static str, found: f64) -> Result<f64, StoreError> {
+    if found.is_finite() { Ok(found) } else { Err(StoreError::Impossible { what, found }) }
+}
+
+/// Excitation periods of an orbit: at most the largest multiple, doubled as often as is allowed.
+pub(super) fn period_multiple(found: i64) -> Result<u32, StoreError> {
+    whole("multiple of the period", found, 1, 64 << 10).map(|multiple| multiple as u32)
+}
+
 /// Columns of an end.
 pub(super) const END_COLUMNS: &str = "end_kind, end_place, end_numbers, end_text";
 

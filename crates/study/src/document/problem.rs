@@ -88,11 +88,15 @@ impl FaultReport {
         group
     }
 
-    /// The line around a place, without its end; the rest of the text is not looked through for each fault.
+    /// The line around a place, without its end, or of a long one what is near; the rest of the text is not
+    /// looked through for each fault.
     fn line(&self, place: usize) -> Range<usize> {
+        const NEAR: usize = 1000;
         let place = boundary(&self.text, place);
-        let start = self.text[..place].rfind('\n').map_or(0, |newline| newline + 1);
-        let end = self.text[place..].find('\n').map_or(self.text.len(), |newline| place + newline);
+        let (low, high) = (boundary(&self.text, place.saturating_sub(NEAR)), place + NEAR);
+        let high = boundary(&self.text, high);
+        let start = self.text[low..place].rfind('\n').map_or(low, |newline| low + newline + 1);
+        let end = self.text[place..high].find('\n').map_or(high, |newline| place + newline);
         start..end
     }
 
@@ -100,8 +104,7 @@ impl FaultReport {
     fn clip(&self, span: &Range<usize>) -> Range<usize> {
         let start = boundary(&self.text, span.start);
         let end = boundary(&self.text, span.end).max(start);
-        let line_end = self.text[start..end].find('\n').map_or(end, |newline| start + newline);
-        start..line_end
+        start..end.min(self.line(start).end)
     }
 }
 
@@ -170,6 +173,18 @@ mod tests {
         };
         assert_eq!(column("\"a"), column("^"), "{shown}");
         assert_eq!(shown.matches('^').count(), key.chars().count() + 2, "{shown}");
+    }
+
+    #[test]
+    fn of_a_line_of_megabytes_what_is_near_is_shown() {
+        let text = format!("{} = 1\n", "k".repeat(3_000_000));
+        let report = |span| {
+            let problem = Problem { key: "k".into(), span: Some(span), message: String::new(), help: vec![] };
+            FaultReport::new("study.toml", &text, vec![problem]).render(false)
+        };
+        for span in [0..3_000_000, 3_000_003..3_000_004] {
+            assert!(report(span).len() < 20_000);
+        }
     }
 
     #[test]

@@ -35,10 +35,22 @@ impl Reading {
 
     /// Notes a fault at a place.
     pub fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
-        self.count.set(self.count.get() + 1);
-        if self.count.get() <= MOST_PROBLEMS {
-            self.problems.borrow_mut().push(Problem { key: key.to_owned(), span, message, help });
+        if !self.is_full() {
+            let key = shortened(key.to_owned());
+            let (message, help) = (shortened(message), help.into_iter().map(shortened).collect());
+            self.problems.borrow_mut().push(Problem { key, span, message, help });
         }
+        self.count.set(self.count.get() + 1);
+    }
+
+    /// Whether further faults are counted alone, so that nobody needs to find words for them.
+    pub fn is_full(&self) -> bool {
+        self.count.get() >= MOST_PROBLEMS
+    }
+
+    /// Counts a fault for which no words were sought.
+    pub fn count_another(&self) {
+        self.count.set(self.count.get() + 1);
     }
 
     /// Notes where a key stands.
@@ -56,6 +68,16 @@ impl Reading {
         let left_out = self.count.get().saturating_sub(MOST_PROBLEMS);
         (self.problems.into_inner(), left_out, self.places.into_inner())
     }
+}
+
+/// A text for a terminal: what a file holds may be megabytes long.
+fn shortened(mut text: String) -> String {
+    const LONGEST: usize = 4000;
+    if text.len() > LONGEST {
+        text.truncate((0..=LONGEST).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0));
+        text.push_str(" ...");
+    }
+    text
 }
 
 /// The place of a key, or of the closest table around it.

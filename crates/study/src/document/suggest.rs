@@ -27,6 +27,10 @@ const SYNONYMS: [(&str, &str); 17] = [
 /// word for its stem (`density` or `density_g_cm3` for `density_kg_m3`) or its end (`ratio` for
 /// `modal_ratio`).
 pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // No key is nearly as long, and each edit of a long word is looked for.
+    if word.len() > 200 {
+        return None;
+    }
     let candidates: Vec<&str> = candidates.into_iter().collect();
     by_edits(word, &candidates)
         .or_else(|| by_meaning(word, &candidates))

@@ -149,6 +149,10 @@ impl<'a> TomlTable<'a> {
         let is_known = |key: &str| asked.contains(&key) || refused.contains(&key);
         for key in self.entries.keys().filter(|key| !is_known(key.get_ref().as_ref())) {
             let name = key.get_ref().as_ref();
+            if self.reading.is_full() {
+                self.reading.count_another();
+                continue;
+            }
             if self.has_other_unit(name, &asked) {
                 continue;
             }

@@ -98,9 +98,15 @@ struct Product {
     powers: [f64; 4],
 }
 
+/// Bytes of a number with its unit at most: every start of it is tried.
+const LONGEST: usize = 200;
+
 /// A text such as `258 mm`; `None` where it is no number with a unit.
 pub fn measured(text: &str) -> Option<Measured> {
     let text = text.trim();
+    if text.len() > LONGEST {
+        return None;
+    }
     // The number is the longest start of the text that is one.
     let number = (1..=text.len()).rev().filter_map(|end| text.get(..end)).map(str::trim_end);
     let number = number.into_iter().find(|begin| begin.parse::<f64>().is_ok_and(f64::is_finite))?;
