@@ -6,7 +6,7 @@
 use std::{env, fs, path::Path};
 
 use hammerbeam_verification::{
-    attractors::SurveyEffort,
+    attractors::SimulationEffort,
     completeness::check,
     plain::Equations,
     results::{BoxedError, Results},
@@ -25,7 +25,7 @@ fn main() -> Result<(), BoxedError> {
     let text = fs::read_to_string(study)?;
     let results = Results::read(&text, Path::new(folder))?;
     let plain = is_plain.then(|| Equations::read(&text.parse()?, &results.model)).transpose()?;
-    let effort = SurveyEffort { states, longest, patience: 1200 };
+    let effort = SimulationEffort { states, longest, patience: 1200 };
     let report = check(&results, plain.as_ref(), frequencies, &effort, seed as u64)?;
     println!("{} branches, {} frequencies", results.branches().len(), report.frequencies);
     println!("{} motions, {} of them did not settle", report.motions, report.restless);

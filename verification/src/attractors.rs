@@ -16,7 +16,7 @@ use crate::{
 
 /// How much is simulated.
 #[derive(Debug, Clone, Copy)]
-pub struct SurveyEffort {
+pub struct SimulationEffort {
     /// Random states at a frequency.
     pub states: usize,
     /// Longest period looked for, in excitation periods.
@@ -170,7 +170,7 @@ pub fn attractors(
     simulator: &mut Simulator,
     frequency_hz: f64,
     size: f64,
-    effort: &SurveyEffort,
+    effort: &SimulationEffort,
     random: &mut Random,
 ) -> Result<(Vec<SurveyedAttractor>, usize), BoxedError> {
     let (mut found, mut restless): (Vec<SurveyedAttractor>, usize) = (Vec::new(), 0);

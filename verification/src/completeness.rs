@@ -12,7 +12,7 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
 
 use crate::{
-    attractors::{Random, Simulator, SurveyEffort, SurveyedAttractor, attractors, distance},
+    attractors::{Random, SimulationEffort, Simulator, SurveyedAttractor, attractors, distance},
     plain::Equations,
     results::{BoxedError, Results},
 };
@@ -53,7 +53,7 @@ pub fn check(
     results: &Results,
     plain: Option<&Equations>,
     frequencies: usize,
-    effort: &SurveyEffort,
+    effort: &SimulationEffort,
     seed: u64,
 ) -> Result<Report, BoxedError> {
     let mut random = Random::new(seed);
@@ -74,7 +74,7 @@ pub fn check_at(
     results: &Results,
     plain: Option<&Equations>,
     frequencies_hz: &[f64],
-    effort: &SurveyEffort,
+    effort: &SimulationEffort,
     seed: u64,
 ) -> Result<Report, BoxedError> {
     let mut random = Random::new(seed);
@@ -86,7 +86,7 @@ pub fn check_at(
 }
 
 impl Report {
-    fn of(effort: &SurveyEffort) -> Self {
+    fn of(effort: &SimulationEffort) -> Self {
         Self { found: vec![0; effort.longest + 1], ..Self::default() }
     }
 
@@ -95,7 +95,7 @@ impl Report {
         results: &Results,
         plain: Option<&Equations>,
         frequency_hz: f64,
-        effort: &SurveyEffort,
+        effort: &SimulationEffort,
         random: &mut Random,
     ) -> Result<(), BoxedError> {
         let mut orbits: Vec<Vec<PeriodicSolution>> = vec![Vec::new()];

@@ -6,7 +6,7 @@
 
 use crate::common::extensive;
 use hammerbeam_verification::{
-    attractors::SurveyEffort, completeness::check, plain::Equations, results::Results,
+    attractors::SimulationEffort, completeness::check, plain::Equations, results::Results,
 };
 
 /// The study with the search as it is by default, and periods 1 to 4.
@@ -23,7 +23,7 @@ fn survey((name, text): (&str, &str), (frequencies, states): (usize, usize)) {
     let folder = tempfile::tempdir().unwrap();
     let results = Results::of_run(&study.to_string(), folder.path(), 2).unwrap();
     let plain = Equations::read(&study, &results.model).unwrap();
-    let effort = SurveyEffort { states, longest: 4, patience: 1200 };
+    let effort = SimulationEffort { states, longest: 4, patience: 1200 };
     let report = check(&results, Some(&plain), frequencies, &effort, 5).unwrap();
     assert!(report.attractors() >= frequencies - 1, "{name}: {report:?}");
     assert!(report.missing.is_empty(), "{name}: {report:?}");
