@@ -16,12 +16,12 @@ use std::sync::OnceLock;
 use faer::{Mat, linalg::solvers::DenseSolveCore};
 
 use super::{
-    lanes::{dot, vectorised},
+    lanes::{dot, fixed_dot, vectorised},
     recurrence::{Recurrence, gauss_legendre},
 };
 
 /// Force nodes in a step.
-pub(crate) const NODES: usize = 12;
+pub(crate) const NODES: usize = 16;
 /// Terms of the power series; with [`REACH`] they reach rounding.
 pub(crate) const TERMS: usize = 50;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.
@@ -210,7 +210,7 @@ fn products(matrix: &NodeMatrix, values: &[f64; NODES]) -> [f64; NODES] {
         #[inline(always)]
         || {
             let mut products = [0.0; NODES];
-            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = dot(row, values));
+            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = fixed_dot(row, values));
             products
         },
     )

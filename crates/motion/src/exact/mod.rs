@@ -9,7 +9,7 @@
 //! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
-//! | `clearance.rs`, `flight.rs` | certified search for the next contact |
+//! | `clearance.rs`, `flight.rs`, `fast_modes.rs` | certified search for the next contact |
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
 //! | `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
@@ -58,6 +58,7 @@ mod enclosure;
 mod error;
 mod event;
 mod extremum;
+mod fast_modes;
 mod flight;
 mod flight_maximum;
 mod flow;

@@ -129,11 +129,12 @@ impl ExactIntegrator {
             let ElementStart { jet, velocity, .. } = run.start[element];
             let driven = jet.slope.abs() + jet.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
-            let force = step.tail(&step.force[nodes.clone()]);
+            let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
+            let force = of_nodes(&step.force);
             let tail = impulse * force.highest / velocity;
-            let mut dual = impulse * step.length * step.tail(&step.slope[nodes.clone()]).highest;
+            let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
             if step.damped {
-                dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
+                dual += impulse * of_nodes(&step.damping).highest;
             }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
@@ -292,7 +293,7 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
-            for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
+            for (column, found) in self.step.sensitivity_tails(a, sensitivity).enumerate() {
                 let further_column = column >= sensitivity.frequency_column();
                 let velocity = if further_column {
                     let reachable = sensitivity.energy_norm_of(column, &self.blocks.stiffness);
