@@ -22,14 +22,16 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
 /// Scalar product, summed in four lanes.
 #[inline(always)]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut lanes = [0.0; 4];
-    let (x, y) = (&x[..x.len().min(y.len())], &y[..x.len().min(y.len())]);
-    let (quads, rest) = (x.chunks_exact(4).zip(y.chunks_exact(4)), x.len() / 4 * 4);
-    for (a, b) in quads {
+    let (length, mut lanes) = (x.len().min(y.len()), [0.0; 4]);
+    let ((x, x_rest), (y, y_rest)) = (x[..length].as_chunks::<4>(), y[..length].as_chunks::<4>());
+    for (a, b) in x.iter().zip(y) {
         (0..4).for_each(|lane| lanes[lane] += a[lane] * b[lane]);
     }
-    let tail: f64 = x[rest..].iter().zip(&y[rest..]).map(|(a, b)| a * b).sum();
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + tail
+    let mut sum = (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    if !x_rest.is_empty() {
+        sum += x_rest.iter().zip(y_rest).map(|(a, b)| a * b).sum::<f64>();
+    }
+    sum
 }
 
 /// The same of a fixed length, a multiple of four: a few instructions instead of a loop.

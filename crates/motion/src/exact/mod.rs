@@ -25,7 +25,7 @@
 //! | `kink.rs` | kinks of the force of a closed contact |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `enclosure.rs` | proof that closed contacts stay closed all through a step |
-//! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
+//! | `forecast.rs`, `preview.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
 //! | `course.rs` | what a motion went through |
@@ -83,6 +83,7 @@ mod output;
 mod plane;
 mod polynomial;
 mod pressing;
+mod preview;
 mod propagator;
 mod quadrature;
 mod recurrence;
