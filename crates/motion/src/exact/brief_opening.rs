@@ -1,13 +1,13 @@
 //! Contacts that open for an instant between two presses.
 //!
 //! **Why the polynomials of a step do not tell.** A release is sought on the polynomial through the
-//! penetrations at the nodes. With the bound `T <= 2 sqrt(tolerance)` of `step_error.rs` on the part of the
+//! penetrations at the nodes. With the bound `T <= sqrt(tolerance)` of `step_error.rs` on the part of the
 //! force that its polynomial leaves out, the penetration within a step of the length h may be off by some `T
 //! V h`, at the nodes as well as between them: the square of T holds for the end alone, where what is left
 //! out is orthogonal to all that is smooth. So a valley of the penetration whose bottom is nearer to zero
-//! than
+//! than twice that,
 //!
-//! `b = 2 sqrt(tolerance) V h`
+//! `b = 2 sqrt(tolerance) V h`,
 //!
 //! may be open or closed, whatever the polynomial says; of a pressure `a p + b p' + d` that vanishes the same
 //! is `2 sqrt(tolerance) V (a h + b)`.

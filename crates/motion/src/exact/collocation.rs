@@ -109,9 +109,9 @@ pub(crate) struct Rule {
 }
 
 /// Intervals of the table on which extrema in a step are looked for.
-pub(crate) const FINE: usize = 32;
+pub(crate) const FINE: usize = 44;
 /// Its places, and as many behind them as make a multiple of four.
-pub(crate) const PLACES: usize = 36;
+pub(crate) const PLACES: usize = 48;
 
 impl Rule {
     fn new(grading: Grading) -> Self {

@@ -91,7 +91,9 @@ impl Drive {
             let (sin, cos) = elementary::sine_and_cosine(order.order * self.circular_frequency * step);
             (order.outputs[index].0 * self.rotation(order, start), c64::new(cos, sin))
         };
-        self.secular.is_empty().then(|| EquidistantValues { waves: self.orders.iter().map(of_order).collect() })
+        self.secular
+            .is_empty()
+            .then(|| EquidistantValues { waves: self.orders.iter().map(of_order).collect() })
     }
 
     /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to

@@ -109,9 +109,12 @@ impl<const N: usize> FixedLu<N> {
     #[inline(always)]
     fn eliminate(&mut self) -> Option<()> {
         for k in 0..N {
-            let pivot = (k + 1..N).fold(k, |best, row| {
-                if self.upper[row][k].abs() > self.upper[best][k].abs() { row } else { best }
-            });
+            let (mut pivot, mut largest) = (k, self.upper[k][k].abs());
+            for (row, entries) in self.upper.iter().enumerate().skip(k + 1) {
+                if entries[k].abs() > largest {
+                    (pivot, largest) = (row, entries[k].abs());
+                }
+            }
             self.pivots[k] = pivot;
             if pivot != k {
                 self.upper.swap(k, pivot);
@@ -140,15 +143,16 @@ impl<const N: usize> FixedLu<N> {
             || {
                 // Here, too, whole rows: of what is open only entries that are not yet known are read.
                 let (mut open, mut known) = (*right, [0.0; N]);
+                let subtract = |from: &mut [f64; N], row: &[f64; N], factor: f64| {
+                    from.iter_mut().zip(row).for_each(|(entry, weight)| *entry -= weight * factor);
+                };
                 for k in 0..N {
                     known[k] = open[k] * self.inverse[k];
-                    let row = &self.upper[k];
-                    open = std::array::from_fn(|i| open[i] - row[i] * known[k]);
+                    subtract(&mut open, &self.upper[k], known[k]);
                 }
                 for k in (0..N).rev() {
                     right[k] = known[k];
-                    let row = &self.lower[k];
-                    known = std::array::from_fn(|i| known[i] - row[i] * right[k]);
+                    subtract(&mut known, &self.lower[k], right[k]);
                 }
             },
         );

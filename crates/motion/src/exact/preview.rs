@@ -13,12 +13,7 @@
 //!
 //! Nothing of it is in the result: steps are solved, located and accepted as from any other guess.
 
-use super::{
-    ExactIntegrator,
-    flight::clearance_of,
-    propagator::Propagator,
-    run::Run,
-};
+use super::{ExactIntegrator, flight::clearance_of, propagator::Propagator, run::Run};
 
 /// Steps in the time that a contact is expected to last.
 const STEPS: f64 = 14.0;
@@ -104,9 +99,8 @@ impl ExactIntegrator {
         let snap = -contact.sign * read(&output.snap_row, &state);
         let mut back = 0.0;
         for _ in 0..NEWTON_STEPS {
-            let rate = |t: f64| {
-                clearance.slope + t * (clearance.curvature + t * (0.5 * jerk + t * snap / 6.0))
-            };
+            let rate =
+                |t: f64| clearance.slope + t * (clearance.curvature + t * (0.5 * jerk + t * snap / 6.0));
             let value = clearance.value
                 + back
                     * (clearance.slope

@@ -17,7 +17,7 @@
 //! counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without damping (`secular.rs`), and
 //! what an order is in the column by a parameter, have no part in U. The step is accepted if
 //!
-//! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
+//! `T^2`, `T D^2 <= tolerance` and `T S`, `U <= 10 tolerance`,
 //!
 //! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
 //! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
@@ -208,7 +208,7 @@ impl ExactIntegrator {
     }
 
     pub(super) fn relative_to_bound(&self, errors: Errors) -> f64 {
-        let square = errors.tail.powi(2).max(errors.slow) / 4.0;
+        let square = errors.tail.powi(2).max(errors.slow);
         let linear = errors.tail * errors.fast_share / 10.0;
         (square.max(linear) / self.settings.tolerance).sqrt()
     }

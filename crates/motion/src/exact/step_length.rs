@@ -35,9 +35,9 @@ use super::{
 
 /// Error of a graded step over half a stiff Hertz contact, relative to its bound at a tolerance of 1e-9, that
 /// of its sensitivities included.
-const HALF_WITH_SENSITIVITIES: f64 = 0.0025;
+const HALF_WITH_SENSITIVITIES: f64 = 0.005;
 /// The same of the state alone.
-const HALF_OF_THE_STATE: f64 = 0.0007;
+const HALF_OF_THE_STATE: f64 = 0.0015;
 /// Error up to which half a contact is tried at once.
 const HOPEFUL: f64 = 0.7;
 /// Error that is aimed at otherwise.
