@@ -70,3 +70,66 @@ impl ExactIntegrator {
         free_for(slow, ClearanceBounds { second, third, ..bounds })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::Mat;
+    use hammerbeam_structure::ReducedModel;
+
+    use super::*;
+    use crate::{
+        Law, Load, LocalElement, Stretch, System,
+        exact::{ExactSettings, flight::clearance_of},
+        law::LinearStop,
+    };
+
+    /// A slow mode that carries the clearance, and two fast ones that hardly move it.
+    fn integrator() -> ExactIntegrator {
+        let natural_frequencies = vec![1.0, 40.0, 300.0];
+        let model = ReducedModel {
+            damping: Mat::from_fn(3, 3, |i, j| if i == j { 0.02 * natural_frequencies[i] } else { 0.0 }),
+            natural_frequencies,
+            points: vec![],
+            supports: vec![],
+            uniform_acceleration: vec![0.0; 3],
+        };
+        let law = Law::Linear(LinearStop::with_gap(1.0, 1.0).unwrap());
+        let element =
+            LocalElement { name: "stop".into(), shape: vec![1.0; 3], support_ratios: vec![0.0], law };
+        let system = System::new(model, &Load::default(), vec![element]).unwrap();
+        ExactIntegrator::new(system, ExactSettings::default()).unwrap()
+    }
+
+    /// Over the whole of the time that is said to be free the clearance of the motion is positive, on a grid
+    /// that resolves the fastest mode; and near a contact no mode is fast.
+    #[test]
+    fn what_slow_modes_leave_free_is_free_and_longer() {
+        let stretch = Stretch { frequency_hz: 0.1, start: 0.0, end: 1.0 };
+        let touch = Touch { element: 0, contact: 0, boundary: Boundary::Closes };
+        let (mut longer, mut integrator) = (0, integrator());
+        for seed in 0..200 {
+            let random = |k: i32| f64::from((seed * 7 + k) * 7919 % 1000) / 500.0 - 1.0;
+            let state =
+                [0.9 * random(1), 0.02 * random(2), 2e-4 * random(3), random(4), random(5), 0.1 * random(6)];
+            integrator.begin(&stretch, &state, false).unwrap();
+            let bounds = integrator.bounds(&state, 0, 10.0);
+            let clearance = |state: &[f64]| clearance_of(integrator.output_jet(state, 0, 0.0), 1.0, 1.0);
+            let at_start = clearance(&state);
+            if at_start.value <= bounds.margin {
+                continue;
+            }
+            let free = integrator.free_for_by_slow_modes((&state, 0, 10.0), touch, at_start, bounds);
+            longer += usize::from(free > free_for(at_start, bounds));
+            let mut then = state.to_vec();
+            for part in 1..=400 {
+                integrator.blocks.fly(&state, free * f64::from(part) / 400.0, &mut then);
+                assert!(clearance(&then).value > 0.0, "{seed}: {part}/400 of {free}");
+            }
+        }
+        assert!(longer > 50, "{longer}");
+        let near = [1.0 - 1e-9, 0.0, 0.0, 1.0, 1.0, 1.0];
+        let at = clearance_of(integrator.output_jet(&near, 0, 0.0), 1.0, 1.0);
+        let bounds = integrator.bounds(&near, 0, 10.0);
+        assert_eq!(integrator.free_for_by_slow_modes((&near, 0, 10.0), touch, at, bounds), 0.0);
+    }
+}

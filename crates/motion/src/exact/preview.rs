@@ -126,3 +126,74 @@ fn drift(propagators: &[Propagator], state: &mut [f64]) {
 fn read(row: &[f64], state: &[f64]) -> f64 {
     row.iter().zip(state).map(|(entry, x)| entry * x).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::Mat;
+    use hammerbeam_structure::ReducedModel;
+
+    use super::*;
+    use crate::{
+        Law, Load, LocalElement, Stretch, System,
+        exact::ExactSettings,
+        law::{HertzStop, LinearStop},
+    };
+
+    const STRETCH: Stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 1.0 };
+
+    /// When a free mass of 1 kg leaves a stop that it meets with 1 m/s, by the quick motion, from a forecast
+    /// that is off by some percent.
+    fn release(law: Law, about: f64) -> f64 {
+        let model = ReducedModel {
+            damping: Mat::zeros(1, 1),
+            natural_frequencies: vec![0.0],
+            points: vec![],
+            supports: vec![],
+            uniform_acceleration: vec![0.0],
+        };
+        let element = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+        let system = System::new(model, &Load::default(), vec![element]).unwrap();
+        let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
+        let mut run = integrator.begin(&STRETCH, &[0.0, 1.0], false).unwrap();
+        run.closed[0] = Some(0);
+        integrator.note_start(&mut run, 1.0);
+        integrator.set_active(&run);
+        integrator.preview(&mut run, 0, about).unwrap()
+    }
+
+    /// Half a period of the mass on the spring.
+    #[test]
+    fn the_quick_motion_leaves_a_linear_stop_after_half_a_period() {
+        let expected = std::f64::consts::PI / 1e3;
+        for off in [0.85, 0.95, 1.0, 1.1] {
+            let found = release(Law::Linear(LinearStop::with_gap(1e6, 0.0).unwrap()), off * expected);
+            assert!((found / expected - 1.0).abs() < 1e-4, "{off}: {found} {expected}");
+        }
+    }
+
+    /// Hertz' contact time of an impact: `2 int_0^1 dx/sqrt(1 - x^2.5) = 2.943275` times the depth `(5/(4
+    /// K))^0.4` over the speed.
+    #[test]
+    fn the_quick_motion_leaves_a_hertz_stop_after_the_time_of_hertz() {
+        let stiffness: f64 = 1e8;
+        let expected = 2.943_275 * (1.25 / stiffness).powf(0.4);
+        for off in [0.85, 0.95, 1.0, 1.1] {
+            let found = release(Law::Hertz(HertzStop::with_gap(stiffness, 0.0).unwrap()), off * expected);
+            assert!((found / expected - 1.0).abs() < 5e-5, "{off}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_cubic_is_met_between_the_displacements_that_are_kept() {
+        let cubic = |t: f64| 1.0 + t * (-2.0 + t * (0.5 + 3.0 * t));
+        let (start, spacing) = (2.0, 0.25);
+        let displacements = (0..9).map(|k| cubic(spacing * f64::from(k))).collect();
+        let preview = Preview { start, spacing, displacements };
+        for place in [0.0, 0.1, 0.6, 1.0, 1.7, 2.0] {
+            let found = preview.at(start + place).unwrap();
+            assert!((found - cubic(place)).abs() < 1e-12, "{place}: {found}");
+        }
+        assert!(preview.at(start - 1e-3).is_none() && preview.at(start + 2.1).is_none());
+        assert!(Preview::default().at(0.0).is_none());
+    }
+}
