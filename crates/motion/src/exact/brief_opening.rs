@@ -21,9 +21,9 @@
 //! there is located as every release is; otherwise the contact stays closed and the next step starts at the
 //! bottom.
 //!
-//! **What it costs.** A look at sixteen numbers per step where they have no valley, the place of the bottom of
-//! one where they have, and another solution of a step where it is as near as that to zero: of presses of one
-//! contact a part of the order of `sqrt(tolerance)`.
+//! **What it costs.** A look at sixteen numbers per step where they have no valley, the place of the bottom
+//! of one where they have, and another solution of a step where it is as near as that to zero: of presses of
+//! one contact a part of the order of `sqrt(tolerance)`.
 
 use super::{
     ExactIntegrator,
