@@ -104,7 +104,11 @@ impl ExactIntegrator {
             }
             let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
-            let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
+            let rounding = match event {
+                Event::Release(element) => run.start[element].margin,
+                other => self.pressure_rounding(run, other),
+            };
+            let undecided = rounding / distance.slope.abs();
             if fine && change.abs() <= (accuracy * length).max(undecided) {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
