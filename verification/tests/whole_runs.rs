@@ -123,7 +123,9 @@ fn is_one_closed_branch(results: &Results) {
         .collect();
     let holding = |k: usize| frequencies(&results, k, BranchEventKind::BranchPoint);
     let [pair] = closed[..] else { panic!("{closed:?}") };
-    let ends = holding(pair);
+    // A branch that starts at one of them has it at its start and, once round, at its end.
+    let mut ends = holding(pair);
+    ends.dedup_by(|a, b| (*a / *b - 1.0).abs() < 1e-9);
     assert_eq!(ends.len(), 2, "{ends:?}");
     let symmetric: Vec<usize> = (0..results.branches().len()).filter(|&k| k != pair).collect();
     let met: Vec<f64> = symmetric.iter().flat_map(|&k| holding(k)).collect();
