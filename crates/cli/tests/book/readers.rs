@@ -35,8 +35,8 @@ impl Cantilever {
     }
 
     /// `A` and `B` of the displacement over that of the base,
-    /// `y/u = A cos bx + B sin bx + (1 - A) cosh bx - B sinh bx`, which is 1 without slope at the clamp. At the far
-    /// end the moment is zero; it is held, or the shear force `EI y'''` accelerates the mass there.
+    /// `y/u = A cos bx + B sin bx + (1 - A) cosh bx - B sinh bx`, which is 1 without slope at the clamp. At
+    /// the far end the moment is zero; it is held, or the shear force `EI y'''` accelerates the mass there.
     fn constants(&self, omega: f64, end: FarEnd) -> [f64; 2] {
         let b = self.wavenumber(omega);
         let ((s, c), (sh, ch)) =
@@ -85,8 +85,8 @@ fn reaches([low, high]: [f64; 2], value: f64, amplitude: impl Fn(f64) -> f64) ->
     zero(low, high, |frequency| amplitude(2.0 * PI * frequency) - value)
 }
 
-/// Amplitude of the last of four masses of 1 kg in a row on springs of 1 kN/m, relative to a base that moves by
-/// 1 mm, with damping ratio 0.02: the sum over the modes `sin((2j - 1) i pi/9)`.
+/// Amplitude of the last of four masses of 1 kg in a row on springs of 1 kN/m, relative to a base that moves
+/// by 1 mm, with damping ratio 0.02: the sum over the modes `sin((2j - 1) i pi/9)`.
 fn last_of_four(omega: f64) -> f64 {
     let sum = (1..=4).map(|mode| {
         let angle = f64::from(2 * mode - 1) * PI / 9.0;

@@ -57,27 +57,28 @@ impl Documented {
     fn study(&self) -> (String, &'static str) {
         let with = |more: &str| format!("{BEAM}\n{more}");
         let stop = |law: &str| with(&format!("[[stop]]\nname = \"other\"\nat = \"tip\"\nlaw = {law}\n"));
-        let shaken = "kind = \"support-motion\"\nat = \"left\"\namplitude_m = 0.2e-3\n";
-        let excited = |other: &str| BEAM.replace(shaken, other).replace("fixed_to = \"space\"\n", "");
+        let (shaken, range) = (
+            "kind = \"support-motion\"\nat = \"left\"\namplitude_m = 0.2e-3\nfrequency_hz = [5.0, 25.0]\n",
+            "frequency_hz = [5.0, 25.0]\n",
+        );
+        let excited = |other: &str| BEAM.replace(shaken, other);
         match self.heading {
-            "`[structure]` of kind \"beam\"" => (BEAM.to_owned(), "[[structure.point]]"),
+            "`[structure]` of kind \"beam\"" => (BEAM.replace("mass_kg = 0.02\n", ""), "[[structure.point]]"),
             "`[structure]` of kind \"matrices\"" => {
-                let files = "stiffness = \"plate.sti\"\nmass = \"plate.mas\"\ndamping = \"plate.mas\"";
-                (format!("[structure]\nkind = \"matrices\"\n{files}\n"), "kind = \"matrices\"")
+                let files = "stiffness = \"plate.sti\"\nmass = \"plate.mas\"\ndamping = \"plate.mas\"\n";
+                let kind = "[structure]\nkind = \"matrices\"\n";
+                (format!("{kind}{files}[reduction]\nmethod = \"none\"\n"), "kind = \"matrices\"")
             }
             "`[excitation]`" => (BEAM.to_owned(), "[excitation]"),
             "Supports that move differently" => {
-                let supports =
-                    "kind = \"support-motion\"\n[[excitation.support]]\nat = \"left\"\namplitude_m = 1e-3\n";
-                let range = "frequency_hz = [5.0, 25.0]\n";
-                let study = excited("").replace(range, "").replace("[excitation]\n", "[excitation]\n#\n");
-                (study.replace("#\n", &format!("{range}{supports}")), "[[excitation.support]]")
+                let support = |at| format!("[[excitation.support]]\nat = \"{at}\"\namplitude_m = 1e-3\n");
+                let post = "[[structure.point]]\nname = \"post\"\nat_m = 0.25\nsupport = \"pinned\"\n";
+                let supports = [support("left"), support("post"), post.to_owned()].concat();
+                (excited(&format!("kind = \"support-motion\"\n{range}{supports}")), "[[excitation.support]]")
             }
             "Several forces, pairs, unbalance" => {
-                let forces = "kind = \"force\"\n[[excitation.force]]\nat = \"tip\"\namplitude_n = 1.0\n";
-                let range = "frequency_hz = [5.0, 25.0]\n";
-                let study = excited("").replace(range, "").replace("[excitation]\n", "[excitation]\n#\n");
-                (study.replace("#\n", &format!("{range}{forces}")), "[[excitation.force]]")
+                let forces = "[[excitation.force]]\nat = \"tip\"\namplitude_n = 1.0\n";
+                (excited(&format!("kind = \"force\"\n{range}{forces}")), "[[excitation.force]]")
             }
             "Laws" if self.key.starts_with("stiffness_n_m3") => {
                 (stop("\"cubic\"\nstiffness_n_m = 1.0"), "name = \"other\"")
@@ -99,8 +100,8 @@ impl Documented {
             "`[search]`" => (with("[search]"), "[search]"),
             "`[continuation]`" => (with("[continuation]"), "[continuation]"),
             "`[[vary]]`" => {
-                let vary = "[[vary]]\nparameter = \"excitation.amplitude_m\"\nrange = [1e-4, 3e-4]\nfrequency_hz = 9.0";
-                (with(vary), "[[vary]]")
+                let vary = "[[vary]]\nparameter = \"excitation.amplitude_m\"\nrange = [1e-4, 3e-4]";
+                (with(&format!("{vary}\nfrequency_hz = 9.0")), "[[vary]]")
             }
             "`[[curve]]`" => {
                 let curve =
@@ -139,7 +140,8 @@ fn defaults_of_the_page_are_those_of_the_readers() {
         let expected = read(&study).unwrap_or_else(|| panic!("the study for {place} is refused:\n{study}"));
         let written = with(&default).unwrap_or_else(|| panic!("{place} = {default} is refused"));
         assert!(written == expected, "{default} is not the default of {place}");
-        let others = ["1", "2", "0.002", "7", "false", "\"pinned\"", "\"at-rest\"", "[2]", "[900.0]"];
+        let others =
+            ["1", "2", "1e-9", "77", "0.002", "7", "false", "\"pinned\"", "\"at-rest\"", "[2]", "[900.0]"];
         let changes = |other: &&str| with(other).is_some_and(|study| study != expected);
         assert!(others.iter().any(|other| changes(&other)), "nothing changes {place}");
         literal += 1;
