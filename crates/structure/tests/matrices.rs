@@ -153,9 +153,9 @@ fn masses_between_springs_are_the_same_as_matrices() {
     assert_alike(&found.model, &expected.model, 1e-12);
 }
 
-/// A base that was left out of the matrices cannot be let go: the basis is that of the structure on it, exact in
-/// its kept modes `phi_k = sin((2 k - 1) i pi/(2 n + 1))`, in what drives them, `phi_k^T M 1`, and in the static
-/// answer of the last mass, `n` springs in series.
+/// A base that was left out of the matrices cannot be let go: the basis is that of the structure on it. It
+/// is exact in its kept modes `phi_k = sin((2 k - 1) i pi/(2 n + 1))`, in what drives them, `phi_k^T M 1`,
+/// and in the static answer of the last mass, `n` springs in series.
 #[test]
 fn free_interface_modes_on_a_base_that_was_left_out_are_those_of_the_structure_on_it() {
     let n = 8;

@@ -13,8 +13,8 @@ impl StoredBranches {
     /// Where the mirror image of a branch is; `None` of a system without symmetry, and of a branch whose
     /// motion cannot be computed.
     ///
-    /// The image is that of an orbit at a third of the branch. A closed branch of asymmetric orbits that starts
-    /// where it leaves symmetric ones meets them again in its middle, and these are their own images.
+    /// The image is that of an orbit at a third of the branch. A closed branch of asymmetric orbits that
+    /// starts where it leaves symmetric ones meets them again in its middle, and these are their own images.
     ///
     /// # Errors
     /// The store refuses.

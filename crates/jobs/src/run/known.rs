@@ -89,8 +89,9 @@ fn first_before(
     Ok(None)
 }
 
-/// Whether the branch of a start begins, ends or is crossed at this branch point, by another row than the one
-/// from which the new branch leaves: that row is the branch point itself, and says nothing of what crosses it.
+/// Whether the branch of a start begins, ends or is crossed at this branch point, by another row than the
+/// one from which the new branch leaves: that one is the branch point itself, and says nothing of what
+/// crosses it.
 pub(super) fn has_branch_point(
     store: &Store,
     solver: &dyn Solver,

@@ -3,10 +3,11 @@
 //!
 //! The basis `T = [Phi_k Psi]` has the kept modes and, for each interface load, what the deleted modes answer
 //! to it, made orthonormal in `K`. In it `K` is `diag(w_k^2, 1)` and `M` is `diag(1, H)`, `H = Psi^T M Psi`.
-//! Free supports are prescribed again by `c p = u`, as for beams. A support of which the matrices hold nothing
-//! cannot be let go: the basis then is that of the structure on it. An interface row without mass may leave a
-//! `Psi` without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the cut-off and
-//! keeps the static flexibility as it is. MacNeal neglects all of `H`: then all of it is what is raised.
+//! Free supports are prescribed again by `c p = u`, as for beams. A support of which the matrices hold
+//! nothing cannot be let go: the basis then is that of the structure on it. An interface row without mass
+//! may leave a `Psi` without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the
+//! cut-off and keeps the static flexibility as it is. MacNeal neglects all of `H`: then all of it is what
+//! is raised.
 //!
 //! # Source
 //! S. Rubin, AIAA J. 13 (1975), 995-1006; R. MacNeal, Computers and Structures 1 (1971), 581-601.
