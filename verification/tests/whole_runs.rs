@@ -121,7 +121,7 @@ fn is_one_closed_branch(results: &Results) {
     let closed: Vec<usize> = (0..results.branches().len())
         .filter(|&k| results.branches()[k].record.up.end.as_ref().unwrap().is_closed())
         .collect();
-    let holding = |k: usize| frequencies(&results, k, BranchEventKind::BranchPoint);
+    let holding = |k: usize| frequencies(results, k, BranchEventKind::BranchPoint);
     let [pair] = closed[..] else { panic!("{closed:?}") };
     // A branch that starts at one of them has it at its start and, once round, at its end.
     let mut ends = holding(pair);
