@@ -53,4 +53,5 @@ def links_out_of_the_book(app, page, source):
 def setup(app):
     """Names the check of links."""
     app.add_lexer("csv", TextLexer)
+    app.add_css_file("pages.css")
     app.connect("source-read", links_out_of_the_book)

@@ -2,8 +2,8 @@
 
     python3 docs/readability.py [--check] [PAGE OR FOLDER ...]
 
-Tables, code and headings are left out. With --check the exit code is 1 if a page has words that are neither in
-the dictionary nor in docs/words.txt.
+Tables, code and headings are left out. With --check the exit code is 1 if a page has a sentence over 30 words, a
+paragraph over five lines of 110 columns, or words that are neither in the dictionary nor in docs/words.txt.
 """
 
 import re
@@ -12,6 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 LONG = 30
+COLUMNS, MOST_LINES = 110, 5
 
 
 def plain(text):
@@ -48,6 +49,16 @@ def words(sentence):
     return [word for word in sentence.split() if re.search(r"\w", word)]
 
 
+def too_long(text):
+    """Sentences and paragraphs that are longer than a page may have."""
+    for paragraph in prose(text):
+        if len(paragraph) > COLUMNS * MOST_LINES:
+            yield f"a paragraph of {-(-len(paragraph) // COLUMNS)} lines, \"{paragraph[:60]} ...\""
+        for sentence in sentences(paragraph):
+            if len(words(sentence)) > LONG:
+                yield f"a sentence of {len(words(sentence))} words, \"{sentence.strip()[:60]} ...\""
+
+
 # Names of libraries, written by a test.
 GENERATED = {"third-party.md"}
 
@@ -80,6 +91,9 @@ def main(arguments):
         lengths = [len(words(sentence)) for paragraph in prose(text) for sentence in sentences(paragraph)]
         lengths_of_all += lengths
         if check:
+            for fault in too_long(text):
+                faults += 1
+                print(f"{page}: {fault}")
             unknown = misspelt(text, dictionary, own)
             faults += len(unknown)
             for word in unknown:

@@ -1,5 +1,5 @@
-"""Checks that every test, test file and source file that the pages of the book name in backticks exists, and
-every equation that a comment in the code cites.
+"""Checks that every test, test file and source file that the pages of the book name in backticks exists, that
+every equation that a comment in the code cites does, and that some comment cites every equation.
 
     python docs/_ext/check_tests.py [PAGE ...]
 
@@ -20,6 +20,38 @@ PAGES = [
     "validation/conclusions.md",
     "validation/impact-oscillator.md",
 ]
+
+
+CITATION = re.compile(r"Equations? ((?:\([A-Z]\d+\)|, | and | to )+) of the book")
+
+
+def cited_by(text):
+    """Labels of the equations that the comments of a source file cite; "(P1) to (P6)" are six."""
+    text = re.sub(r"\n\s*//[/!]? ?", " ", text)
+    for citation in CITATION.findall(text):
+        for first, last in re.findall(r"\(([A-Z]\d+)\)(?: to \(([A-Z]\d+)\))?", citation):
+            last = last or first
+            yield from (f"{first[0]}{number}" for number in range(int(first[1:]), int(last[1:]) + 1))
+
+
+def equations(sources):
+    """What is wrong between the equations of the book and the comments in the code that cite them: each side has
+    to know the other."""
+    labels = {}
+    for page in sorted(DOCS.rglob("*.md")):
+        for label in re.findall(r"^:label: (\w+)$", page.read_text(encoding="utf-8"), re.MULTILINE):
+            if label in labels:
+                yield f"{page.name}: equation ({label}) stands in {labels[label]}, too"
+            labels[label] = page.name
+    cited = set()
+    for path, text in sources.items():
+        for label in cited_by(text):
+            cited.add(label)
+            if label not in labels:
+                yield f"{path}: no equation ({label})"
+    for label, page in labels.items():
+        if label not in cited:
+            yield f"{page}: no comment in the code cites equation ({label})"
 
 
 def main(pages):
@@ -52,18 +84,7 @@ def main(pages):
                     faults.append(f"{page.name}: no file {name}")
             if re.fullmatch(r"(?:studies|verification)/[\w./-]+\.toml", name) and not (ROOT / name).exists():
                 faults.append(f"{page.name}: no study {name}")
-    labels = {
-        label
-        for page in DOCS.rglob("*.md")
-        for label in re.findall(r"^:label: (\w+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
-    }
-    for path in sources:
-        for cited in re.findall(r"Equations? (.*?) of the book", path.read_text(encoding="utf-8")):
-            faults += [
-                f"{path}: no equation ({label})"
-                for label in re.findall(r"\(([A-Z]\d+)\)", cited)
-                if label not in labels
-            ]
+    faults += equations({path: path.read_text(encoding="utf-8") for path in sources})
     print("\n".join(faults) or f"{len(pages)} pages name what exists")
     return 1 if faults else 0
 

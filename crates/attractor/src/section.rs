@@ -1,4 +1,5 @@
 //! What this room needs of a motion: the state, and the fundamental matrix, over one section.
+//! Equation (E1) of the book, `docs/theory`.
 //!
 //! A section is a stretch of the motion that always has the same duration: a part of the excitation period of
 //! a [`System`], of the period or of the time of a vector field, or one step of a map. Sections are counted,

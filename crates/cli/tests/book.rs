@@ -3,6 +3,7 @@
 //! `HAMMERBEAM_UPDATE=1` writes the pictures of the tutorials and the page of commands anew.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod readers;
 mod snippets;
 
 use std::{
@@ -39,24 +40,13 @@ fn is_to_be_updated() -> bool {
     env::var_os("HAMMERBEAM_UPDATE").is_some()
 }
 
-/// Does what a tutorial says, in a folder of its own.
+/// Does what a tutorial says, in a folder of its own that has the files beside the page.
 #[track_caller]
 fn followed(tutorial: &str) -> Workshop {
     let page = fs::read_to_string(root().join(format!("docs/tutorials/{tutorial}.md"))).unwrap();
     let workshop = Workshop::with("");
-    let mut printed = String::new();
-    for snippet in snippets(&page) {
-        match snippet {
-            Snippet::File { name, text } => save(&workshop.path(&name), &text),
-            Snippet::Commands(commands) => {
-                printed = commands.iter().map(|command| output(&workshop, command)).collect();
-            }
-            Snippet::Output(lines) => {
-                let line = missing(&lines, &printed);
-                assert!(line.is_none(), "{tutorial}: \"{}\" is not in\n{printed}", line.unwrap_or_default());
-            }
-        }
-    }
+    copy_files(&root().join("docs/tutorials").join(tutorial), &workshop.path(""));
+    follow(&workshop, &page, tutorial);
     for picture in pictures(&page, tutorial) {
         keep_picture(
             &workshop.path(picture),
@@ -64,6 +54,32 @@ fn followed(tutorial: &str) -> Workshop {
         );
     }
     workshop
+}
+
+/// Copies the files of a folder, if there is one.
+fn copy_files(from: &Path, to: &Path) {
+    for entry in fs::read_dir(from).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        fs::copy(&path, to.join(path.file_name().unwrap())).unwrap();
+    }
+}
+
+/// Saves, runs and compares what a page has, from top to bottom.
+#[track_caller]
+fn follow(workshop: &Workshop, page: &str, name: &str) {
+    let mut printed = String::new();
+    for snippet in snippets(page) {
+        match snippet {
+            Snippet::File { name, text } => save(&workshop.path(&name), &text),
+            Snippet::Commands(commands) => {
+                printed = commands.iter().map(|command| output(workshop, command)).collect();
+            }
+            Snippet::Output(lines) => {
+                let line = missing(&lines, &printed);
+                assert!(line.is_none(), "{name}: \"{}\" is not in\n{printed}", line.unwrap_or_default());
+            }
+        }
+    }
 }
 
 /// Saves a file, or compares it where a command has written it.
@@ -101,6 +117,11 @@ fn the_bump_stop_is_as_its_tutorial_says() {
 #[test]
 fn the_tube_in_a_hole_is_as_its_tutorial_says() {
     followed("tube-in-a-hole");
+}
+
+#[test]
+fn the_plate_of_calculix_is_as_its_tutorial_says() {
+    followed("calculix");
 }
 
 #[test]

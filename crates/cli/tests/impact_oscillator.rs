@@ -1,4 +1,5 @@
 //! The example of an impact oscillator, from the study file to verified branches, against its closed form.
+//! Equations (I1) to (I3) and (G5) of the book, `docs/validation`.
 //!
 //! `x'' + c x' + x = F cos W t`, `x <= g`, `x' -> -e x'`. Over the period `T = 2 pi/W` the free motion is `[a
 //! b; k d]`. An orbit with one impact of the speed v in a period has, with the particular motion p and its

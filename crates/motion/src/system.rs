@@ -1,4 +1,5 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
+//! Equation (F1) of the book, `docs/theory`.
 //!
 //! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q
 //! + sum_s s_es u_s`, with the circular excitation frequency `W = 2 pi f` and the displacements `u_s` of the

@@ -1,4 +1,5 @@
 //! Following the solutions of `R(x, λ) = 0`: `n` equations, `n` unknowns `x`, one parameter `λ`.
+//! Equation (O1) of the book, `docs/theory`.
 //!
 //! # Mathematics
 //! A point is `z = [x; λ]`. Where `[R_x R_λ]` has rank `n` the solutions form a smooth curve with a unit

@@ -153,6 +153,48 @@ fn masses_between_springs_are_the_same_as_matrices() {
     assert_alike(&found.model, &expected.model, 1e-12);
 }
 
+/// A base that was left out of the matrices cannot be let go: the basis is that of the structure on it. It
+/// is exact in its kept modes `phi_k = sin((2 k - 1) i pi/(2 n + 1))`, in what drives them, `phi_k^T M 1`,
+/// and in the static answer of the last mass, `n` springs in series.
+#[test]
+fn free_interface_modes_on_a_base_that_was_left_out_are_those_of_the_structure_on_it() {
+    let n = 8;
+    let stiff: Vec<_> = (0..n)
+        .flat_map(|row| {
+            let own = (row, row, if row + 1 < n { 2.0 } else { 1.0 });
+            [Some(own), (row > 0).then(|| (row, row - 1, -1.0))]
+        })
+        .flatten()
+        .collect();
+    let heavy: Vec<_> = (0..n).map(|row| (row, row, 1.0)).collect();
+    let mut chain = of_matrices(matrix(n, &stiff), matrix(n, &heavy));
+    let label = |node: usize| RowLabel::physical(node as i64 + 1, Direction::Translation(2));
+    chain.components[0].labels = (0..n).map(label).collect();
+    chain.points = vec![at_row("end", n - 1)];
+    chain.supports =
+        vec![MatrixSupport { name: "base".into(), rows: SupportRows::Base, along: [0.0, 0.0, 1.0] }];
+    let angle = |mode: usize| (2.0 * mode as f64 - 1.0) * std::f64::consts::PI / (2.0 * n as f64 + 1.0);
+    let w = |mode: usize| 2.0 * (0.5 * angle(mode)).sin();
+    let cut_off_hz = 0.5 * (w(3) + w(4)) / TAU;
+    for reduction in [Reduction::FreeInterface { cut_off_hz }, Reduction::MacNeal { cut_off_hz }] {
+        let (found, _) = chain.reduce(&[&["base"]], &reduction, &Damping::none(), &["end"]).unwrap();
+        let model = found.model;
+        assert_eq!(model.dof(), 4);
+        let end = &model.point("end").unwrap().shape;
+        for mode in 1..=3 {
+            assert!((model.natural_frequencies[mode - 1] / w(mode) - 1.0).abs() < 1e-12);
+            let shape = |mass: usize| (mass as f64 * angle(mode)).sin();
+            let norm = (0.25 * (2.0 * n as f64 + 1.0)).sqrt();
+            let driven = (1..=n).map(shape).sum::<f64>() / norm;
+            assert!((end[mode - 1].abs() - (shape(n) / norm).abs()).abs() < 1e-12);
+            assert!((model.supports[0].inertia[mode - 1].abs() - driven.abs()).abs() < 1e-12);
+        }
+        let flexibility = &found.tables.flexibility_errors[0];
+        assert!((flexibility.full - n as f64).abs() < 1e-12 * n as f64);
+        assert!(flexibility.relative.abs() < 1e-12);
+    }
+}
+
 /// A chain of `n` unit masses on unit springs, both ends held: `w_k = 2 sin(k pi / (2 n + 2))`. Two chains
 /// that nothing joins have every mode twice, and are too long to be solved whole.
 #[test]

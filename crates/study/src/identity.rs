@@ -7,7 +7,7 @@ use crate::file::Study;
 
 /// Version of the computed data: counted up when the same study gives other numbers, so that a results folder
 /// is never continued with another program's numbers.
-pub const DATA_VERSION: u32 = 19;
+pub const DATA_VERSION: u32 = 20;
 
 impl Study {
     /// Everything the solutions depend on, as text: one `path = value` line for each number and word.

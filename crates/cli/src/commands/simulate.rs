@@ -175,7 +175,7 @@ fn text(report: &SimulationReport, unit: FrequencyUnit) -> String {
         format!("  energy lost in all contacts   {:.3e} J", report.energy_lost_j),
     ];
     if report.is_cut_in_contact {
-        lines.push("    (with what a contact holds that is closed at the begin or the end)".to_owned());
+        lines.push("    (with what a contact holds that is closed at the start or the end)".to_owned());
     }
     if let Some(folder) = &report.results {
         lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));

@@ -13,6 +13,9 @@ impl StoredBranches {
     /// Where the mirror image of a branch is; `None` of a system without symmetry, and of a branch whose
     /// motion cannot be computed.
     ///
+    /// The image is that of an orbit at a third of the branch. A closed branch of asymmetric orbits that
+    /// starts where it leaves symmetric ones meets them again in its middle, and these are their own images.
+    ///
     /// # Errors
     /// The store refuses.
     pub fn mirror_image_of(
@@ -20,12 +23,12 @@ impl StoredBranches {
         model: &Model,
         branch: &StoredBranch,
     ) -> Result<Option<MirrorImage>, StoreError> {
-        let Some(middle) = branch.rows.get(branch.rows.len() / 2).filter(|_| model.system.is_symmetric())
-        else {
+        let third = branch.rows.len().div_ceil(3).min(branch.rows.len().saturating_sub(1));
+        let Some(asked) = branch.rows.get(third).filter(|_| model.system.is_symmetric()) else {
             return Ok(None);
         };
-        let beside = &branch.rows[(branch.rows.len() / 2).saturating_sub(1)];
-        let frequency_hz = 0.5 * (middle.row.frequency_hz + beside.row.frequency_hz);
+        let beside = &branch.rows[third.saturating_sub(1)];
+        let frequency_hz = 0.5 * (asked.row.frequency_hz + beside.row.frequency_hz);
         let multiple = branch.record.period_multiple;
         let stored =
             self.stored_crossings(model, frequency_hz, |record| record.period_multiple == multiple)?;

@@ -217,6 +217,12 @@ impl Agenda {
         self.starts().filter(|start| start.branch.is_some())
     }
 
+    /// The row from which the branch of a start leaves another one, if it does.
+    pub fn left_from(&self, key: u32) -> Option<i64> {
+        let job = self.jobs.iter().find(|job| job.starts.iter().any(|start| start.key == key))?;
+        job.record.source.filter(|_| job.record.kind.leaves_source())
+    }
+
     pub fn start_mut(&mut self, key: u32) -> Option<&mut Start> {
         self.jobs.iter_mut().flat_map(|job| &mut job.starts).find(|start| start.key == key)
     }

@@ -97,9 +97,10 @@ impl Decisions<'_> {
         let solution = self.store.solution(key, Side::Up, 0)?;
         let start = agenda.starts().find(|start| start.key == key);
         let root = start.is_some_and(|start| start.up.rows.first().is_some_and(|row| row.branch_point));
+        let left_from = agenda.left_from(key);
         for other in agenda.accepted() {
             let known = if root {
-                known::has_branch_point(self.store, self.solver, other, &solution)?
+                known::has_branch_point(self.store, self.solver, other, (&solution, left_from))?
             } else {
                 known::lies_on(self.store, self.solver, other, &solution)?
             };

@@ -89,17 +89,20 @@ fn first_before(
     Ok(None)
 }
 
-/// Whether the branch of a start begins, ends or is crossed at this branch point.
+/// Whether the branch of a start begins, ends or is crossed at this branch point, by another row than the
+/// one from which the new branch leaves: that one is the branch point itself, and says nothing of what
+/// crosses it.
 pub(super) fn has_branch_point(
     store: &Store,
     solver: &dyn Solver,
     start: &Start,
-    root: &PeriodicSolution,
+    (root, left_from): (&PeriodicSolution, Option<i64>),
 ) -> Result<bool, StoreError> {
     if start.period_multiple != root.period_multiple {
         return Ok(false);
     }
     let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
+    let places = places.filter(|(key, _)| Some(*key) != left_from);
     let mut near = Vec::new();
     for (key, row) in places {
         let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty);

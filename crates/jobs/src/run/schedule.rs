@@ -171,9 +171,10 @@ fn seems_known(
 ) -> Result<bool, StoreError> {
     let solution = store.solution(start.key, Side::Up, 0)?;
     let root = start.up.rows.first().is_some_and(|row| row.branch_point);
+    let left_from = agenda.left_from(start.key);
     for other in agenda.starts().filter(|other| other.key != start.key) {
         let known = if root {
-            known::has_branch_point(store, solver, other, &solution)?
+            known::has_branch_point(store, solver, other, (&solution, left_from))?
         } else {
             known::lies_on(store, solver, other, &solution)?
         };

@@ -1,5 +1,5 @@
 //! What a contact does to the sensitivities, and keeps in memory, as it closes.
-//! Equations (G2) and (G11) of the book, `docs/theory`.
+//! Equations (G1), (G2) and (G11) of the book, `docs/theory`.
 //!
 //! **Force that jumps.** A damper begins with the force `-c r'`. Where the touch comes earlier by `dr/r'`,
 //! that force acts for so long besides, and its impulse is `-c r' dr/r' = -c dr`. So the sensitivities jump

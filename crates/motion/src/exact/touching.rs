@@ -1,5 +1,6 @@
 //! Open contacts that close while forces act, and closed ones that open: the certified search of a flight
 //! (`clearance.rs`), with forces.
+//! Equations (C6) and (C7) of the book, `docs/theory`.
 //!
 //! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is
 //! a known function too. With the homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`,

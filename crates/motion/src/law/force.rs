@@ -1,4 +1,5 @@
 //! The force of a law at a point, where it begins, and when it presses.
+//! Equation (L1) of the book, `docs/reference`.
 
 /// Force of a law and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,5 @@
 //! Hertz contact of two spheres.
+//! Equations (L5) and (L6) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, HertzStiffness, LawConstant, LawDescription, LawError, LawIdentity, LawKey,

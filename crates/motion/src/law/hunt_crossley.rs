@@ -1,4 +1,5 @@
 //! Hertz contact that loses energy in proportion to its force.
+//! Equations (L7) and (L8) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, ForcePoint, HertzStop, LawAlternative, LawConstant, LawDescription, LawError,

@@ -1,4 +1,5 @@
 //! One-sided linear spring, with or without a damper beside it.
+//! Equations (L2) to (L4) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, ForcePoint, LawConstant, LawDescription, LawError, LawIdentity, LawKey,

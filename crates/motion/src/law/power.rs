@@ -1,4 +1,5 @@
 //! Springs whose force is a power of the displacement, always active.
+//! Equation (L12) of the book, `docs/reference`.
 
 use super::{
     Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawKey, LawKeyKind, LawPart,

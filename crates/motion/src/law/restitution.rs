@@ -1,4 +1,5 @@
 //! Hertz contacts whose loss is set by a coefficient of restitution and by the speed of each impact.
+//! Equation (L9) of the book, `docs/reference`.
 //!
 //! `f = -k p^1.5 (1 + c p'/v)` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The
 //! speed v is that with which the present contact began, so the law has a memory: a contact has to be

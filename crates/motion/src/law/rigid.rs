@@ -1,4 +1,5 @@
 //! Rigid stop with a coefficient of restitution.
+//! Equation (L10) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawKey, LawPart, LawRest,

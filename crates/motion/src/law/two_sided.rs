@@ -1,4 +1,5 @@
 //! Linear springs on both sides of a clearance.
+//! Equation (L11) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, LawConstant, LawDescription, LawError, LawIdentity, LawPart, LawRest, LawSides,

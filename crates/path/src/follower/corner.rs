@@ -1,4 +1,5 @@
 //! A turn sharper than the shortest step: the path has a corner.
+//! Equation (O7) of the book, `docs/theory`.
 //!
 //! Where `R` is continuous and piecewise smooth, `[R_x R_λ]` jumps by a matrix of rank one across the surface
 //! on which its pieces meet, and tangents oriented by the determinant cross that surface in the same sense on

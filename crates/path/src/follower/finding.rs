@@ -1,4 +1,5 @@
 //! The judgement over a corrected candidate: the same smooth arc, an event on the way, or doubt.
+//! Equation (O8) of the book, `docs/theory`.
 
 use super::{attempt::Attempt, closing, locator::Locator};
 use crate::{

@@ -3,9 +3,11 @@
 //!
 //! The basis `T = [Phi_k Psi]` has the kept modes and, for each interface load, what the deleted modes answer
 //! to it, made orthonormal in `K`. In it `K` is `diag(w_k^2, 1)` and `M` is `diag(1, H)`, `H = Psi^T M Psi`.
-//! Free supports are prescribed again by `c p = u`, as for beams. An interface row without mass may leave a
-//! `Psi` without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the cut-off and
-//! keeps the static flexibility as it is. MacNeal neglects all of `H`: then all of it is what is raised.
+//! Free supports are prescribed again by `c p = u`, as for beams. A support of which the matrices hold
+//! nothing cannot be let go: the basis then is that of the structure on it. An interface row without mass
+//! may leave a `Psi` without inertia: its eigenvalue of `H` is then raised, which puts a mode far above the
+//! cut-off and keeps the static flexibility as it is. MacNeal neglects all of `H`: then all of it is what
+//! is raised.
 //!
 //! # Source
 //! S. Rubin, AIAA J. 13 (1975), 995-1006; R. MacNeal, Computers and Structures 1 (1971), 581-601.
@@ -15,7 +17,9 @@ use std::f64::consts::TAU;
 use faer::{Mat, MatRef, Side};
 
 use super::{
+    SymmetricMatrix,
     factor::Pencil,
+    map::CoordinateMap,
     pencil_modes::PencilModes,
     prepared::{Prepared, ReducedModes, Weights, dense, ensure_elastic, over_all},
     statics::Statics,
@@ -50,28 +54,44 @@ impl FreeInterfaceReduction<'_> {
     pub fn modes(&self, loads: &[(String, Weights)]) -> Result<ReducedModes, StructureError> {
         let Self { prepared, full, statics, cut_off_hz, inertia } = *self;
         let (free, all) = (prepared.assembled.free, prepared.assembled.map.columns());
-        if free == all || !cut_off_hz.is_finite() {
+        let chosen = self.free_and_released();
+        if free == chosen.len() || !cut_off_hz.is_finite() {
             ensure_elastic(&prepared.supported, full, cut_off_hz)?;
             let basis = Basis::new(&prepared.supported, full, statics, &loads_over(loads, free), inertia);
             let (frequencies, shapes) = basis.modes(&[])?;
             let kept_hz = full.frequencies.iter().map(|w| w / TAU).collect();
             return Ok(ReducedModes { frequencies, shapes: over_all(&shapes, all), kept_hz });
         }
-        let released =
-            Pencil::new(prepared.assembled.stiffness.clone(), prepared.assembled.mass.clone(), u64::MAX)?;
+        let selected = CoordinateMap::selecting(all, &chosen);
+        let of_chosen = |matrix: &SymmetricMatrix| selected.congruence(matrix);
+        let (stiffness, mass) = (&prepared.assembled.stiffness, &prepared.assembled.mass);
+        let released = Pencil::new(of_chosen(stiffness), of_chosen(mass), u64::MAX)?;
         let (modes, factors) = prepared.modes(&released, cut_off_hz, prepared.assembled.joined.precision)?;
         ensure_elastic(&released, &modes, cut_off_hz)?;
         let statics = Statics::new(&released, &modes, factors);
-        let supports = (free..all).map(|column| (String::new(), vec![(column, 1.0)]));
-        let loads: Vec<(String, Weights)> = supports.chain(loads.iter().cloned()).collect();
-        let basis = Basis::new(&released, &modes, &statics, &loads_over(&loads, all), inertia);
-        let prescribed: Vec<usize> = (free..all).collect();
-        let (frequencies, mut shapes) = basis.modes(&prescribed)?;
-        for &row in &prescribed {
-            shapes.row_mut(row).iter_mut().for_each(|entry| *entry = 0.0);
+        let prescribed: Vec<usize> = (free..chosen.len()).collect();
+        let mut loads = loads_over(loads, all);
+        for load in &mut loads {
+            *load = chosen.iter().map(|&column| load[column]).collect();
         }
+        let unit =
+            |column: usize| (0..chosen.len()).map(|row| if row == column { 1.0 } else { 0.0 }).collect();
+        let loads: Vec<Vec<f64>> = prescribed.iter().map(|&column| unit(column)).chain(loads).collect();
+        let basis = Basis::new(&released, &modes, &statics, &loads, inertia);
+        let (frequencies, shapes) = basis.modes(&prescribed)?;
         let kept_hz = modes.frequencies.iter().map(|w| w / TAU).collect();
+        // Prescribed rows are zero, and so are those of supports that could not be let go.
+        let shapes = over_all(&shapes.subrows(0, free).to_owned(), all);
         Ok(ReducedModes { frequencies, shapes, kept_hz })
+    }
+
+    /// The free coordinates, then those of supports that the matrices know: a column of zeros is no support
+    /// that can be let go.
+    fn free_and_released(&self) -> Vec<usize> {
+        let assembled = &self.prepared.assembled;
+        let (stiff, heavy) = (assembled.stiffness.occupied(), assembled.mass.occupied());
+        let all = assembled.map.columns();
+        (0..all).filter(|&column| column < assembled.free || stiff[column] || heavy[column]).collect()
     }
 }
 

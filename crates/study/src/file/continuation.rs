@@ -13,7 +13,7 @@ pub struct ContinuationTable {
     pub max_step_hz: f64,
     /// Relative tolerance of the periodic solutions.
     pub tolerance: f64,
-    /// Number of shooting segments per excitation period.
+    /// Number of shooting segments of an orbit.
     pub segments: SegmentChoice,
     /// Largest number of solutions on each side of a start; no part of the identity.
     #[serde(skip)]

@@ -69,6 +69,8 @@ pub use support_motion::{MovingSupport, SupportDrive};
 pub use vary::{Curve, CurveOf, Vary};
 
 #[cfg(test)]
+mod defaults;
+#[cfg(test)]
 mod documentation;
 #[cfg(test)]
 mod tests;
