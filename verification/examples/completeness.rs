@@ -6,13 +6,13 @@
 use std::{env, fs, path::Path};
 
 use hammerbeam_verification::{
-    attractors::Effort,
+    attractors::SimulationEffort,
     completeness::check,
     plain::Equations,
-    results::{Failure, Results},
+    results::{BoxedError, Results},
 };
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), BoxedError> {
     let mut arguments: Vec<String> = env::args().skip(1).collect();
     let is_plain = arguments.iter().any(|argument| argument == "--plain");
     arguments.retain(|argument| argument != "--plain");
@@ -25,7 +25,7 @@ fn main() -> Result<(), Failure> {
     let text = fs::read_to_string(study)?;
     let results = Results::read(&text, Path::new(folder))?;
     let plain = is_plain.then(|| Equations::read(&text.parse()?, &results.model)).transpose()?;
-    let effort = Effort { states, longest, patience: 1200 };
+    let effort = SimulationEffort { states, longest, patience: 1200 };
     let report = check(&results, plain.as_ref(), frequencies, &effort, seed as u64)?;
     println!("{} branches, {} frequencies", results.branches().len(), report.frequencies);
     println!("{} motions, {} of them did not settle", report.motions, report.restless);

@@ -17,7 +17,7 @@ use std::{
 use hammerbeam_verification::{
     attractors::Random,
     mutations::{Outcome, PATIENCE, Reader, corpus, mutated, outcome},
-    results::{Failure, Results},
+    results::{BoxedError, Results},
 };
 
 /// A linear study: its results database has every table and few rows.
@@ -38,7 +38,7 @@ frequencies = 1
 max_step_hz = 0.002
 "#;
 
-fn main() -> Result<ExitCode, Failure> {
+fn main() -> Result<ExitCode, BoxedError> {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let number = |index: usize| arguments.get(index).map(|text| text.parse::<u64>()).transpose();
     let (time, seed) = (Duration::from_secs(number(0)?.unwrap_or(60)), number(1)?.unwrap_or(1));
@@ -60,7 +60,7 @@ fn main() -> Result<ExitCode, Failure> {
 }
 
 /// Mutates for a reader, and says how many inputs made it fail.
-fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usize, Failure> {
+fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usize, BoxedError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut inputs = corpus(reader, &root)?;
     if reader == Reader::Results {
@@ -94,7 +94,7 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
 }
 
 /// The outcome of an input, on a thread of its own: one that never ends is slow, too, and ends the program.
-fn watched(reader: Reader, folder: &Path, bytes: Vec<u8>) -> Result<(Outcome, Duration), Failure> {
+fn watched(reader: Reader, folder: &Path, bytes: Vec<u8>) -> Result<(Outcome, Duration), BoxedError> {
     fs::write(folder.join("input"), &bytes)?;
     let (sender, receiver) = mpsc::channel();
     let folder = folder.to_owned();

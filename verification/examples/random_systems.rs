@@ -9,10 +9,10 @@ use hammerbeam_verification::{
     attractors::Random,
     random_study::random_study,
     relations::{Answers, AnswersError, Limits, Units, differences},
-    results::Failure,
+    results::BoxedError,
 };
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), BoxedError> {
     let mut numbers = env::args().skip(1).map(|text| text.parse::<u64>());
     let first = numbers.next().ok_or("the first seed and how many")??;
     let Some(count) = numbers.next().transpose()? else {
@@ -35,7 +35,8 @@ fn main() -> Result<(), Failure> {
                 let (branches, rows, events) = (study.branches.len(), study.solutions, study.events.len());
                 let count = found.len();
                 println!(
-                    "{seed}: {branches} branches, {rows} rows, {events} events, {count} differences, {seconds:.1} s"
+                    "{seed}: {branches} branches, {rows} rows, {events} events, {count} differences, \
+                    {seconds:.1} s"
                 );
                 found.iter().for_each(|difference| println!("{seed}:   {difference}"));
                 if found.is_empty() { same += 1 } else { different += 1 }
@@ -51,7 +52,7 @@ fn main() -> Result<(), Failure> {
 }
 
 fn answers(study: &toml::Table, units: Units, limits: &Limits) -> Result<Answers, AnswersError> {
-    let folder = tempfile::tempdir().map_err(Failure::from)?;
+    let folder = tempfile::tempdir().map_err(BoxedError::from)?;
     Answers::of(study, units, limits, folder.path())
 }
 

@@ -5,7 +5,7 @@ use std::{env, fs};
 
 use hammerbeam_verification::{
     relations::{Answers, Limits, Relation, Units, differences},
-    results::Failure,
+    results::BoxedError,
 };
 
 const RELATIONS: [Relation; 4] = [
@@ -15,7 +15,7 @@ const RELATIONS: [Relation; 4] = [
     Relation::Swapped,
 ];
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), BoxedError> {
     for path in env::args().skip(1) {
         let study = fs::read_to_string(&path)?.parse()?;
         let answers = |relation: Option<&Relation>| {
@@ -23,7 +23,7 @@ fn main() -> Result<(), Failure> {
                 (relation.of(&study), relation.units())
             });
             let folder = tempfile::tempdir()?;
-            Ok::<_, Failure>(Answers::of(&study, units, &Limits::default(), folder.path())?)
+            Ok::<_, BoxedError>(Answers::of(&study, units, &Limits::default(), folder.path())?)
         };
         let reference = answers(None)?;
         println!(

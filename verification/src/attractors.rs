@@ -11,12 +11,12 @@ use hammerbeam_study::{Model, PointStart, PointStartKind};
 
 use crate::{
     plain::{Coordinates, Equations, PlainMotion},
-    results::Failure,
+    results::BoxedError,
 };
 
 /// How much is simulated.
 #[derive(Debug, Clone, Copy)]
-pub struct Effort {
+pub struct SimulationEffort {
     /// Random states at a frequency.
     pub states: usize,
     /// Longest period looked for, in excitation periods.
@@ -27,7 +27,7 @@ pub struct Effort {
 
 /// A motion that repeats.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Attractor {
+pub struct SurveyedAttractor {
     /// Excitation frequency [Hz].
     pub frequency_hz: f64,
     /// Its states at phase 0, one for each of its excitation periods.
@@ -36,7 +36,7 @@ pub struct Attractor {
     pub motions: usize,
 }
 
-impl Attractor {
+impl SurveyedAttractor {
     /// Orbit period over excitation period.
     #[must_use]
     pub fn period(&self) -> usize {
@@ -58,7 +58,7 @@ impl<'a> Simulator<'a> {
     ///
     /// # Errors
     /// The system has something that it cannot follow.
-    pub fn exact(system: &System, frequency_hz: f64) -> Result<Self, Failure> {
+    pub fn exact(system: &System, frequency_hz: f64) -> Result<Self, BoxedError> {
         let integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
         Ok(Self::Exact(Box::new(integrator), Stretch { frequency_hz, start: 0.0, end: 1.0 }))
     }
@@ -73,7 +73,7 @@ impl<'a> Simulator<'a> {
     ///
     /// # Errors
     /// The motion cannot be computed.
-    pub fn period(&mut self, state: &[f64]) -> Result<Vec<f64>, Failure> {
+    pub fn period(&mut self, state: &[f64]) -> Result<Vec<f64>, BoxedError> {
         match self {
             Self::Exact(integrator, stretch) => Ok(integrator.advance(stretch, state)?),
             Self::Plain(motion, model, frequency_hz) => {
@@ -112,7 +112,7 @@ fn of_modes(
     model: &Model,
     frequency_hz: f64,
     state: Vec<f64>,
-) -> Result<Vec<f64>, Failure> {
+) -> Result<Vec<f64>, BoxedError> {
     let Coordinates::Masses(names) = motion.coordinates() else { return Ok(state) };
     let (y, v) = state.split_at(names.len());
     let starts = |values: &[f64], kind: PointStartKind| -> Vec<PointStart> {
@@ -170,10 +170,10 @@ pub fn attractors(
     simulator: &mut Simulator,
     frequency_hz: f64,
     size: f64,
-    effort: &Effort,
+    effort: &SimulationEffort,
     random: &mut Random,
-) -> Result<(Vec<Attractor>, usize), Failure> {
-    let (mut found, mut restless): (Vec<Attractor>, usize) = (Vec::new(), 0);
+) -> Result<(Vec<SurveyedAttractor>, usize), BoxedError> {
+    let (mut found, mut restless): (Vec<SurveyedAttractor>, usize) = (Vec::new(), 0);
     for _ in 0..effort.states {
         let mut start = random_state(system, size, random);
         while !simulator.may_begin(&start) {
@@ -192,7 +192,7 @@ pub fn attractors(
             let repeats = |period: &usize| distance(system, &states[last], &states[last - period]) < REPEATED;
             if let Some(period) = (1..=effort.longest).find(repeats) {
                 let states = states[last + 1 - period..].to_vec();
-                found.push(Attractor { frequency_hz, states, motions: 1 });
+                found.push(SurveyedAttractor { frequency_hz, states, motions: 1 });
                 settled = true;
                 break;
             }
@@ -207,7 +207,7 @@ fn followed(
     simulator: &mut Simulator,
     mut states: Vec<Vec<f64>>,
     longest: usize,
-) -> Result<Vec<Vec<f64>>, Failure> {
+) -> Result<Vec<Vec<f64>>, BoxedError> {
     for _ in 0..BETWEEN_LOOKS {
         let next = simulator.period(&states[states.len() - 1])?;
         states.push(next);
@@ -217,7 +217,7 @@ fn followed(
     Ok(states)
 }
 
-fn is_on(system: &System, attractor: &Attractor, state: &[f64]) -> bool {
+fn is_on(system: &System, attractor: &SurveyedAttractor, state: &[f64]) -> bool {
     attractor.states.iter().any(|known| distance(system, known, state) < ARRIVED)
 }
 

@@ -12,9 +12,9 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
 
 use crate::{
-    attractors::{Attractor, Effort, Random, Simulator, attractors, distance},
+    attractors::{Random, SimulationEffort, Simulator, SurveyedAttractor, attractors, distance},
     plain::Equations,
-    results::{Failure, Results},
+    results::{BoxedError, Results},
 };
 
 /// Distance of an attractor from an orbit of a branch, relative to it, up to which they are the same.
@@ -32,7 +32,7 @@ pub struct Report {
     /// Attractors found, by period.
     pub found: Vec<usize>,
     /// Attractors that are on no branch.
-    pub missing: Vec<Attractor>,
+    pub missing: Vec<SurveyedAttractor>,
 }
 
 impl Report {
@@ -53,9 +53,9 @@ pub fn check(
     results: &Results,
     plain: Option<&Equations>,
     frequencies: usize,
-    effort: &Effort,
+    effort: &SimulationEffort,
     seed: u64,
-) -> Result<Report, Failure> {
+) -> Result<Report, BoxedError> {
     let mut random = Random::new(seed);
     let [low, high] = results.range_hz;
     let mut report = Report::of(effort);
@@ -74,9 +74,9 @@ pub fn check_at(
     results: &Results,
     plain: Option<&Equations>,
     frequencies_hz: &[f64],
-    effort: &Effort,
+    effort: &SimulationEffort,
     seed: u64,
-) -> Result<Report, Failure> {
+) -> Result<Report, BoxedError> {
     let mut random = Random::new(seed);
     let mut report = Report::of(effort);
     for frequency_hz in frequencies_hz {
@@ -86,7 +86,7 @@ pub fn check_at(
 }
 
 impl Report {
-    fn of(effort: &Effort) -> Self {
+    fn of(effort: &SimulationEffort) -> Self {
         Self { found: vec![0; effort.longest + 1], ..Self::default() }
     }
 
@@ -95,9 +95,9 @@ impl Report {
         results: &Results,
         plain: Option<&Equations>,
         frequency_hz: f64,
-        effort: &Effort,
+        effort: &SimulationEffort,
         random: &mut Random,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), BoxedError> {
         let mut orbits: Vec<Vec<PeriodicSolution>> = vec![Vec::new()];
         for multiple in 1..=effort.longest {
             let crossing = results.crossings(frequency_hz, multiple as u32)?;
@@ -145,7 +145,7 @@ fn energy_norm(results: &Results, orbit: &PeriodicSolution) -> f64 {
 
 /// A motion that creeps alternately towards an orbit seems to have a multiple of its period: shooting from
 /// there tells.
-fn shortest(results: &Results, attractor: Attractor) -> Attractor {
+fn shortest(results: &Results, attractor: SurveyedAttractor) -> SurveyedAttractor {
     let guess = |state: &[f64], period: usize| PeriodicSolution {
         frequency_hz: attractor.frequency_hz,
         period_multiple: period as u32,
@@ -164,7 +164,7 @@ fn shortest(results: &Results, attractor: Attractor) -> Attractor {
             let off = distance(&results.model.system, &attractor.states[0], &there);
             if off < SAME {
                 let states = attractor.states[..shorter].to_vec();
-                return Attractor { states, ..attractor };
+                return SurveyedAttractor { states, ..attractor };
             }
         }
     }

@@ -61,12 +61,14 @@ fn excitation(masses: usize, [low, high]: [f64; 2], random: &mut Random) -> Stri
     let (size, phase) = (between(random, 0.3, 1.0), between(random, 0.0, 6.0));
     let mut text = if random.part() < 0.3 {
         format!(
-            "[excitation]\nkind = \"support-motion\"\nat = \"ground\"\namplitude_m = {size}\n{range}\nphase_rad = {phase}\n\n"
+            "[excitation]\nkind = \"support-motion\"\nat = \"ground\"\namplitude_m = \
+            {size}\n{range}\nphase_rad = {phase}\n\n"
         )
     } else {
         let at = 1 + pick(random, masses);
         format!(
-            "[excitation]\nkind = \"force\"\nat = \"{at}\"\namplitude_n = {size}\n{range}\nphase_rad = {phase}\n\n"
+            "[excitation]\nkind = \"force\"\nat = \"{at}\"\namplitude_n = {size}\n{range}\nphase_rad = \
+            {phase}\n\n"
         )
     };
     if random.part() < 0.3 {
@@ -107,7 +109,8 @@ fn stop(masses: usize, random: &mut Random) -> String {
             format!("law = \"hunt-crossley\"\nstiffness_n_m15 = {stiffness}\nloss_s_m = {loss}\n{one_sided}")
         }
         5 => format!(
-            "law = \"lankarani-nikravesh\"\nstiffness_n_m15 = {stiffness}\nrestitution = {restitution}\n{one_sided}"
+            "law = \"lankarani-nikravesh\"\nstiffness_n_m15 = {stiffness}\nrestitution = \
+            {restitution}\n{one_sided}"
         ),
         6 => format!("law = \"rigid\"\nrestitution = {restitution}\n{one_sided}"),
         7 => format!("law = \"two-sided\"\nstiffness_n_m = {stiffness}\ngap_m = {gap}\n"),

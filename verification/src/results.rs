@@ -11,7 +11,7 @@ use hammerbeam_results::{Store, store::BranchRecord};
 use hammerbeam_study::{Model, StudyFile};
 
 /// What ends a check before it has a result.
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+pub type BoxedError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Stored branches of a study, with its model.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Results {
     ///
     /// # Errors
     /// The study is wrong, or the store refuses.
-    pub fn of_run(text: &str, folder: &Path, threads: usize) -> Result<Self, Failure> {
+    pub fn of_run(text: &str, folder: &Path, threads: usize) -> Result<Self, BoxedError> {
         Self::of_watched_run(text, folder, threads, &mut Quiet)
     }
 
@@ -41,7 +41,7 @@ impl Results {
         folder: &Path,
         threads: usize,
         observer: &mut dyn Observer,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, BoxedError> {
         let file = StudyFile::parse("study.toml", text.to_owned())?;
         let model = Model::build(&file)?;
         let mut store = Store::open_for_run(folder, &file)?;
@@ -55,7 +55,7 @@ impl Results {
     ///
     /// # Errors
     /// The study is wrong, or the store refuses.
-    pub fn read(text: &str, folder: &Path) -> Result<Self, Failure> {
+    pub fn read(text: &str, folder: &Path) -> Result<Self, BoxedError> {
         let file = StudyFile::parse("study.toml", text.to_owned())?;
         let model = Model::build(&file)?;
         let stored = StoredBranches::open(folder, &file)?;
@@ -77,7 +77,7 @@ impl Results {
         &self,
         frequency_hz: f64,
         period_multiple: u32,
-    ) -> Result<Vec<(u32, PeriodicSolution)>, Failure> {
+    ) -> Result<Vec<(u32, PeriodicSolution)>, BoxedError> {
         let wanted = |record: &BranchRecord| record.period_multiple == period_multiple;
         Ok(self.stored.crossings(&self.model, frequency_hz, wanted)?)
     }

@@ -9,7 +9,7 @@ use std::sync::{Mutex, OnceLock};
 use crate::common::extensive;
 use hammerbeam_orbit::{Matcher, OrbitSettings};
 use hammerbeam_verification::{
-    attractors::{Effort, Random},
+    attractors::{Random, SimulationEffort},
     completeness::check,
     results::Results,
 };
@@ -69,7 +69,7 @@ fn every_periodic_attractor_of_the_beam_is_on_a_branch() {
     let folder = tempfile::tempdir().unwrap();
     let results = Results::of_run(&beam(), folder.path(), 2).unwrap();
     let (frequencies, states) = if extensive() { (200, 100) } else { (12, 12) };
-    let effort = Effort { states, longest: 8, patience: 1200 };
+    let effort = SimulationEffort { states, longest: 8, patience: 1200 };
     let report = check(&results, None, frequencies, &effort, 1).unwrap();
     assert!(report.attractors() > frequencies / 2, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
@@ -79,7 +79,7 @@ fn every_periodic_attractor_of_the_beam_is_on_a_branch() {
 fn every_periodic_attractor_of_random_motions_is_on_a_branch() {
     let guard = results().lock().unwrap();
     let (frequencies, states) = if extensive() { (200, 100) } else { (12, 12) };
-    let effort = Effort { states, longest: 6, patience: 1200 };
+    let effort = SimulationEffort { states, longest: 6, patience: 1200 };
     let report = check(&guard.0, None, frequencies, &effort, 1).unwrap();
     assert!(report.attractors() > frequencies, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);

@@ -1,10 +1,10 @@
 //! The hardening Duffing oscillator `x'' + 2 z x' + x + a x^3 = F cos W t`: its folds by two other means.
 //!
-//! | | |
-//! |---|---|
-//! | harmonic balance with the orders 0 to 25, own continuation and fold finding | folds to all digits that an orbit has |
-//! | harmonic balance with the first order, in closed form | folds to the second order of a weak nonlinearity |
-//! | Brennan, Kovacic, Carrella and Waters, J. Sound Vib. 318 (2008), 1250-1261 | the same for light damping: jump-down and jump-up |
+//! * harmonic balance with the orders 0 to 25, own continuation and fold finding: folds to all digits that an
+//!   orbit has.
+//! * harmonic balance with the first order, in closed form: folds to the second order of a weak nonlinearity.
+//! * Brennan, Kovacic, Carrella and Waters, J. Sound Vib. 318 (2008), 1250-1261: the same for light damping:
+//!   jump-down and jump-up.
 //!
 //! No publication was found that prints fold frequencies to more digits than its formulas give.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]

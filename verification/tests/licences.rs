@@ -20,8 +20,10 @@ const ALLOWED: [&str; 11] = [
     "Zlib",
 ];
 
-const HEAD: &str = "# Third-party code\n\nWhat is built into the program besides this repository, with its licence; made by \
-    the test `licences`\nof `verification` (`HAMMERBEAM_UPDATE=1`). The texts of the licences are in the packages. \
+const HEAD: &str = "# Third-party code\n\nWhat is built into the program besides this repository, with its \
+licence; made by \
+    the test `licences`\nof `verification` (`HAMMERBEAM_UPDATE=1`). The texts of the licences are in the \
+    packages. \
     The figures\nhold the font Arimo (SIL Open Font License), the page holds uPlot (MIT).\n\n\
     | package | version | licence |\n|---|---|---|\n";
 

@@ -6,7 +6,7 @@ use hammerbeam_jobs::OrbitSolver;
 use hammerbeam_orbit::{Matcher, OrbitSettings};
 use hammerbeam_study::StudyFile;
 use hammerbeam_verification::{
-    attractors::Effort,
+    attractors::SimulationEffort,
     completeness::{Report, check_at},
     results::Results,
 };
@@ -29,14 +29,14 @@ fn five() -> &'static Mutex<(Results, TempDir)> {
 fn a_stable_solution_of_three_periods_within_narrow_impacts_is_on_a_branch() {
     let folder = tempfile::tempdir().unwrap();
     let results = Results::of_run(SWITCH, folder.path(), 2).unwrap();
-    let effort = Effort { states: 24, longest: 3, patience: 1200 };
+    let effort = SimulationEffort { states: 24, longest: 3, patience: 1200 };
     let report = check_at(&results, None, &[63.5e3, 63.6e3, 63.9e3, 64.7e3, 65.5e3], &effort, 1).unwrap();
     assert!(report.found[3] >= 2, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
 
 fn of_simulation(results: &Results) -> Report {
-    let effort = Effort { states: 60, longest: 6, patience: 6000 };
+    let effort = SimulationEffort { states: 60, longest: 6, patience: 6000 };
     check_at(results, None, &[0.35, 0.5], &effort, 1).unwrap()
 }
 

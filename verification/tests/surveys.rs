@@ -5,7 +5,9 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
 use crate::common::extensive;
-use hammerbeam_verification::{attractors::Effort, completeness::check, plain::Equations, results::Results};
+use hammerbeam_verification::{
+    attractors::SimulationEffort, completeness::check, plain::Equations, results::Results,
+};
 
 /// The study with the search as it is by default, and periods 1 to 4.
 fn asked(text: &str) -> toml::Table {
@@ -21,7 +23,7 @@ fn survey((name, text): (&str, &str), (frequencies, states): (usize, usize)) {
     let folder = tempfile::tempdir().unwrap();
     let results = Results::of_run(&study.to_string(), folder.path(), 2).unwrap();
     let plain = Equations::read(&study, &results.model).unwrap();
-    let effort = Effort { states, longest: 4, patience: 1200 };
+    let effort = SimulationEffort { states, longest: 4, patience: 1200 };
     let report = check(&results, Some(&plain), frequencies, &effort, 5).unwrap();
     assert!(report.attractors() >= frequencies - 1, "{name}: {report:?}");
     assert!(report.missing.is_empty(), "{name}: {report:?}");

@@ -7,7 +7,7 @@
 use crate::common::extensive;
 use hammerbeam_orbit::{BranchEventKind, OrbitSettings};
 use hammerbeam_verification::{
-    attractors::{Effort, Random, Simulator, attractors, distance},
+    attractors::{Random, SimulationEffort, Simulator, attractors, distance},
     results::Results,
 };
 
@@ -82,7 +82,7 @@ fn simulation_finds_period_three_within_the_isola_only() {
     let results = isola();
     let folds = frequencies(&results, 0, BranchEventKind::Fold);
     let mut random = Random::new(5);
-    let effort = Effort { states: 40, longest: 3, patience: 600 };
+    let effort = SimulationEffort { states: 40, longest: 3, patience: 600 };
     for share in [-0.05, 0.15, 0.5, 1.05] {
         let at = folds[0] + share * (folds[1] - folds[0]);
         let system = &results.model.system;

@@ -66,7 +66,7 @@ pub use grid::{Axis, Grid};
 pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov};
 pub use parallel::{InOrder, OneByOne};
 pub use part::Part;
-pub use poincare::{Section, SectionPoint, poincare};
+pub use poincare::{PoincareSection, SectionPoint, poincare};
 pub use section::{FieldMap, SectionMap, StepMap, SystemMap, WATCHED_PERIODS, state_scales};
 pub use settle::{Patience, Settled, distance, settle};
 pub use simulate::{ContactRecord, Sample, Simulation, SimulationCheckpoint};

@@ -4,7 +4,7 @@ use crate::{AttractorError, Simulation};
 
 /// Where a motion is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Section {
+pub enum PoincareSection {
     /// Once in every excitation period, at this phase, from 0 to 1 [cycles].
     Stroboscopic {
         /// The phase.
@@ -37,14 +37,14 @@ pub struct SectionPoint {
 /// such element.
 pub fn poincare(
     simulation: &mut Simulation,
-    section: Section,
+    section: PoincareSection,
     periods: u64,
 ) -> Result<Vec<SectionPoint>, AttractorError> {
     check(simulation, section)?;
     let mut points = Vec::new();
     for _ in 0..periods {
         match section {
-            Section::Stroboscopic { phase } => {
+            PoincareSection::Stroboscopic { phase } => {
                 let (samples, _) = simulation.period_at(&[phase])?;
                 points.extend(samples.into_iter().map(|sample| SectionPoint {
                     time: sample.time,
@@ -53,19 +53,19 @@ pub fn poincare(
                     impact_velocity: 0.0,
                 }));
             }
-            Section::Touch { element } => points.extend(touches(simulation, element)?),
+            PoincareSection::Touch { element } => points.extend(touches(simulation, element)?),
         }
     }
     points.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(points)
 }
 
-fn check(simulation: &Simulation, section: Section) -> Result<(), AttractorError> {
+fn check(simulation: &Simulation, section: PoincareSection) -> Result<(), AttractorError> {
     match section {
-        Section::Stroboscopic { phase } => {
+        PoincareSection::Stroboscopic { phase } => {
             crate::error::ensure("the phase", phase, "from 0 to 1", (0.0..=1.0).contains(&phase))
         }
-        Section::Touch { element } => {
+        PoincareSection::Touch { element } => {
             let elements = simulation.system().elements().len();
             let there = element < elements;
             crate::error::ensure("the element", element as f64, "one of the local elements", there)

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{beam_with, element, hertz, oscillator, paper_beam};
-use hammerbeam_attractor::{AttractorError, ContactRecord, Section, Simulation, poincare};
+use hammerbeam_attractor::{AttractorError, ContactRecord, PoincareSection, Simulation, poincare};
 use hammerbeam_motion::{
     Law, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
@@ -158,7 +158,7 @@ fn contacts_are_joined_over_the_ends_of_periods() {
 #[test]
 fn section_at_touches_lies_on_the_stop() {
     let mut simulation = settled(paper_beam(), 53.0, 100);
-    let points = poincare(&mut simulation, Section::Touch { element: 0 }, 50).unwrap();
+    let points = poincare(&mut simulation, PoincareSection::Touch { element: 0 }, 50).unwrap();
     assert!(points.len() > 50);
     let system = paper_beam();
     for point in points {
@@ -171,7 +171,7 @@ fn section_at_touches_lies_on_the_stop() {
 #[test]
 fn stroboscopic_section_of_a_harmonic_motion_is_one_point() {
     let mut simulation = settled(paper_beam(), 36.0, 400);
-    let points = poincare(&mut simulation, Section::Stroboscopic { phase: 0.25 }, 5).unwrap();
+    let points = poincare(&mut simulation, PoincareSection::Stroboscopic { phase: 0.25 }, 5).unwrap();
     let first = &points[0].state;
     let size = first.iter().fold(0.0_f64, |size, v| size.max(v.abs()));
     for point in &points {
@@ -190,6 +190,9 @@ fn what_makes_no_sense_is_refused() {
     let mut simulation = simulation(paper_beam(), 30.0);
     assert!(matches!(simulation.period(2_000_000), Err(AttractorError::Input { .. })));
     let section = |section| poincare(&mut settled(paper_beam(), 30.0, 0), section, 1);
-    assert!(matches!(section(Section::Touch { element: 7 }), Err(AttractorError::Input { .. })));
-    assert!(matches!(section(Section::Stroboscopic { phase: 1.5 }), Err(AttractorError::Input { .. })));
+    assert!(matches!(section(PoincareSection::Touch { element: 7 }), Err(AttractorError::Input { .. })));
+    assert!(matches!(
+        section(PoincareSection::Stroboscopic { phase: 1.5 }),
+        Err(AttractorError::Input { .. })
+    ));
 }

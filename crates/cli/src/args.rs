@@ -18,7 +18,8 @@ use crate::{
     signal_args::SignalCommand,
 };
 
-const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 interrupted (what is finished is kept).";
+const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 \
+interrupted (what is finished is kept).";
 
 /// The version and, of a release, the commit that it was built from.
 const VERSION: &str = env!("HAMMERBEAM_VERSION");
@@ -154,7 +155,11 @@ pub struct ImportOptions {
     pub mass_matrix: Option<String>,
 
     /// Format of the matrices [default: found out]
-    #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(hammerbeam_matrices::MatrixFormat::names()))]
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        value_parser = clap::builder::PossibleValuesParser::new(hammerbeam_matrices::MatrixFormat::names()),
+    )]
     pub format: Option<String>,
 
     /// Factor that brings the stiffness to N/m
@@ -284,7 +289,12 @@ pub struct ExportOptions {
     pub branch: Vec<u32>,
 
     /// Samples of an orbit in an excitation period
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 256,
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000),
+    )]
     pub samples: u32,
 
     /// Folder to write into [default: RESULTS/export]

@@ -28,7 +28,13 @@ pub struct CompareOptions {
     pub frequency_factor: Option<f64>,
 
     /// Offset added to measured frequencies, instead of a factor
-    #[arg(long, value_name = "HZ", conflicts_with = "frequency_factor", value_parser = number, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "HZ",
+        conflicts_with = "frequency_factor",
+        value_parser = number,
+        allow_negative_numbers = true,
+    )]
     pub frequency_offset: Option<f64>,
 
     /// Fit an offset of the frequency instead of a factor, from -15 to 18 % of the median frequency of the
@@ -41,7 +47,13 @@ pub struct CompareOptions {
     pub amplitude_factor: Option<f64>,
 
     /// Ratio of values up to which a branch explains a point
-    #[arg(long, value_name = "RATIO", default_value_t = 1.5, value_parser = above_one, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "RATIO",
+        default_value_t = 1.5,
+        value_parser = above_one,
+        allow_negative_numbers = true,
+    )]
     pub reach: f64,
 
     /// Point of the structure where the sensor is [default: the response point of the study, whose maxima are

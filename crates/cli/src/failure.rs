@@ -12,13 +12,13 @@ use hammerbeam_jobs::{
 };
 use hammerbeam_results::{StoreError, export::ExportError, whole_file::WriteError};
 use hammerbeam_signal::SignalError;
-use hammerbeam_study::{Report, StudyError};
+use hammerbeam_study::{FaultReport, StudyError};
 
 /// Why a command does not end well.
 #[derive(Debug)]
 pub enum Failure {
     /// A study file with faults.
-    Study(Report),
+    Study(FaultReport),
     /// Anything else the user gave that is not right.
     BadInput(String),
     /// There is nothing to give.

@@ -58,7 +58,8 @@ pub fn doubtful_units(report: &MatrixReport) -> Option<String> {
     let is_usual = (LIGHT..=HEAVY).contains(&density);
     (!is_usual && density.is_finite()).then(|| {
         format!(
-            "units        the mass is {density:.1e} kg/m^3 of a cube as long as the structure: are mass, stiffness and \
+            "units        the mass is {density:.1e} kg/m^3 of a cube as long as the structure: are mass, \
+            stiffness and \
              lengths in kg, N/m and m? `mass_factor`, `stiffness_factor` and `length_factor` bring them there"
         )
     })

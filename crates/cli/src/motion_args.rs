@@ -8,7 +8,10 @@ use hammerbeam_jobs::MOST_OF_A_STATE;
 
 use crate::input_args::{StudyInput, excitation_frequency};
 
-const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers q1,..,qn,v1,..,vn of the modal state; POINT.y=METRES,POINT.v=METRES_PER_SECOND,... for points in space, everything else moving as little as possible; or `branch:N` for the orbit in which that branch of --results crosses the frequency";
+const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers \
+q1,..,qn,v1,..,vn of the modal state; POINT.y=METRES,POINT.v=METRES_PER_SECOND,... for points in space, \
+everything else moving as little as possible; or `branch:N` for the orbit in which that branch of --results \
+crosses the frequency";
 
 #[derive(Debug, Args)]
 pub struct SimulateOptions {
@@ -25,11 +28,23 @@ pub struct SimulateOptions {
 
     /// Time that is written down, in seconds: rounded up to whole excitation periods, or, without
     /// [excitation], to intervals of samples
-    #[arg(long, value_name = "S", conflicts_with = "periods", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "S",
+        conflicts_with = "periods",
+        value_parser = seconds,
+        allow_negative_numbers = true,
+    )]
     pub duration: Option<f64>,
 
     /// Excitation periods that are run first and not written down
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        value_parser = whole(0_u64..=100_000_000),
+        allow_negative_numbers = true,
+    )]
     pub transient_periods: u64,
 
     /// Samples in an excitation period [default: 100]
@@ -45,7 +60,13 @@ pub struct SimulateOptions {
     pub initial: String,
 
     /// Phase of the stroboscopic section, from 0 to 1 cycles
-    #[arg(long, value_name = "CYCLES", default_value_t = 0.0, value_parser = phase, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "CYCLES",
+        default_value_t = 0.0,
+        value_parser = phase,
+        allow_negative_numbers = true,
+    )]
     pub section_phase: f64,
 
     /// Results folder whose branches are meant by --initial branch:N
@@ -73,19 +94,43 @@ pub struct LyapunovOptions {
     pub to: Option<f64>,
 
     /// Step of the series [default: a hundredth of the way]
-    #[arg(long, value_name = "HZ", requires = "to", value_parser = excitation_frequency, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "HZ",
+        requires = "to",
+        value_parser = excitation_frequency,
+        allow_negative_numbers = true,
+    )]
     pub step: Option<f64>,
 
     /// Excitation periods averaged over, rounded up to a multiple of 20
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole(20_u64..=100_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1000,
+        value_parser = whole(20_u64..=100_000_000),
+        allow_negative_numbers = true,
+    )]
     pub periods: u64,
 
     /// Excitation periods that are run first
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 200,
+        value_parser = whole(0_u64..=100_000_000),
+        allow_negative_numbers = true,
+    )]
     pub transient_periods: u64,
 
     /// Sections in a period to begin with; each is cut further where tangent vectors grow too differently
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1_u64..=1024), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = whole(1_u64..=1024),
+        allow_negative_numbers = true,
+    )]
     pub sections_per_period: u64,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
@@ -105,19 +150,43 @@ pub struct LyapunovOptions {
 #[derive(Debug, Args)]
 pub struct EffortOptions {
     /// Excitation periods in which a motion is not looked at
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 50,
+        value_parser = whole(0_u64..=100_000_000),
+        allow_negative_numbers = true,
+    )]
     pub transient_periods: u64,
 
     /// Excitation periods after those in which a motion has to repeat
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 500,
+        value_parser = whole(1_u64..=100_000_000),
+        allow_negative_numbers = true,
+    )]
     pub patience_periods: u64,
 
     /// Longest period looked for, in excitation periods
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = whole(1_u16..=1024), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 32,
+        value_parser = whole(1_u16..=1024),
+        allow_negative_numbers = true,
+    )]
     pub longest_period: u16,
 
     /// Excitation periods over which exponents and the 0-1 test of a motion that does not repeat are taken
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole(240_u64..=10_000_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1000,
+        value_parser = whole(240_u64..=10_000_000),
+        allow_negative_numbers = true,
+    )]
     pub averaged_periods: u64,
 }
 
@@ -167,14 +236,26 @@ pub struct SweepOptions {
     pub down: bool,
 
     /// Instead of a sweep: begin at N states at every frequency, the same ones each time
-    #[arg(long, value_name = "N", conflicts_with_all = ["down", "initial"], value_parser = whole(1_u32..=100_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with_all = ["down", "initial"],
+        value_parser = whole(1_u32..=100_000),
+        allow_negative_numbers = true,
+    )]
     pub starts: Option<u32>,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
     pub initial: String,
 
     /// Samples of a motion that does not repeat
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole(1_u32..=100_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 64,
+        value_parser = whole(1_u32..=100_000),
+        allow_negative_numbers = true,
+    )]
     pub samples: u32,
 
     #[command(flatten)]
@@ -213,7 +294,13 @@ pub struct BasinsOptions {
     pub y: AxisOption,
 
     /// Cells along each coordinate
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = whole(1_u32..=10_000), allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 50,
+        value_parser = whole(1_u32..=10_000),
+        allow_negative_numbers = true,
+    )]
     pub grid: u32,
 
     #[command(flatten)]
@@ -248,7 +335,8 @@ pub struct AxisOption {
 fn axis(text: &str) -> Result<AxisOption, String> {
     let form = || {
         format!(
-            "must be NAME=LOW..HIGH, as in q1=-1e-3..1e-3, with numbers from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+            "must be NAME=LOW..HIGH, as in q1=-1e-3..1e-3, with numbers from -{MOST_OF_A_STATE:e} to \
+            {MOST_OF_A_STATE:e}"
         )
     };
     let (name, range) = text.split_once('=').ok_or_else(form)?;

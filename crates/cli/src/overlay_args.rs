@@ -19,7 +19,13 @@ pub struct OverlayOptions {
     pub input: InputOptions,
 
     /// Excitation frequency of the measurement [default: the number before "Hz" in the file's name]
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, conflicts_with = "reference")]
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        conflicts_with = "reference",
+    )]
     pub frequency: Option<f64>,
 
     /// Channel that shows the excitation; its strongest line is the excitation frequency
@@ -51,15 +57,33 @@ pub struct OverlayOptions {
     pub zero_phase: bool,
 
     /// Frequencies of the model over those of the measurement, as `compare` fits it
-    #[arg(long, value_name = "C", default_value_t = 1.0, value_parser = positive_number, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "C",
+        default_value_t = 1.0,
+        value_parser = positive_number,
+        allow_negative_numbers = true,
+    )]
     pub frequency_factor: f64,
 
     /// How far from that frequency orbits are tried, in percent of it
-    #[arg(long, value_name = "PERCENT", default_value_t = 8.0, value_parser = within, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 8.0,
+        value_parser = within,
+        allow_negative_numbers = true,
+    )]
     pub within: f64,
 
     /// Frequency of the orbit, instead
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, conflicts_with_all = ["frequency_factor", "within"])]
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        conflicts_with_all = ["frequency_factor", "within"],
+    )]
     pub at: Option<f64>,
 
     /// Branch of the orbit, by its number [default: all]

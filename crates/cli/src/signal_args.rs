@@ -131,7 +131,13 @@ pub struct SpectrumOptions {
     pub segment: Option<u64>,
 
     /// Part of a segment that the next one shares, 0 to 0.95
-    #[arg(long, value_name = "PART", default_value_t = 0.5, value_parser = overlap, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "PART",
+        default_value_t = 0.5,
+        value_parser = overlap,
+        allow_negative_numbers = true,
+    )]
     pub overlap: f64,
 
     /// What is taken off each segment, for density and power
@@ -171,7 +177,13 @@ pub struct ClassifyOptions {
     pub input: InputOptions,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, conflicts_with = "reference")]
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        conflicts_with = "reference",
+    )]
     pub frequency: Option<f64>,
 
     /// Channel that shows the excitation; its strongest line is the excitation frequency
@@ -282,7 +294,13 @@ pub struct ChainOptions {
     pub sampling: Option<f64>,
 
     /// Standard deviation of the noise, in the sensor's SI unit
-    #[arg(long, value_name = "RMS", default_value_t = 0.0, value_parser = not_negative, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "RMS",
+        default_value_t = 0.0,
+        value_parser = not_negative,
+        allow_negative_numbers = true,
+    )]
     pub noise: f64,
 
     /// Another seed is other noise
@@ -290,7 +308,13 @@ pub struct ChainOptions {
     pub seed: u64,
 
     /// Range of the converter, in the sensor's SI unit; what is beyond is clipped
-    #[arg(long, value_name = "MAX", value_parser = not_negative, allow_negative_numbers = true, requires = "bits")]
+    #[arg(
+        long,
+        value_name = "MAX",
+        value_parser = not_negative,
+        allow_negative_numbers = true,
+        requires = "bits",
+    )]
     pub range: Option<f64>,
 
     /// Bits of the converter

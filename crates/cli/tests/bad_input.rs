@@ -211,7 +211,8 @@ fn flags_out_of_range() {
 const FREE: &str = "[structure]\nkind = \"lumped\"\nmass = [{ name = \"m\", mass_kg = 1.0 }]\n\
     damper = [{ between = [\"m\", \"ground\"], damping_n_s_m = 0.5 }]\n\
     [excitation]\nkind = \"force\"\nat = \"m\"\namplitude_n = 1.0\nfrequency_hz = [1.0, 1.1]\n";
-const STOP_ABOVE: &str = "[[stop]]\nname = \"s\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 1e3\ngap_m = 1.0\nside = \"above\"\n";
+const STOP_ABOVE: &str = "[[stop]]\nname = \"s\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 1e3\ngap_m \
+= 1.0\nside = \"above\"\n";
 
 #[test]
 fn a_structure_that_nothing_holds_has_no_isolated_solutions() {

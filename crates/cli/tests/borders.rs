@@ -185,7 +185,8 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
 /// it is closed throughout, and nothing grazes where that begins.
 #[test]
 fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
-    let stop = "[[stop]]\nname = \"s\"\nat = \"m\"\nside = \"above\"\nlaw = \"hunt-crossley\"\npreload_n = 3.7033\nstiffness_n_m15 = 3.9506e5\nloss_s_m = 54.22";
+    let stop = "[[stop]]\nname = \"s\"\nat = \"m\"\nside = \"above\"\nlaw = \"hunt-crossley\"\npreload_n = \
+    3.7033\nstiffness_n_m15 = 3.9506e5\nloss_s_m = 54.22";
     let drive = "amplitude_n = 1.472\nfrequency_hz = [10.0, 24.0]";
     let workshop = one_mass("5564.1", drive, stop, "0.1");
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));

@@ -193,7 +193,9 @@ fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     table("units.csv", &[0.4, 0.45, 0.5, 0.55], 1e3);
     let far = workshop.hammerbeam(&["compare", "results", "units.csv", "--frequency-factor", "1"]);
     assert_eq!(far.status.code(), Some(1));
-    let reported = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within a factor of 2.25 of it";
+    let reported = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best \
+    shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within \
+    a factor of 2.25 of it";
     assert!(stderr(&far).contains(reported), "{}", stderr(&far));
 }
 
@@ -323,7 +325,8 @@ amplitude_n = [[0.3, 0.1], [0.5, 0.09], [0.8, 0.08]]
 #[test]
 fn a_virtual_rig_goes_through_the_whole_comparison() {
     // The stop is far away, so the one thing that shifts frequencies is the spring.
-    let changed = "[[rig.changes.structure.spring]]\nbetween = [\"mass\", \"ground\"]\nstiffness_n_m = 9.09602741604395\n";
+    let changed = "[[rig.changes.structure.spring]]\nbetween = [\"mass\", \"ground\"]\nstiffness_n_m = \
+    9.09602741604395\n";
     let workshop = Workshop::with(&format!("{OSCILLATOR}{RIG}{changed}"));
     let run = |folder: &str, jobs: &str| {
         let output = workshop.hammerbeam(&["rig", "study.toml", "--out", folder, "--jobs", jobs, "--json"]);

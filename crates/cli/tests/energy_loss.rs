@@ -9,7 +9,8 @@ use serde_json::Value;
 #[test]
 fn a_force_that_is_largest_at_the_border_of_two_steps_is_verified() {
     let one_mass = study("law = \"hu-guo\"\nstiffness_n_m15 = 20.0\nrestitution = 0.7");
-    let second = "[[structure.mass]]\nname = \"second\"\nmass_kg = 0.4\n[[structure.spring]]\nbetween = [\"mass\", \"second\"]\nstiffness_n_m = 3.0\n";
+    let second = "[[structure.mass]]\nname = \"second\"\nmass_kg = 0.4\n[[structure.spring]]\nbetween = \
+    [\"mass\", \"second\"]\nstiffness_n_m = 3.0\n";
     let two_masses = one_mass[..one_mass.find("[[vary]]").unwrap()]
         .replace("[damping]", &format!("{second}[damping]"))
         .replace("stiffness_n_m = 1000.0", "stiffness_n_m = 1.0")

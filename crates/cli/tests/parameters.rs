@@ -222,11 +222,17 @@ fn numbers_that_change_the_modes_vary() {
 /// gap at every row of the curve.
 #[test]
 fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
-    let curves = [("spring.1.stiffness_n_m", [0.8, 1.3]), ("mass.m.mass_kg", [0.8, 1.2])].map(|(key, range)| {
-        format!("[[curve]]\nof = \"grazing\"\nnear_hz = 0.24\nparameter = \"structure.{key}\"\nrange = {range:?}\n")
-    });
-    let stop = "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 30.0\ngap_m = 0.3\nside = \"above\"\n";
-    let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = 0\n[search]\nfrequencies = 2\ntrials = 0\n";
+    let curves =
+        [("spring.1.stiffness_n_m", [0.8, 1.3]), ("mass.m.mass_kg", [0.8, 1.2])].map(|(key, range)| {
+            format!(
+                "[[curve]]\nof = \"grazing\"\nnear_hz = 0.24\nparameter = \"structure.{key}\"\nrange = \
+        {range:?}\n"
+            )
+        });
+    let stop = "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 30.0\ngap_m = \
+    0.3\nside = \"above\"\n";
+    let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = \
+    0\n[search]\nfrequencies = 2\ntrials = 0\n";
     let workshop = Workshop::exported(&format!(
         "{DRIVEN_MASS}frequency_hz = [0.15, 0.4]\n{stop}{rest}{}",
         curves.concat()
@@ -251,7 +257,9 @@ fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
 /// `F/((k - m w^2)^2 + (c w)^2)^(1/2)` at every row of a branch without contact.
 #[test]
 fn the_amplitude_of_a_linear_oscillator_follows_its_damper() {
-    let rest = "frequency_hz = [0.14, 0.16]\n[response]\npoint = \"m\"\nperiod_multiples = [1]\n[search]\nfrequencies = 1\ntrials = 0\n[[vary]]\nparameter = \"structure.damper.1.damping_n_s_m\"\nrange = [0.01, 0.5]\nfrequency_hz = 0.15\n";
+    let rest = "frequency_hz = [0.14, 0.16]\n[response]\npoint = \"m\"\nperiod_multiples = \
+    [1]\n[search]\nfrequencies = 1\ntrials = 0\n[[vary]]\nparameter \
+    = \"structure.damper.1.damping_n_s_m\"\nrange = [0.01, 0.5]\nfrequency_hz = 0.15\n";
     let workshop = Workshop::exported(&format!("{DRIVEN_MASS}{rest}"));
     let found = workshop.table("results/export/parameter_branches.csv");
     assert!(found.len() > 20);

@@ -110,7 +110,8 @@ fn bad_data_files_are_bad_input_and_nothing_is_written() {
 #[test]
 fn a_response_that_is_not_there_is_no_result() {
     let workshop = workshop();
-    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = 3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
+    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = \
+    3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
     fs::write(workshop.path("data.toml"), data).unwrap();
     let output = workshop.hammerbeam(&["update", "study.toml", "data.toml", "--json", "--out", "updated"]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));

@@ -164,7 +164,8 @@ fn branches_and_curves_of_the_example_meet() {
 /// A linear oscillator beside a stop: the curve of grazing orbits is that of the linear amplitude.
 #[test]
 fn a_grazing_curve_is_that_of_the_linear_amplitude() {
-    let stop = "[[stop]]\nname = \"spring\"\nat = \"mass\"\nlaw = \"linear\"\nstiffness_n_m = 3.0\ngap_m = 1.0\nside = \"above\"\n";
+    let stop = "[[stop]]\nname = \"spring\"\nat = \"mass\"\nlaw = \"linear\"\nstiffness_n_m = 3.0\ngap_m = \
+    1.0\nside = \"above\"\n";
     let curve =
         "[[curve]]\nof = \"grazing\"\nnear_hz = 0.13\nparameter = \"stop.1.gap_m\"\nrange = [0.4, 2.0]\n";
     let (structure, _) = STUDY.split_once("[[stop]]").unwrap();
@@ -187,7 +188,8 @@ fn a_grazing_curve_is_that_of_the_linear_amplitude() {
 /// the force.
 #[test]
 fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
-    let curve = "[[curve]]\nof = \"neimark-sacker\"\nnear_hz = 4.0167\nparameter = \"excitation.amplitude_n\"\nrange = [0.9, 2.0]\n";
+    let curve = "[[curve]]\nof = \"neimark-sacker\"\nnear_hz = 4.0167\nparameter \
+    = \"excitation.amplitude_n\"\nrange = [0.9, 2.0]\n";
     let last = |study: &str, name: &str| {
         let workshop = Workshop::with(study);
         assert_success(&workshop.hammerbeam(&RUN));

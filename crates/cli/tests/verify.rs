@@ -236,7 +236,8 @@ fn the_force_of_a_contact_is_judged_by_its_own_depth() {
 fn touches_of_a_damper_that_graze_or_lie_at_the_cut_agree() {
     for damping in [3.0, 12.0] {
         let stop = format!(
-            "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 100.0\ndamping_n_s_m = {damping:?}\ngap_m = 0.3\nside = \"above\"\n"
+            "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 100.0\ndamping_n_s_m \
+            = {damping:?}\ngap_m = 0.3\nside = \"above\"\n"
         );
         let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = 0\n";
         let workshop = Workshop::driven_mass(&format!("frequency_hz = [0.1, 0.4]\n{stop}{rest}"));

@@ -11,8 +11,8 @@ use hammerbeam_structure::{FrequencyError, MeshShape, ModeTables};
 use hammerbeam_study::{
     Model, Study, StudyFile,
     file::{
-        ActingForce, End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure,
-        SupportDrive,
+        ActingForce, EndSupport, ExcitationKind, HarmonicExcitation, Place, StopLaw, StopRest, StopSide,
+        StructureTable, SupportDrive,
     },
 };
 
@@ -58,11 +58,13 @@ fn mesh_modes(study: &Study, model: &Model, mesh: &MeshShape, style: &Style) -> 
 fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureError> {
     let at = |name: &str| position(study, name);
     let points: Vec<(f64, String)> = match &study.structure {
-        Structure::Beam(beam) => beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect(),
-        Structure::Lumped(lumped) => {
+        StructureTable::Beam(beam) => {
+            beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect()
+        }
+        StructureTable::Lumped(lumped) => {
             (0u32..).zip(&lumped.masses).map(|(k, mass)| (f64::from(k), mass.name.clone())).collect()
         }
-        Structure::Matrices(matrices) => {
+        StructureTable::Matrices(matrices) => {
             (0u32..).zip(&matrices.points).map(|(k, point)| (f64::from(k), point.name.clone())).collect()
         }
     };
@@ -88,11 +90,11 @@ fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureEr
     };
     let diagram = ModeDiagram {
         title: study.title.clone(),
-        is_beam: matches!(study.structure, Structure::Beam(_)),
+        is_beam: matches!(study.structure, StructureTable::Beam(_)),
         places: model.outline.iter().map(|place| place.at).collect(),
         ends: match &study.structure {
-            Structure::Beam(beam) => [beam.left, beam.right].map(held),
-            Structure::Lumped(_) | Structure::Matrices(_) => [(false, false); 2],
+            StructureTable::Beam(beam) => [beam.left, beam.right].map(held),
+            StructureTable::Lumped(_) | StructureTable::Matrices(_) => [(false, false); 2],
         },
         points,
         stops: stops.collect(),
@@ -102,20 +104,20 @@ fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureEr
 }
 
 /// Whether an end is held, and whether it cannot turn.
-fn held(end: End) -> (bool, bool) {
+fn held(end: EndSupport) -> (bool, bool) {
     match end {
-        End::Clamped => (true, true),
-        End::Pinned => (true, false),
-        End::Sliding => (false, true),
-        End::Free => (false, false),
+        EndSupport::Clamped => (true, true),
+        EndSupport::Pinned => (true, false),
+        EndSupport::Sliding => (false, true),
+        EndSupport::Free => (false, false),
     }
 }
 
 /// The sides on which a stop stands; a spring that always acts is none.
 fn sides(law: &StopLaw) -> &'static [bool] {
     match law.rest() {
-        StopRest::OneSided { side: Side::Above, .. } => &[true],
-        StopRest::OneSided { side: Side::Below, .. } => &[false],
+        StopRest::OneSided { side: StopSide::Above, .. } => &[true],
+        StopRest::OneSided { side: StopSide::Below, .. } => &[false],
         StopRest::TwoSided { .. } => &[true, false],
         StopRest::Always => &[],
     }
@@ -123,15 +125,15 @@ fn sides(law: &StopLaw) -> &'static [bool] {
 
 fn position(study: &Study, name: &str) -> Option<f64> {
     match (&study.structure, name) {
-        (Structure::Lumped(lumped), _) => {
+        (StructureTable::Lumped(lumped), _) => {
             lumped.masses.iter().position(|mass| mass.name == name).map(|k| k as f64)
         }
-        (Structure::Matrices(matrices), _) => {
+        (StructureTable::Matrices(matrices), _) => {
             matrices.points.iter().position(|point| point.name == name).map(|k| k as f64)
         }
-        (Structure::Beam(_), "left") => Some(0.0),
-        (Structure::Beam(beam), "right") => Some(beam.length_m),
-        (Structure::Beam(beam), _) => {
+        (StructureTable::Beam(_), "left") => Some(0.0),
+        (StructureTable::Beam(beam), "right") => Some(beam.length_m),
+        (StructureTable::Beam(beam), _) => {
             beam.points.iter().find(|point| point.name == name).map(|point| point.at_m)
         }
     }

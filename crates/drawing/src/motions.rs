@@ -2,8 +2,8 @@
 
 use hammerbeam_attractor::{Attractor, Axis, Class, Grid, behind_rigid_stops};
 use hammerbeam_figure::{
-    BasinAttractor, BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, FrequencyUnit, MotionKind,
-    SectionDiagram, SweepDiagram, SweepOrigin, SweptMotion,
+    BasinAttractor, BasinMap, ConvergenceDiagram, DrawnMotion, ExponentDiagram, ExponentPoint, FrequencyUnit,
+    MotionKind, SectionDiagram, SweepDiagram, SweepOrigin,
 };
 use hammerbeam_jobs::{
     JobError, StoredBranches,
@@ -192,8 +192,8 @@ fn ranges_of(seen: &[(f64, bool)]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-fn swept(motion: &SettledMotion) -> SweptMotion {
-    SweptMotion {
+fn swept(motion: &SettledMotion) -> DrawnMotion {
+    DrawnMotion {
         origin: match motion.origin {
             SettledOrigin::Up => SweepOrigin::Up,
             SettledOrigin::Down => SweepOrigin::Down,

@@ -9,7 +9,10 @@ use hammerbeam_figure::{
 use hammerbeam_motion::law::LawSymbol;
 use hammerbeam_study::{
     Study,
-    file::{Approach, Beam, End, FixedTo, Lumped, Place, Side, Stop, StopRest, Structure},
+    file::{
+        Approach, BeamTable, EndSupport, FixedTo, LumpedTable, Place, Stop, StopRest, StopSide,
+        StructureTable,
+    },
 };
 
 /// Most masses that stand well in one column.
@@ -18,14 +21,14 @@ const NARROW: usize = 3;
 /// The sketch.
 pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError> {
     let (layout, style) = match &study.structure {
-        Structure::Beam(beam) => (SketchLayout::Beam(sketched_beam(beam)), Style::single_column()),
-        Structure::Lumped(lumped) => {
+        StructureTable::Beam(beam) => (SketchLayout::Beam(sketched_beam(beam)), Style::single_column()),
+        StructureTable::Lumped(lumped) => {
             let is_narrow = lumped.masses.len() <= NARROW;
             let style = if is_narrow { Style::single_column() } else { Style::double_column() };
             (SketchLayout::Lumped(sketched_masses(lumped)), style)
         }
         // Of matrices nothing is known but the points.
-        Structure::Matrices(matrices) => {
+        StructureTable::Matrices(matrices) => {
             let masses = matrices.points.iter().map(|point| point.name.clone()).collect();
             let layout = SketchLumped { masses, links: Vec::new() };
             (SketchLayout::Lumped(layout), Style::double_column())
@@ -53,8 +56,8 @@ fn moving(study: &Study) -> Vec<SketchMotion> {
     study.excitation.supports().into_iter().enumerate().flat_map(of_support).collect()
 }
 
-fn sketched_beam(beam: &Beam) -> SketchBeam {
-    let point = |point: &hammerbeam_study::file::BeamPoint| SketchPoint {
+fn sketched_beam(beam: &BeamTable) -> SketchBeam {
+    let point = |point: &hammerbeam_study::file::BeamPointTable| SketchPoint {
         name: point.name.clone(),
         at_m: point.at_m,
         has_mass: point.mass_kg > 0.0 || point.rotary_inertia_kg_m2 > 0.0,
@@ -71,16 +74,16 @@ fn sketched_beam(beam: &Beam) -> SketchBeam {
     }
 }
 
-fn end(end: End) -> SketchEnd {
+fn end(end: EndSupport) -> SketchEnd {
     match end {
-        End::Clamped => SketchEnd::Clamped,
-        End::Pinned => SketchEnd::Pinned,
-        End::Sliding => SketchEnd::Sliding,
-        End::Free => SketchEnd::Free,
+        EndSupport::Clamped => SketchEnd::Clamped,
+        EndSupport::Pinned => SketchEnd::Pinned,
+        EndSupport::Sliding => SketchEnd::Sliding,
+        EndSupport::Free => SketchEnd::Free,
     }
 }
 
-fn sketched_masses(lumped: &Lumped) -> SketchLumped {
+fn sketched_masses(lumped: &LumpedTable) -> SketchLumped {
     let number = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
     let link = |between: &[String; 2], is_damper| SketchLink {
         between: [number(&between[0]), number(&between[1])],
@@ -113,9 +116,9 @@ fn sketched_stop(stop: &Stop) -> SketchStop {
             (side, matches!(approach, Approach::Gap { gap_m, .. } if gap_m > 0.0))
         }
         StopRest::TwoSided { gap_above_m, gap_below_m, .. } => {
-            (Side::Above, gap_above_m.max(gap_below_m) > 0.0)
+            (StopSide::Above, gap_above_m.max(gap_below_m) > 0.0)
         }
-        StopRest::Always => (Side::Below, false),
+        StopRest::Always => (StopSide::Below, false),
     };
-    SketchStop { point: point.clone(), carrier, kind, above: side == Side::Above, has_gap }
+    SketchStop { point: point.clone(), carrier, kind, above: side == StopSide::Above, has_gap }
 }

@@ -27,21 +27,20 @@
 //! [`ModeDiagram`] draw themselves; every other kind is a file that turns its data into a `chart`, panels of
 //! layers over one axis:
 //!
-//! | module | contents |
-//! |---|---|
-//! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
-//! | `scale`, `ticks`, `axis`, `axis_unit`, `plot` | linear and logarithmic scales, their ticks, units that suit them, a frame with two axes |
-//! | `stretch` | a branch divided where its stability changes |
-//! | `decimate`, `line` | fewer points for the same line, dashes |
-//! | `chart` | panels on top of each other under one legend |
-//! | `layer` | lines, dots, intervals, cells, shades, reference lines |
-//! | `sketch` | symbols of mechanics: walls, springs, dampers, arrows, dimension lines |
-//! | `marks`, `dots`, `legend` | a mark for each kind of event; the legend |
-//! | `text`, `font` | lines with italic parts, numbers as printed, widths of the bundled font's glyphs |
-//! | `page` | the page that shows a results folder: contents, coding, HTML file; its script is in `page/` |
-//! | `svg` | the few elements we need, in points |
-//! | `png` | the renderer with the bundled font alone; the PNG file is written by `png/file.rs` |
-//! | `pdf` | from what the renderer reads to a PDF; its faces are in `pdf/face.rs` |
+//! * `style`: the look: sizes for a journal column, line widths, colours; the only place to change it.
+//! * `scale`, `ticks`, `axis`, `axis_unit`, `plot`: linear and logarithmic scales, their ticks, units that
+//!   suit them, a frame with two axes.
+//! * `stretch`: a branch divided where its stability changes.
+//! * `decimate`, `line`: fewer points for the same line, dashes.
+//! * `chart`: panels on top of each other under one legend.
+//! * `layer`: lines, dots, intervals, cells, shades, reference lines.
+//! * `sketch`: symbols of mechanics: walls, springs, dampers, arrows, dimension lines.
+//! * `marks`, `dots`, `legend`: a mark for each kind of event; the legend.
+//! * `text`, `font`: lines with italic parts, numbers as printed, widths of the bundled font's glyphs.
+//! * `page`: the page that shows a results folder: contents, coding, HTML file; its script is in `page/`.
+//! * `svg`: the few elements we need, in points.
+//! * `png`: the renderer with the bundled font alone; the PNG file is written by `png/file.rs`.
+//! * `pdf`: from what the renderer reads to a PDF; its faces are in `pdf/face.rs`.
 //!
 //! # Decisions
 //! - **Own SVG writer, not a plotting library.** The figures need dashes that fit their line, decimation and
@@ -134,5 +133,5 @@ pub use structure_diagram::{
     SketchStop, StopKind, StructureDiagram,
 };
 pub use style::Style;
-pub use sweep_diagram::{SweepDiagram, SweepOrigin, SweptMotion};
+pub use sweep_diagram::{DrawnMotion, SweepDiagram, SweepOrigin};
 pub use text::plain_number;

@@ -29,7 +29,7 @@ pub struct SweepDiagram {
     /// Title above the figure; may be empty.
     pub title: String,
     /// The motions, in any order.
-    pub motions: Vec<SweptMotion>,
+    pub motions: Vec<DrawnMotion>,
 }
 
 /// Initial state of a motion of a sweep.
@@ -46,7 +46,7 @@ pub enum SweepOrigin {
 
 /// A settled motion.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct SweptMotion {
+pub struct DrawnMotion {
     /// Its initial state.
     pub origin: SweepOrigin,
     /// Excitation frequency (Hz).
@@ -118,7 +118,7 @@ impl SweepDiagram {
         Chart { title, x, panels, legend: self.legend(&origins), description, aspect: None }.draw(style)
     }
 
-    fn of(&self, origin: SweepOrigin, kind: MotionKind) -> impl Iterator<Item = &SweptMotion> {
+    fn of(&self, origin: SweepOrigin, kind: MotionKind) -> impl Iterator<Item = &DrawnMotion> {
         self.motions.iter().filter(move |motion| motion.origin == origin && motion.kind.is_like(kind))
     }
 

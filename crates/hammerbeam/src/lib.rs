@@ -2,20 +2,19 @@
 //!
 //! A [`Study`] is read from a file or a text, with the model that it describes. From there
 //!
-//! | to get | use |
-//! |---|---|
-//! | everything the study asks for, in a results folder | [`Study::run`], with progress and cancelling [`run::run_study`] |
-//! | what such a folder holds | [`Store`], [`results`] |
-//! | all periodic solutions at a frequency, with their multipliers | [`Study::orbits`] |
-//! | a branch, row by row, from one of them | [`Study::follow`] |
-//! | motions in time | [`Study::simulate`] |
-//! | settled motions over the frequency | [`Study::sweep`] |
-//! | Lyapunov exponents | [`Study::exponents`] |
-//! | basins of attraction | [`Study::basins`] |
-//! | stored orbits by branch, frequency or event | [`chosen_orbits`] |
-//! | the motion of an orbit over its period | [`orbit_waveform`] |
-//! | everything in a results folder as columns of numbers, NPZ, JSON | [`results::arrays`] |
-//! | figures of a results folder, and its page | [`drawing`] |
+//! * everything the study asks for, in a results folder: [`Study::run`], with progress and cancelling
+//!   [`run::run_study`].
+//! * what such a folder holds: [`Store`], [`results`].
+//! * all periodic solutions at a frequency, with their multipliers: [`Study::orbits`].
+//! * a branch, row by row, from one of them: [`Study::follow`].
+//! * motions in time: [`Study::simulate`].
+//! * settled motions over the frequency: [`Study::sweep`].
+//! * Lyapunov exponents: [`Study::exponents`].
+//! * basins of attraction: [`Study::basins`].
+//! * stored orbits by branch, frequency or event: [`chosen_orbits`].
+//! * the motion of an orbit over its period: [`orbit_waveform`].
+//! * everything in a results folder as columns of numbers, NPZ, JSON: [`results::arrays`].
+//! * figures of a results folder, and its page: [`drawing`].
 //!
 //! Each of these has a function in the module of its name that takes a results folder, a number of threads
 //! and an [`Observer`] as well: it reports how far the work is, and stops it. What is stored goes on from

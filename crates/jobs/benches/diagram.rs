@@ -58,7 +58,8 @@ fn measure(name: &str, threads: usize, costs: bool) {
     let branches = store.branches().unwrap();
     let solutions: u64 = branches.iter().map(|branch| branch.up.solutions + branch.down.solutions).sum();
     println!(
-        "{name}, {threads} thread(s): {solutions} solutions on {} branches in {elapsed:.1} s, {:.0} solutions/s",
+        "{name}, {threads} thread(s): {solutions} solutions on {} branches in {elapsed:.1} s, {:.0} \
+        solutions/s",
         branches.len(),
         solutions as f64 / elapsed
     );
@@ -117,7 +118,8 @@ fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
     let costs = costs(model, file, orbits);
     let microseconds = |seconds: f64| seconds * 1e6;
     println!(
-        "  one orbit, {:.1} contacts on average: state alone {:.0} us, with sensitivities {:.0} us, of which in flight {:.0} us; with maxima {:.0} us",
+        "  one orbit, {:.1} contacts on average: state alone {:.0} us, with sensitivities {:.0} us, of \
+        which in flight {:.0} us; with maxima {:.0} us",
         f64::from(contacts) / orbits.len().max(1) as f64,
         microseconds(costs.state),
         microseconds(costs.evaluation),
@@ -126,7 +128,8 @@ fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
     );
     let [flight, contact, algebra, others, storage] = costs.shares();
     println!(
-        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, linear algebra {algebra:.1} %, maxima and path {others:.0} %, storage {storage:.0} %",
+        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, \
+        linear algebra {algebra:.1} %, maxima and path {others:.0} %, storage {storage:.0} %",
         costs.evaluations,
         microseconds(costs.walked + costs.storage)
     );

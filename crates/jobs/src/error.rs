@@ -86,12 +86,15 @@ pub enum JobError {
     Signal(#[from] SignalError),
     /// Nothing holds the structure.
     #[error(
-        "{0}: none of them is isolated, so none can be found or followed; allowed: a structure with a spring or a stop that acts on this motion"
+        "{0}: none of them is isolated, so none can be found or followed; allowed: a structure with a \
+        spring or a stop that acts on this motion"
     )]
     Drifts(Drift),
     /// The range of the excitation reaches too high.
     #[error(
-        "`frequency_hz` of the excitation reaches {high_hz:e} Hz, where a period is so short that rounding hides what the structure does in it; allowed: up to {resolved_hz:.3e} Hz, ten million times the highest eigenfrequency"
+        "`frequency_hz` of the excitation reaches {high_hz:e} Hz, where a period is so short that rounding \
+        hides what the structure does in it; allowed: up to {resolved_hz:.3e} Hz, ten million times the \
+        highest eigenfrequency"
     )]
     FrequencyNotResolved { high_hz: f64, resolved_hz: f64 },
     /// No periodic solution could be looked for.

@@ -14,7 +14,7 @@ use hammerbeam_study::{
 };
 
 use crate::{
-    run::{Match, Origin, Solver, Surveyed, Walk},
+    run::{BranchOrigin, OrbitMatcher, Solver, Surveyed, Walk},
     settled::SettledState,
 };
 
@@ -140,15 +140,15 @@ const CLOSEST_MOTION: f64 = 1e-13;
 ///
 /// A motion is computed twenty times as closely as its orbit is asked for, down to where rounding decides,
 /// and never worse than by default.
-pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
+pub(crate) fn settings(continuation: &file::ContinuationTable) -> OrbitSettings {
     let usual = OrbitSettings::default();
     OrbitSettings {
         max_step_hz: continuation.max_step_hz,
         tolerance: continuation.tolerance,
         motion_tolerance: (0.05 * continuation.tolerance).clamp(CLOSEST_MOTION, usual.motion_tolerance),
         segments: match continuation.segments {
-            file::Segments::Auto => Segments::Automatic,
-            file::Segments::Given(count) => Segments::Fixed(count as usize),
+            file::SegmentChoice::Auto => Segments::Automatic,
+            file::SegmentChoice::Given(count) => Segments::Fixed(count as usize),
         },
         // The run itself keeps the budget of a walk, so that it can be raised later.
         max_solutions: usize::MAX,
@@ -232,13 +232,13 @@ impl Solver for OrbitSolver<'_> {
         root.map_err(|error| error.to_string())
     }
 
-    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+    fn begin<'a>(&'a self, origin: &BranchOrigin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
         let (system, range_hz) = (&self.model.system, self.range_hz);
         let walk = match origin {
-            Origin::Found(start) => {
+            BranchOrigin::Found(start) => {
                 BranchWalk::new(system, self.response(), start, side, range_hz, &self.settings)
             }
-            Origin::Crossing(crossing) => {
+            BranchOrigin::Crossing(crossing) => {
                 BranchWalk::from_crossing(system, self.response(), crossing, side, range_hz, &self.settings)
             }
         };
@@ -252,13 +252,13 @@ impl Solver for OrbitSolver<'_> {
         Ok(Box::new(walk.map_err(|error| error.to_string())?))
     }
 
-    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String> {
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn OrbitMatcher + 'a>, String> {
         let matcher = Matcher::new(&self.model.system, self.response(), solution, &self.settings);
         Ok(Box::new(matcher.map_err(|error| error.to_string())?))
     }
 }
 
-impl Match for Matcher<'_> {
+impl OrbitMatcher for Matcher<'_> {
     fn distance(&self, state: (f64, &[f64])) -> f64 {
         self.distance(state)
     }
@@ -290,10 +290,10 @@ mod tests {
     use super::*;
 
     fn motion_tolerance_at(tolerance: f64) -> f64 {
-        let continuation = file::Continuation {
+        let continuation = file::ContinuationTable {
             max_step_hz: 0.01,
             tolerance,
-            segments: file::Segments::Auto,
+            segments: file::SegmentChoice::Auto,
             budget_solutions: 1,
             budget_time_s: None,
         };

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_jobs::comparison::{
-    BranchCurve, Comparison, ComparisonError, CurvePoint, Curves, Estimate, FitSettings, Fixed, Origin,
+    BranchCurve, Comparison, ComparisonError, CurvePoint, Curves, FitEstimate, FitSettings, Fixed, Origin,
     Verdict, compare,
 };
 use hammerbeam_signal::{
@@ -91,7 +91,7 @@ fn standard_errors_are_what_they_say() {
     let (mut frequency, mut value) = (0, 0);
     for seed in 0..60 {
         let found = held(&measured(factor, amplitude, 0.05, seed), &FitSettings::default()).fit;
-        let within = |estimate: Estimate, put: f64| {
+        let within = |estimate: FitEstimate, put: f64| {
             u32::from((estimate.value - put).abs() < 2.0 * estimate.standard_error().unwrap())
         };
         frequency += within(found.frequency, factor);

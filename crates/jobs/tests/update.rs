@@ -219,7 +219,8 @@ fn a_spring_comes_back_from_maximum_velocities() {
         let w = std::f64::consts::TAU * frequency;
         let velocity = w * 10.0 / (stiffness - w * w).hypot(2.0 * ratio * w * stiffness.sqrt());
         text.push_str(&format!(
-            "[[periodic_response]]\nfrequency_hz = {frequency:?}\nmax_abs_velocity_m_s = {velocity:e}\nabs_velocity_deviation_m_s = 0.01\n"
+            "[[periodic_response]]\nfrequency_hz = {frequency:?}\nmax_abs_velocity_m_s = \
+            {velocity:e}\nabs_velocity_deviation_m_s = 0.01\n"
         ));
     }
     let found = fitted(&study, &parsed(&text, &study));
@@ -303,7 +304,8 @@ fn exact_derivatives_agree_with_differences() {
         "rotary_inertia_kg_m2 = 2.0e-6, spring_n_m = 500.0, rotational_spring_n_m_rad = 0.5",
     );
     let study = study(&text);
-    let ask = "[[eigenfrequency]]\nmode = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\nhz = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\ndeviation_hz = 1.0\n";
+    let ask = "[[eigenfrequency]]\nmode = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\nhz = [1, 1, 1, 1, 1, 1, 1, 1, 1, \
+    1]\ndeviation_hz = 1.0\n";
     let point = ["at_m", "mass_kg", "rotary_inertia_kg_m2", "spring_n_m", "rotational_spring_n_m_rad"];
     let keys = ["length_m", "section.width_m", "section.height_m", "youngs_modulus_pa", "density_kg_m3"];
     let keys = keys.map(str::to_owned).into_iter().chain(point.map(|key| format!("point.contact.{key}")));
@@ -331,7 +333,8 @@ fn exact_derivatives_agree_with_differences() {
 #[test]
 fn a_model_that_cannot_fit_is_told() {
     let study = study(BEAM);
-    let data = "[[parameter]]\nkey = \"structure.youngs_modulus_pa\"\n[[eigenfrequency]]\nmode = [1, 2, 3]\nhz = [17.2, 128.9, 378.9]\ndeviation_relative = 0.001\n";
+    let data = "[[parameter]]\nkey = \"structure.youngs_modulus_pa\"\n[[eigenfrequency]]\nmode = [1, 2, \
+    3]\nhz = [17.2, 128.9, 378.9]\ndeviation_relative = 0.001\n";
     let found = fitted(&study, &parsed(data, &study));
     assert!(
         found.findings.iter().any(|finding| matches!(finding, Finding::PoorFit { .. })),
@@ -364,7 +367,7 @@ fn the_updated_study_is_read_back_with_the_best_values_and_its_comments() {
     let study = study(&commented);
     let found = fitted(&study, &synthetic(&study, &parameters(&THREE), EIGENFREQUENCIES, Some((5, 1.0))));
     let again = self::study(&found.study_text);
-    let hammerbeam_study::file::Structure::Beam(beam) = &again.study.structure else { panic!("a beam") };
+    let hammerbeam_study::file::StructureTable::Beam(beam) = &again.study.structure else { panic!("a beam") };
     assert_eq!(beam.spans[0].profile.youngs_modulus_pa, found.parameters[0].value);
     assert_eq!(beam.points[0].at_m, found.parameters[2].value);
     assert!(found.study_text.contains("# as measured"));

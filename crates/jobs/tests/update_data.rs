@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use hammerbeam_fit::Deviations;
-use hammerbeam_jobs::update::{FrequencyTable, Maximum, Observation, UpdateData, UpdateSettings, update};
+use hammerbeam_jobs::update::{FrequencyTable, Maximum, MeasuredDatum, UpdateData, UpdateSettings, update};
 use hammerbeam_study::StudyFile;
 
 const STUDY: &str = include_str!("../../../studies/beam-with-stop.toml");
@@ -59,10 +59,12 @@ fn everything_that_the_file_says_is_understood() {
     assert_eq!((data.parameters.len(), data.data.len(), data.orbits.len()), (2, 5, 1));
     assert_eq!((data.parameters[0].start, data.parameters[0].bounds.high), (0.25, 0.3));
     assert_eq!(data.parameters[1].start, 4.5e9);
-    let Observation::Eigenfrequency(second) = data.data[1].observation else { panic!("{:?}", data.data[1]) };
+    let MeasuredDatum::Eigenfrequency(second) = data.data[1].observation else {
+        panic!("{:?}", data.data[1])
+    };
     assert_eq!((second.table, second.mode), (FrequencyTable::Reduced, 1));
     assert_eq!((data.data[1].value, data.data[1].deviation), (128.9, 1.0));
-    let Observation::Response(force) = data.data[4].observation else { panic!("{:?}", data.data[4]) };
+    let MeasuredDatum::Response(force) = data.data[4].observation else { panic!("{:?}", data.data[4]) };
     assert_eq!((force.of, data.data[4].deviation), (Maximum::ContactForce, 10.0));
 }
 
@@ -225,7 +227,8 @@ fn modes_that_the_study_does_not_have_are_refused() {
 fn a_response_that_the_model_does_not_have_is_told() {
     let study =
         StudyFile::parse("study.toml", include_str!("../../../studies/two-masses.toml").to_owned()).unwrap();
-    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = 3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
+    let data = "[[parameter]]\nkey = \"stop.1.gap_m\"\n[[periodic_response]]\nfrequency_hz = \
+    3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
     let data = UpdateData::parse("data.toml", data.to_owned(), &study).unwrap();
     let message = update(&study, &data, &UpdateSettings::default()).expect_err("it was accepted").to_string();
     assert!(message.contains("no stable periodic response of 7 excitation period(s) at 3 Hz"), "{message}");

@@ -56,7 +56,8 @@ pub enum MatrixFault {
     #[error("the format is not known; allowed: {}", known.join(", "))]
     UnknownFormat { known: Vec<&'static str> },
     /// Nothing of the name that was asked for.
-    #[error("there is no matrix {name}, the file has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    #[error("there is no matrix {name}, the file has \
+    {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     NoSuchMatrix { name: String, known: Vec<String> },
     /// Rows and columns differ in number.
     #[error("matrix {name} has {rows} rows and {columns} columns, must be square")]

@@ -1,15 +1,14 @@
 //! Matrices of finite element programs: read from files, and written as the bundle of Hammerbeam.
 //!
-//! | format | file |
-//! |---|---|
-//! | Matrix Market | `read/matrix_market.rs` |
-//! | CalculiX `.sti`, `.mas`; Abaqus' coordinate and matrix input formats | `read/triplets.rs` |
-//! | substructures of Abaqus and CalculiX | `read/user_element.rs` |
-//! | Nastran punch files, `DMIG` | `read/punch.rs`, cards in `read/cards.rs` |
-//! | Nastran OUTPUT4 | `read/output4.rs`, `output4_text.rs`, `output4_binary.rs`; the order of rows `read/extrn.rs` |
-//! | Harwell-Boeing | `read/harwell_boeing.rs` |
-//! | MAT files of version 5 | `read/mat5.rs` |
-//! | labels of rows, nodes, lines | `read/tables.rs` |
+//! * Matrix Market: `read/matrix_market.rs`.
+//! * CalculiX `.sti`, `.mas`; Abaqus' coordinate and matrix input formats: `read/triplets.rs`.
+//! * substructures of Abaqus and CalculiX: `read/user_element.rs`.
+//! * Nastran punch files, `DMIG`: `read/punch.rs`, cards in `read/cards.rs`.
+//! * Nastran OUTPUT4: `read/output4.rs`, `output4_text.rs`, `output4_binary.rs`; the order of rows
+//!   `read/extrn.rs`.
+//! * Harwell-Boeing: `read/harwell_boeing.rs`.
+//! * MAT files of version 5: `read/mat5.rs`.
+//! * labels of rows, nodes, lines: `read/tables.rs`.
 //!
 //! Readers go through a file once, a line or a record at a time. An entry takes 16 bytes while it is read and
 //! 12 afterwards, and nothing is allocated because a header says so. Every fault has its file and its line or

@@ -69,7 +69,8 @@ fn rows_columns_and_values() {
 }
 
 const SUBSTRUCTURE: &str = "**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES=         2,LINEAR\n\
-    ** ELEMENT NODES\n**        20,        10,\n1, 2\n2, 3\n*MATRIX,TYPE=STIFFNESS\n 4.0,\n-1.0, 5.0,\n 0.5,\n 0.0, 6.0\n\
+    ** ELEMENT NODES\n**        20,        10,\n1, 2\n2, 3\n*MATRIX,TYPE=STIFFNESS\n 4.0,\n-1.0, 5.0,\n \
+    0.5,\n 0.0, 6.0\n\
     *MATRIX, TYPE=MASS\n1.0\n0.0,1.0\n0.0,0.0,2.0\n";
 
 #[test]

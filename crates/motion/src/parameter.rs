@@ -1,11 +1,14 @@
 //! Parameters of a system besides the excitation frequency: what they scale or shift, and how they are set.
 //!
-//! | parameter | value | what it changes |
-//! |---|---|---|
-//! | excitation scale `a` | 1 as built | all harmonics of order 1 and above: `b_m = a b_m(1)`, `U_m = a U_m(1)` |
-//! | constant of a law | as the law has it | one element: its gap shifts the levels of its contacts, of a two-sided stop both, which must be equal; the restitution of a rigid stop its impacts; any other its force at the levels that its contacts have ([`LawConstant`]) |
-//! | number of a family | in its unit | the whole structure, its modes and their coordinates ([`Family`]) |
-//! | added damping `z_k` | 0 as built | the damping, `C = C(0) + sum_k z_k D_k`, `d = d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)` |
+//! * excitation scale `a`: value 1 as built; what it changes all harmonics of order 1 and above: `b_m = a
+//!   b_m(1)`, `U_m = a U_m(1)`.
+//! * constant of a law: value as the law has it; what it changes one element: its gap shifts the levels of
+//!   its contacts, of a two-sided stop both, which must be equal; the restitution of a rigid stop its
+//!   impacts; any other its force at the levels that its contacts have ([`LawConstant`]).
+//! * number of a family: value in its unit; what it changes the whole structure, its modes and their
+//!   coordinates ([`Family`]).
+//! * added damping `z_k`: value 0 as built; what it changes the damping, `C = C(0) + sum_k z_k D_k`, `d =
+//!   d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)`.
 
 use std::sync::Arc;
 

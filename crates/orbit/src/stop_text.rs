@@ -16,7 +16,8 @@ impl Display for StopReason {
             Self::Budget { solutions } => write!(formatter, "the budget of {solutions} solutions is used up"),
             Self::StepTooShort { frequency_hz, step, residual, doubt } => write!(
                 formatter,
-                "no solution was accepted beyond {frequency_hz} (last step {step:.1e}, residual {residual:.1e}: {doubt})"
+                "no solution was accepted beyond {frequency_hz} (last step {step:.1e}, residual \
+                {residual:.1e}: {doubt})"
             ),
             Self::RunsBack { frequency_hz, met_arc_length } => write!(
                 formatter,
@@ -24,11 +25,13 @@ impl Display for StopReason {
             ),
             Self::ContactSplits { frequency_hz, element, phase } => write!(
                 formatter,
-                "beyond {frequency_hz} {element} opens and is pressed on again at the phase of {phase:.4} cycles"
+                "beyond {frequency_hz} {element} opens and is pressed on again at the phase of {phase:.4} \
+                cycles"
             ),
             Self::Crawls { frequency_hz, solutions, largest_multiplier } => write!(
                 formatter,
-                "no progress at {frequency_hz} in {solutions} solutions, with a multiplier of {largest_multiplier:.1e}"
+                "no progress at {frequency_hz} in {solutions} solutions, with a multiplier of \
+                {largest_multiplier:.1e}"
             ),
             Self::Unbounded { frequency_hz, .. } => {
                 write!(formatter, "the amplitude grows without bound at {frequency_hz}")

@@ -78,7 +78,8 @@ pub enum StructureError {
     TooMuchMemory { size: usize, needed_bytes: u64, limit_bytes: u64 },
     /// A larger structure has to say up to which frequency its modes are kept.
     #[error(
-        "all modes of {found} coordinates are asked for, allowed are {allowed}; give a reduction with a cut-off"
+        "all modes of {found} coordinates are asked for, allowed are {allowed}; give a reduction with a \
+        cut-off"
     )]
     TooManyCoordinates { found: usize, allowed: usize },
     /// So many modes are no reduction.
@@ -86,7 +87,8 @@ pub enum StructureError {
     TooManyModes { found: usize, allowed: usize },
     /// The stiffness matrix has negative eigenvalues, by more than rounding.
     #[error(
-        "the stiffness matrix is not positive semi-definite: {negative} modes grow faster than {below_hz:.3} Hz \
+        "the stiffness matrix is not positive semi-definite: {negative} modes grow faster than \
+        {below_hz:.3} Hz \
          would oscillate"
     )]
     StiffnessNotPositive { negative: usize, below_hz: f64 },
@@ -98,7 +100,8 @@ pub enum StructureError {
     MasslessMechanism { row: String },
     /// More motions without strain than rigid bodies have.
     #[error(
-        "{found} motions bend nothing, but {parts} part(s) have {} as rigid bodies: a mechanism that moves {row}",
+        "{found} motions bend nothing, but {parts} part(s) have {} as rigid bodies: a mechanism that moves \
+        {row}",
         6 * parts
     )]
     TooManyRigidModes { found: usize, parts: usize, row: String },

@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 
-use crate::file::{Matrices, MatrixPointEntry, Place, Structure, Study};
+use crate::file::{MatricesTable, MatrixPointEntry, Place, StructureTable, Study};
 
 /// Version of the computed data: counted up when the same study gives other numbers, so that a results folder
 /// is never continued with another program's numbers.
@@ -26,7 +26,7 @@ impl Study {
     /// The study without the points of a structure of matrices at which nothing acts and nothing is observed
     /// but outputs: they change neither modes nor motions.
     fn without_idle_points(&self) -> Cow<'_, Self> {
-        let Structure::Matrices(matrices) = &self.structure else { return Cow::Borrowed(self) };
+        let StructureTable::Matrices(matrices) = &self.structure else { return Cow::Borrowed(self) };
         let mut used: Vec<&str> = self.force_points().chain([self.response.point.as_str()]).collect();
         for stop in &self.stops {
             match &stop.place {
@@ -39,7 +39,7 @@ impl Study {
             return Cow::Borrowed(self);
         }
         let points = matrices.points.iter().filter(|point| is_used(point)).cloned().collect();
-        let structure = Structure::Matrices(Matrices { points, ..matrices.clone() });
+        let structure = StructureTable::Matrices(MatricesTable { points, ..matrices.clone() });
         Cow::Owned(Self { structure, ..self.clone() })
     }
 

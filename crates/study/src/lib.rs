@@ -1,13 +1,12 @@
 //! Studies: the study file, the document that it is, the model it describes.
 //!
-//! | room | what it knows |
-//! |---|---|
-//! | [`document`] | TOML tables that are asked for their keys, quantities with their ranges, all faults at once and where they stand |
-//! | [`file`] | one file per table of the study file: its keys and their meaning |
-//! | `model` | from what the file says to the equations of motion |
-//! | [`number`] | numbers in the text of a study by their key paths, and the text with others |
-//! | `setting` | keys with other values, written into the text of a study |
-//! | [`identity`] | what makes a study the same study, so that a results folder is continued or refused |
+//! * [`document`]: TOML tables that are asked for their keys, quantities with their ranges, all faults at
+//!   once and where they stand.
+//! * [`file`]: one file per table of the study file: its keys and their meaning.
+//! * `model`: from what the file says to the equations of motion.
+//! * [`number`]: numbers in the text of a study by their key paths, and the text with others.
+//! * `setting`: keys with other values, written into the text of a study.
+//! * [`identity`]: what makes a study the same study, so that a results folder is continued or refused.
 //!
 //! Nothing is solved or stored here: `hammerbeam-results` keeps what `hammerbeam-jobs` computes.
 //!
@@ -37,7 +36,7 @@ pub mod number;
 mod setting;
 
 pub use document::{
-    Problem, Report,
+    FaultReport, Problem,
     unit::{hertz, readable},
 };
 pub use file::{Study, StudyError, StudyFile};

@@ -1,7 +1,7 @@
 //! Errors as exceptions: of the name of the Rust error, with the numbers that it carries.
 
 use hammerbeam::{
-    Error, FailureKind, StudyError, drawing::DrawingError, results::StoreError, study_file::Report,
+    Error, FailureKind, StudyError, drawing::DrawingError, results::StoreError, study_file::FaultReport,
 };
 use pyo3::{IntoPyObjectExt, prelude::*, types::PyDict};
 use serde_json::{Value, json};
@@ -115,7 +115,7 @@ fn described(error: &Error) -> (&'static str, Value) {
 }
 
 /// The faults of a study, as `--json` has them.
-fn problems(report: &Report) -> Value {
+fn problems(report: &FaultReport) -> Value {
     let one = |problem: &hammerbeam::study_file::Problem| {
         let position = report.position(problem);
         json!({

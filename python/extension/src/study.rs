@@ -20,7 +20,7 @@ use hammerbeam::{
     pool::threads,
     run::{RunOrigin, RunOutcome, RunRequest, WholeRun, run_study},
     simulate::{DurationTooLong, SimulationRequest, SimulationTime, simulate},
-    study_file::{Setting, file::Structure},
+    study_file::{Setting, file::StructureTable},
     sweep::{SweepRequest, SweepStarts, sweep_part, sweep_with_parts},
 };
 use pyo3::prelude::*;
@@ -122,7 +122,7 @@ impl NativeStudy {
             let settings = settings.iter().map(|text| text.parse()).collect::<Result<Vec<Setting>, _>>();
             let text = settings.and_then(|settings| Setting::written_into(&settings, &text));
             let text = text.map_err(StudyError::Setting)?;
-            if !matches!(file.study.structure, Structure::Matrices(_)) {
+            if !matches!(file.study.structure, StructureTable::Matrices(_)) {
                 StudyFile::parse(&file.name, text.clone())?;
             }
             Ok(text)

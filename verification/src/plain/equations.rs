@@ -10,7 +10,7 @@ use super::{
     keys::{list, needed, number, table, text},
     stops::{Law, Stop},
 };
-use crate::results::Failure;
+use crate::results::BoxedError;
 
 /// A force `amplitude cos(order w t + phase)` on each mass [N], times what the frequency makes of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +80,7 @@ impl Ground {
 
 impl Equations {
     /// `q'' + C q' + W^2 q` of a beam.
-    pub(super) fn of_modes(study: &Table, model: &Model) -> Result<Self, Failure> {
+    pub(super) fn of_modes(study: &Table, model: &Model) -> Result<Self, BoxedError> {
         let squares: Vec<f64> =
             model.system.model().natural_frequencies.iter().map(|frequency| frequency.powi(2)).collect();
         let damping: Vec<f64> = match study.get("damping").and_then(Value::as_table) {
@@ -106,7 +106,7 @@ impl Equations {
     }
 
     /// The matrices of masses, and what joins each to the ground.
-    pub(super) fn of_masses(study: &Table) -> Result<(Self, Vec<f64>, Vec<f64>), Failure> {
+    pub(super) fn of_masses(study: &Table) -> Result<(Self, Vec<f64>, Vec<f64>), BoxedError> {
         let structure = table(study, "structure")?;
         let masses = list(structure, "mass");
         let names: Vec<String> =
@@ -139,7 +139,7 @@ impl Equations {
         study: &Table,
         springs: Vec<f64>,
         dampers: Vec<f64>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), BoxedError> {
         let excitation = table(study, "excitation")?;
         let (order, phase) = (number(excitation, "order", 1.0)?, number(excitation, "phase_rad", 0.0)?);
         match text(excitation, "kind")? {
@@ -165,7 +165,7 @@ impl Equations {
         Ok(())
     }
 
-    pub(super) fn load(&mut self, load: &Table) -> Result<(), Failure> {
+    pub(super) fn load(&mut self, load: &Table) -> Result<(), BoxedError> {
         let harmonic = match text(load, "kind")? {
             "gravity" if matches!(self.coordinates, Coordinates::Modes(_)) => {
                 return Err("no weight of a beam here".into());
@@ -186,7 +186,7 @@ impl Equations {
     }
 
     /// A force at a point or against another, and how it depends on the frequency.
-    fn force(&self, force: &Table) -> Result<(Vec<f64>, Size), Failure> {
+    fn force(&self, force: &Table) -> Result<(Vec<f64>, Size), BoxedError> {
         let (value, size) = match force.get("amplitude_n").and_then(Value::as_array) {
             Some(points) => (1.0, Size::Line(two_points(points)?)),
             None if force.contains_key("unbalance_mass_kg") => {
@@ -203,7 +203,7 @@ impl Equations {
         Ok((one.iter().zip(other).map(|(one, other)| one - other).collect(), size))
     }
 
-    pub(super) fn row(&self, name: &str, value: f64) -> Result<Vec<f64>, Failure> {
+    pub(super) fn row(&self, name: &str, value: f64) -> Result<Vec<f64>, BoxedError> {
         let row = self.coordinates.row(name).ok_or_else(|| format!("no point {name}"))?;
         Ok(row.into_iter().map(|part| value * part).collect())
     }
@@ -239,7 +239,7 @@ impl Equations {
 }
 
 /// A table of amplitudes of two points, between which it is straight.
-fn two_points(points: &[Value]) -> Result<[[f64; 2]; 2], Failure> {
+fn two_points(points: &[Value]) -> Result<[[f64; 2]; 2], BoxedError> {
     let pair = |point: &Value| -> Option<[f64; 2]> {
         let entries = point.as_array()?;
         Some([entries.first()?.as_float()?, entries.get(1)?.as_float()?])
@@ -251,7 +251,7 @@ fn two_points(points: &[Value]) -> Result<[[f64; 2]; 2], Failure> {
 }
 
 /// Factors of mass and stiffness in the damping [1/s, s].
-fn rayleigh(damping: &Table) -> Result<[f64; 2], Failure> {
+fn rayleigh(damping: &Table) -> Result<[f64; 2], BoxedError> {
     let rayleigh = table(damping, "rayleigh")?;
     Ok([needed(rayleigh, "mass_per_s")?, needed(rayleigh, "stiffness_s")?])
 }
@@ -262,7 +262,7 @@ fn diagonal(entries: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// The matrix of elements between masses, and what joins each mass to the ground.
-fn joined(names: &[String], elements: &[&Table], key: &str) -> Result<(Vec<Vec<f64>>, Vec<f64>), Failure> {
+fn joined(names: &[String], elements: &[&Table], key: &str) -> Result<(Vec<Vec<f64>>, Vec<f64>), BoxedError> {
     let n = names.len();
     let (mut matrix, mut ground) = (vec![vec![0.0; n]; n], vec![0.0; n]);
     for element in elements {

@@ -8,7 +8,7 @@ use super::{
     keys::{list, needed, number, table, text},
     stops::{Law, Stop},
 };
-use crate::results::Failure;
+use crate::results::BoxedError;
 
 impl Equations {
     /// Reads a study.
@@ -18,7 +18,7 @@ impl Equations {
     /// # Errors
     /// A shaken beam, a lumped structure with modal damping, a longer table of amplitudes, or a law that is
     /// not known here.
-    pub fn read(study: &Table, model: &Model) -> Result<Self, Failure> {
+    pub fn read(study: &Table, model: &Model) -> Result<Self, BoxedError> {
         let (mut this, springs, dampers) = if text(table(study, "structure")?, "kind")? == "beam" {
             let this = Self::of_modes(study, model)?;
             (this, Vec::new(), Vec::new())
@@ -37,7 +37,7 @@ impl Equations {
     }
 
     /// One stop, or the two of one on both sides.
-    fn stop(&self, stop: &Table) -> Result<Vec<Stop>, Failure> {
+    fn stop(&self, stop: &Table) -> Result<Vec<Stop>, BoxedError> {
         let mut ratio = 0.0;
         let row = if let Some(pair) = stop.get("between").and_then(Value::as_array) {
             let name = |index: usize| pair[index].as_str().ok_or("a name");
@@ -61,7 +61,7 @@ impl Equations {
             law,
         };
         let gap = number(stop, "gap_m", 0.0)?;
-        let linear = || -> Result<Law, Failure> {
+        let linear = || -> Result<Law, BoxedError> {
             Ok(Law::Linear {
                 stiffness: needed(stop, "stiffness_n_m")?,
                 damping: number(stop, "damping_n_s_m", 0.0)?,

@@ -12,7 +12,7 @@ use hammerbeam_results::{Store, export_csv};
 use toml::Table;
 
 use super::Units;
-use crate::results::{Failure, Results};
+use crate::results::{BoxedError, Results};
 
 /// How much a run may compute, and what of it is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ pub enum AnswersError {
     TooMany(u64),
     /// The study or its store is wrong.
     #[error(transparent)]
-    Failed(#[from] Failure),
+    Failed(#[from] BoxedError),
 }
 
 /// What a study answers.
@@ -139,7 +139,7 @@ fn branches(results: &Results) -> Vec<(u32, [f64; 2])> {
 }
 
 /// From the table that a user gets.
-fn events(results: &Results, folder: &Path) -> Result<Vec<EventAnswer>, Failure> {
+fn events(results: &Results, folder: &Path) -> Result<Vec<EventAnswer>, BoxedError> {
     let exported = export_csv(&Store::open(folder)?, folder)?;
     let text = std::fs::read_to_string(exported.events_path)?;
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
@@ -164,7 +164,11 @@ fn events(results: &Results, folder: &Path) -> Result<Vec<EventAnswer>, Failure>
 }
 
 /// At frequencies whose distances from one another are irrational parts of the range.
-fn orbits(results: &Results, units: Units, limits: &Limits) -> Result<Vec<(f64, Vec<OrbitAnswer>)>, Failure> {
+fn orbits(
+    results: &Results,
+    units: Units,
+    limits: &Limits,
+) -> Result<Vec<(f64, Vec<OrbitAnswer>)>, BoxedError> {
     let [low, high] = results.range_hz;
     let mut multiples: Vec<u32> =
         results.branches().iter().map(|branch| branch.record.period_multiple).collect();
@@ -198,7 +202,7 @@ fn of_orbit(orbit: &PeriodicSolution, units: Units) -> OrbitAnswer {
 }
 
 /// Number of stored solutions, and what verification does not agree with.
-fn verified(results: &Results, folder: &Path, limits: &Limits) -> Result<(u64, Vec<String>), Failure> {
+fn verified(results: &Results, folder: &Path, limits: &Limits) -> Result<(u64, Vec<String>), BoxedError> {
     let store = Store::open(folder)?;
     let settings = VerifySettings { sample: limits.verified, ..VerifySettings::default() };
     let verification = verify(&store, &PreparedStudy::of_store(&store)?, &settings, &mut Quiet)?;

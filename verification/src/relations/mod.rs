@@ -3,12 +3,14 @@
 //! A study is a TOML document; each relation makes another document of it, of which one knows what must come
 //! out.
 //!
-//! | relation | study | answers |
-//! |---|---|---|
-//! | [`Units`] | every number in other units of mass, length and time | the same in those units; multipliers and contacts the same |
-//! | [`shifted`] | all harmonics earlier by a part of the excitation period | the same: maxima, multipliers and contacts have no origin of time |
-//! | [`mirrored`] | all displacements negated: loads turn round, stops above become below | the same: maxima are of absolute values |
-//! | [`swapped`] | masses and stops in the reverse order under other names, a beam with left and right exchanged | the same |
+//! * [`Units`]: study every number in other units of mass, length and time; answers the same in those units;
+//!   multipliers and contacts the same.
+//! * [`shifted`]: study all harmonics earlier by a part of the excitation period; answers the same: maxima,
+//!   multipliers and contacts have no origin of time.
+//! * [`mirrored`]: study all displacements negated: loads turn round, stops above become below; answers the
+//!   same: maxima are of absolute values.
+//! * [`swapped`]: study masses and stops in the reverse order under other names, a beam with left and right
+//!   exchanged; answers the same.
 //!
 //! | file | what it does |
 //! |---|---|

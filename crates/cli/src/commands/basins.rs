@@ -17,7 +17,8 @@ use crate::{
 };
 
 /// Why a cell has no attractor.
-const NOT_COMPUTED: &str = "they begin behind a rigid stop or within a contact that remembers its impact, or settle with such a contact closed for good, or their motion could not be computed";
+const NOT_COMPUTED: &str = "they begin behind a rigid stop or within a contact that remembers its impact, \
+or settle with such a contact closed for good, or their motion could not be computed";
 
 pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let file = options.study.read()?;

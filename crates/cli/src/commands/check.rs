@@ -10,9 +10,10 @@ use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::{
     Study, UndampedInContact, UndampedMode,
     file::{
-        ActingForce, Amplitude, Approach, Beam, BeamSpanEntry, Damping, End, Excitation, ExcitationKind,
-        FixedTo, ForcePlace, ForceSize, Load, Lumped, Matrices, ModalRatio, MovingSupport, Place, Reduction,
-        ReductionMethod, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
+        ActingForce, Amplitude, Approach, BeamSpanEntry, BeamTable, DampingTable, EndSupport, Excitation,
+        ExcitationKind, FixedTo, ForcePlace, ForceSize, LoadTable, LumpedTable, MatricesTable, ModalRatio,
+        MovingSupport, Place, ReductionMethod, ReductionTable, Stop, StopLaw, StopRest, StopSide,
+        StructureTable, SupportDrive,
     },
     readable,
 };
@@ -40,7 +41,8 @@ fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {
         others => format!(" (and {others} more of this kind)"),
     };
     Some(format!(
-        "undamped     {first}{others}: steady states with closed contacts may be marginal, and simulation takes long \
+        "undamped     {first}{others}: steady states with closed contacts may be marginal, and simulation \
+        takes long \
          to settle; {UNDAMPED_ADVICE}"
     ))
 }
@@ -59,7 +61,8 @@ fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
         }
     };
     Some(format!(
-        "undamped     {which}: free vibration there never decays, so steady states are marginal and simulation does not settle; {UNDAMPED_ADVICE}"
+        "undamped     {which}: free vibration there never decays, so steady states are marginal and \
+        simulation does not settle; {UNDAMPED_ADVICE}"
     ))
 }
 
@@ -71,9 +74,9 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
         lines.push(study.title.clone());
     }
     lines.push(match &study.structure {
-        Structure::Beam(beam) => beam_text(beam),
-        Structure::Lumped(lumped) => lumped_text(lumped),
-        Structure::Matrices(matrices) => matrices_text(matrices, report.matrices),
+        StructureTable::Beam(beam) => beam_text(beam),
+        StructureTable::Lumped(lumped) => lumped_text(lumped),
+        StructureTable::Matrices(matrices) => matrices_text(matrices, report.matrices),
     });
     lines.push(format!("reduction    {}", reduction_text(&study.reduction, dof, unit)));
     let frequencies: Vec<String> = report.eigenfrequencies_hz.iter().take(8).map(|f| shown(*f)).collect();
@@ -110,7 +113,7 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
     lines.join("\n")
 }
 
-fn beam_text(beam: &Beam) -> String {
+fn beam_text(beam: &BeamTable) -> String {
     let profile = |span: &BeamSpanEntry| {
         let profile = span.profile;
         let shear = if profile.poisson_ratio.is_some() { ", with shear" } else { "" };
@@ -131,14 +134,14 @@ fn beam_text(beam: &Beam) -> String {
     for point in &beam.points {
         let (at, mass) = (readable(point.at_m, "m"), readable(point.mass_kg, "kg"));
         text.push_str(&format!("\npoint        {} at {at}, {mass}", point.name));
-        if point.support != End::Free {
+        if point.support != EndSupport::Free {
             text.push_str(&format!(", {}", word(&point.support)));
         }
     }
     text
 }
 
-fn matrices_text(matrices: &Matrices, report: Option<&MatrixReport>) -> String {
+fn matrices_text(matrices: &MatricesTable, report: Option<&MatrixReport>) -> String {
     let points: Vec<&str> = matrices.points.iter().map(|point| point.name.as_str()).collect();
     let mut lines = vec![format!("structure    matrices with points {}", points.join(", "))];
     if let Some(report) = report {
@@ -147,7 +150,7 @@ fn matrices_text(matrices: &Matrices, report: Option<&MatrixReport>) -> String {
     lines.join("\n")
 }
 
-fn lumped_text(lumped: &Lumped) -> String {
+fn lumped_text(lumped: &LumpedTable) -> String {
     let masses: Vec<String> =
         lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
     format!(
@@ -158,7 +161,7 @@ fn lumped_text(lumped: &Lumped) -> String {
     )
 }
 
-fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> String {
+fn reduction_text(reduction: &ReductionTable, dof: usize, unit: FrequencyUnit) -> String {
     let modes = counted(dof as u64, "mode");
     match reduction.method {
         ReductionMethod::None => format!("none, {modes}"),
@@ -172,14 +175,14 @@ fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> Str
 
 fn damping_text(study: &Study) -> String {
     let of_modes = match &study.damping {
-        Damping::Modal(ModalRatio::Every(ratio)) if *ratio == 0.0 => "none of the modes".to_owned(),
-        Damping::Modal(ModalRatio::Every(ratio)) => format!("ratio {ratio} of every mode"),
-        Damping::Modal(ModalRatio::Each(ratios)) => {
+        DampingTable::Modal(ModalRatio::Every(ratio)) if *ratio == 0.0 => "none of the modes".to_owned(),
+        DampingTable::Modal(ModalRatio::Every(ratio)) => format!("ratio {ratio} of every mode"),
+        DampingTable::Modal(ModalRatio::Each(ratios)) => {
             let shown: Vec<String> = ratios.iter().take(8).map(f64::to_string).collect();
             let more = if ratios.len() > 8 { ", ..." } else { "" };
             format!("ratios {}{more} of the modes", shown.join(", "))
         }
-        Damping::Rayleigh { mass_per_s, stiffness_s } => {
+        DampingTable::Rayleigh { mass_per_s, stiffness_s } => {
             format!("Rayleigh, {mass_per_s} 1/s times the mass and {stiffness_s} s times the stiffness")
         }
     };
@@ -190,13 +193,13 @@ fn damping_text(study: &Study) -> String {
 }
 
 /// Number of dampers of the structure that are not zero.
-fn dampers(structure: &Structure) -> usize {
+fn dampers(structure: &StructureTable) -> usize {
     match structure {
-        Structure::Lumped(lumped) => {
+        StructureTable::Lumped(lumped) => {
             lumped.dampers.iter().filter(|damper| damper.damping_n_s_m > 0.0).count()
         }
-        Structure::Matrices(_) => 0,
-        Structure::Beam(beam) => {
+        StructureTable::Matrices(_) => 0,
+        StructureTable::Beam(beam) => {
             let of_points =
                 beam.points.iter().flat_map(|point| [point.damper_n_s_m, point.rotational_damper_n_m_s_rad]);
             of_points.filter(|damper| *damper > 0.0).count()
@@ -288,14 +291,14 @@ fn force_text(force: &ActingForce) -> String {
     format!("{place}, {size}{phase}")
 }
 
-fn load_text(load: &Load, excitation: &Excitation) -> String {
+fn load_text(load: &LoadTable, excitation: &Excitation) -> String {
     match load {
-        Load::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
-        Load::Force { at, amplitude_n, order, phase_rad } => {
+        LoadTable::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
+        LoadTable::Force { at, amplitude_n, order, phase_rad } => {
             format!("force at {at}, {amplitude_n} N, order {order}, phase {phase_rad} rad")
         }
-        Load::ActingForce { force, order } => format!("{}, order {order}", force_text(force)),
-        Load::DrivenSupport { support, motion, order, phase_rad } => {
+        LoadTable::ActingForce { force, order } => format!("{}, order {order}", force_text(force)),
+        LoadTable::DrivenSupport { support, motion, order, phase_rad } => {
             let of = match excitation.supports_differ() {
                 true => format!(" of {}", support_text(excitation, *support)),
                 false => String::new(),
@@ -306,7 +309,7 @@ fn load_text(load: &Load, excitation: &Excitation) -> String {
             };
             format!("support motion{of}, {amplitude}, order {order}, phase {phase_rad} rad")
         }
-        Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
+        LoadTable::SupportMotion { support, amplitude_m, order, phase_rad } => {
             let of = match excitation.supports_differ() {
                 true => format!(" of {}", support_text(excitation, *support)),
                 false => String::new(),
@@ -365,10 +368,10 @@ fn value_text(key: &LawKey, value: &LawValue) -> String {
     }
 }
 
-fn side_text(side: Side) -> &'static str {
+fn side_text(side: StopSide) -> &'static str {
     match side {
-        Side::Above => "above",
-        Side::Below => "below",
+        StopSide::Above => "above",
+        StopSide::Below => "below",
     }
 }
 

@@ -80,7 +80,8 @@ fn refuse_unknown(folder: &Path, file: &StudyFile, orbits: &[DrawnOrbit]) -> Res
                 _ => format!("they lie between {} and {} Hz", plain_number(low), plain_number(high)),
             };
             return Err(Failure::BadInput(format!(
-                "--orbit: no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} Hz; {there}"
+                "--orbit: no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} \
+                Hz; {there}"
             )));
         }
     }

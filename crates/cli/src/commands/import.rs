@@ -246,7 +246,8 @@ impl Parts {
 fn give_once(place: &mut Option<PathBuf>, path: &Path) -> Result<(), Failure> {
     match place {
         Some(other) if other != path => Err(Failure::BadInput(format!(
-            "{} and {} seem to be the same part; name the parts with --stiffness, --mass, --damping, --dofs and --nodes",
+            "{} and {} seem to be the same part; name the parts with --stiffness, --mass, --damping, --dofs \
+            and --nodes",
             other.display(),
             path.display()
         ))),

@@ -94,7 +94,10 @@ fn one_text(report: &SpectrumReport, unit: FrequencyUnit) -> String {
     lines.push(format!("the largest exponent is {}", report.verdict()));
     if report.is_correlated() {
         let correlation = spectrum.block_correlation;
-        lines.push(format!("neighbouring blocks are correlated ({correlation:.2}): the intervals are too small; take more periods"));
+        lines.push(format!(
+            "neighbouring blocks are correlated ({correlation:.2}): the intervals are too \
+        small; take more periods"
+        ));
     }
     lines.join("\n")
 }

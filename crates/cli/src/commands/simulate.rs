@@ -112,14 +112,17 @@ fn refused(
 fn too_large(error: &SimulationTooLarge) -> String {
     match *error {
         SimulationTooLarge::Free { numbers, most, sampling_hz } => format!(
-            "the motion is {numbers} numbers, must be {most} at most with --out; allowed: a shorter --duration, or a \
+            "the motion is {numbers} numbers, must be {most} at most with --out; allowed: a shorter \
+            --duration, or a \
              lower --sampling than {sampling_hz} Hz"
         ),
         SimulationTooLarge::Period { samples, dof, elements, numbers, most, most_samples } => format!(
-            "--samples-per-period {samples} of {dof} degrees of freedom and {elements} local elements is {numbers} numbers in a period, must be {most} at most; allowed: 1 to {most_samples} samples"
+            "--samples-per-period {samples} of {dof} degrees of freedom and {elements} local elements is \
+            {numbers} numbers in a period, must be {most} at most; allowed: 1 to {most_samples} samples"
         ),
         SimulationTooLarge::Periods { periods, of_period, numbers, most, most_periods, samples } => format!(
-            "--periods {periods} of {of_period} numbers each is {numbers} numbers, must be {most} at most with --out; allowed: 1 to {most_periods} periods with --samples-per-period {samples}"
+            "--periods {periods} of {of_period} numbers each is {numbers} numbers, must be {most} at most \
+            with --out; allowed: 1 to {most_periods} periods with --samples-per-period {samples}"
         ),
         _ => error.to_string(),
     }

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use hammerbeam_jobs::{
     Observer, PreparedStudy,
     verify::{
-        Disagreement, Quantity, Verification, VerifiedPlace, VerifyReport, VerifySettings, Worst, verify,
+        Disagreement, Verification, VerifiedPlace, VerifiedQuantity, VerifyReport, VerifySettings, Worst,
+        verify,
     },
 };
 use hammerbeam_results::Store;
@@ -96,7 +97,7 @@ fn line(found: &Disagreement) -> String {
     let place = format!("{}: {}", place_text(found.place, 9), found.quantity.name());
     match (&found.message, found.quantity) {
         (Some(message), _) => format!("{place}: {message}"),
-        (None, Quantity::Residual | Quantity::Events) => {
+        (None, VerifiedQuantity::Residual | VerifiedQuantity::Events) => {
             format!("{place} {:.2e}, at most {:.1e} is allowed", found.difference, found.bound)
         }
         (None, _) => format!(

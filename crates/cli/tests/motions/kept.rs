@@ -113,7 +113,8 @@ fn a_chaotic_beam_goes_on_after_kills_with_the_same_bytes() {
 fn a_motion_with_two_stops_goes_on_after_kills_with_the_same_bytes() {
     let wall = |name: &str, side: &str| {
         format!(
-            "[[stop]]\nname = \"{name}\"\nat = \"m\"\nside = \"{side}\"\ngap_m = 0.5\nlaw = \"linear\"\nstiffness_n_m = 30.0\n"
+            "[[stop]]\nname = \"{name}\"\nat = \"m\"\nside = \"{side}\"\ngap_m = 0.5\nlaw \
+            = \"linear\"\nstiffness_n_m = 30.0\n"
         )
     };
     let walls = format!("frequency_hz = [0.1, 0.2]\n{}{}", wall("right", "above"), wall("left", "below"));

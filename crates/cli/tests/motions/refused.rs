@@ -81,7 +81,8 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
             &memory,
             "0.1,0",
             2,
-            "the state lies 1.000e-1 m within the contact of \"stop\", and its law needs to know how fast it closed",
+            "the state lies 1.000e-1 m within the contact of \"stop\", and its law needs to know how fast \
+            it closed",
         ),
         // The force pushes the mass against the stop at which it rests.
         (&memory, "rest", 1, "stop is pressed on without an impact"),

@@ -67,7 +67,8 @@ fn samples_that_do_not_fit_into_memory_are_refused() {
     };
     let springs: Vec<String> = (1..=60).map(spring).collect();
     let study = format!(
-        "[structure]\nkind = \"lumped\"\nmass = [{}]\nspring = [{}]\n[damping]\nmodal_ratio = 0.02\n[excitation]\nkind = \"force\"\nat = \"m1\"\namplitude_n = 0.4\nfrequency_hz = [0.1, 0.2]\n",
+        "[structure]\nkind = \"lumped\"\nmass = [{}]\nspring = [{}]\n[damping]\nmodal_ratio = \
+        0.02\n[excitation]\nkind = \"force\"\nat = \"m1\"\namplitude_n = 0.4\nfrequency_hz = [0.1, 0.2]\n",
         masses.join(", "),
         springs.join(", ")
     );

@@ -5,20 +5,20 @@ use hammerbeam_motion::LocalElement;
 use hammerbeam_structure::MeshShape;
 use hammerbeam_study::{
     Model, Study, StudyFile,
-    file::{FixedTo, MatrixPointEntry, Place, PointPlaceEntry, Structure},
+    file::{FixedTo, MatrixPointEntry, Place, PointPlaceEntry, StructureTable},
 };
 
 /// Places, stops and springs of a study.
 pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
     let study = &file.study;
     let name_at = |at: f64| match &study.structure {
-        Structure::Beam(beam) => beam
+        StructureTable::Beam(beam) => beam
             .points
             .iter()
             .find(|point| (point.at_m - at).abs() <= 1e-9 * beam.length_m)
             .map(|point| &point.name),
-        Structure::Lumped(lumped) => lumped.masses.get(at as usize).map(|mass| &mass.name),
-        Structure::Matrices(matrices) => matrices.points.get(at as usize).map(|point| &point.name),
+        StructureTable::Lumped(lumped) => lumped.masses.get(at as usize).map(|mass| &mass.name),
+        StructureTable::Matrices(matrices) => matrices.points.get(at as usize).map(|point| &point.name),
     };
     let places = model.outline.iter().map(|place| PagePlace {
         name: name_at(place.at).cloned().unwrap_or_default(),
@@ -27,8 +27,8 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         support_ratios: place.support_ratios.clone(),
     });
     let links = match &study.structure {
-        Structure::Beam(_) | Structure::Matrices(_) => Vec::new(),
-        Structure::Lumped(lumped) => {
+        StructureTable::Beam(_) | StructureTable::Matrices(_) => Vec::new(),
+        StructureTable::Lumped(lumped) => {
             let mass = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
             let ends =
                 |between: &[String; 2]| [&between[0], &between[1]].map(|name| mass(name).map(|at| at as u32));
@@ -40,7 +40,7 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
     };
     let frequencies = model.system.model().natural_frequencies.iter();
     PageStructure {
-        is_beam: matches!(study.structure, Structure::Beam(_)),
+        is_beam: matches!(study.structure, StructureTable::Beam(_)),
         places: places.collect(),
         stops: stops(file, model),
         links,
@@ -60,7 +60,7 @@ fn mesh(study: &Study, shape: &MeshShape) -> PageMesh {
         _ => None,
     };
     let places = match &study.structure {
-        Structure::Matrices(matrices) => matrices.points.iter().map(node_of).collect(),
+        StructureTable::Matrices(matrices) => matrices.points.iter().map(node_of).collect(),
         _ => Vec::new(),
     };
     PageMesh {
@@ -120,13 +120,15 @@ fn levels(element: &LocalElement, model: &Model, name: &str, other: Option<&Stri
 /// Number of the place of a point in the outline; none for the ground.
 fn place(file: &StudyFile, model: &Model, name: &str) -> Option<u32> {
     let at = match (&file.study.structure, name) {
-        (Structure::Lumped(lumped), _) => lumped.masses.iter().position(|mass| mass.name == name)? as f64,
-        (Structure::Matrices(matrices), _) => {
+        (StructureTable::Lumped(lumped), _) => {
+            lumped.masses.iter().position(|mass| mass.name == name)? as f64
+        }
+        (StructureTable::Matrices(matrices), _) => {
             matrices.points.iter().position(|point| point.name == name)? as f64
         }
-        (Structure::Beam(_), "left") => 0.0,
-        (Structure::Beam(beam), "right") => beam.length_m,
-        (Structure::Beam(beam), _) => beam.points.iter().find(|point| point.name == name)?.at_m,
+        (StructureTable::Beam(_), "left") => 0.0,
+        (StructureTable::Beam(beam), "right") => beam.length_m,
+        (StructureTable::Beam(beam), _) => beam.points.iter().find(|point| point.name == name)?.at_m,
     };
     let distance = |place: usize| (model.outline[place].at - at).abs();
     (0..model.outline.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).map(|place| place as u32)

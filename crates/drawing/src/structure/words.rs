@@ -5,9 +5,9 @@ use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_study::{
     Study,
     file::{
-        ActingForce, Amplitude, Approach, Beam, BeamPoint, BeamSpanEntry, End, Excitation, ExcitationKind,
-        FixedTo, ForcePlace, ForceSize, GapMeasured, Load, Lumped, Matrices, MatrixFiles, MovingSupport,
-        Place, Side, Stop, StopLaw, StopRest, Structure, SupportDrive,
+        ActingForce, Amplitude, Approach, BeamPointTable, BeamSpanEntry, BeamTable, EndSupport, Excitation,
+        ExcitationKind, FixedTo, ForcePlace, ForceSize, GapMeasured, LoadTable, LumpedTable, MatricesTable,
+        MatrixFiles, MovingSupport, Place, Stop, StopLaw, StopRest, StopSide, StructureTable, SupportDrive,
     },
 };
 
@@ -17,9 +17,9 @@ const LISTED: usize = 12;
 /// The lines.
 pub fn of(study: &Study, unit: FrequencyUnit) -> Vec<String> {
     let mut lines = match &study.structure {
-        Structure::Beam(beam) => beam_words(beam),
-        Structure::Lumped(lumped) => lumped_words(lumped),
-        Structure::Matrices(matrices) => matrix_words(matrices),
+        StructureTable::Beam(beam) => beam_words(beam),
+        StructureTable::Lumped(lumped) => lumped_words(lumped),
+        StructureTable::Matrices(matrices) => matrix_words(matrices),
     };
     lines.extend(study.stops.iter().map(|stop| stop_words(stop, &study.excitation)));
     lines.push(excitation_words(study, unit));
@@ -27,7 +27,7 @@ pub fn of(study: &Study, unit: FrequencyUnit) -> Vec<String> {
     lines
 }
 
-fn matrix_words(matrices: &Matrices) -> Vec<String> {
+fn matrix_words(matrices: &MatricesTable) -> Vec<String> {
     let name = |file: &std::path::Path| {
         file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     };
@@ -37,7 +37,7 @@ fn matrix_words(matrices: &Matrices) -> Vec<String> {
     matrices.components.iter().map(of).collect()
 }
 
-fn beam_words(beam: &Beam) -> Vec<String> {
+fn beam_words(beam: &BeamTable) -> Vec<String> {
     let profile = |span: &BeamSpanEntry| {
         let (stiffness, mass) = (span.profile.bending_stiffness(), span.profile.mass_per_length());
         let shear = if span.profile.poisson_ratio.is_some() { ", with shear" } else { "" };
@@ -56,7 +56,7 @@ fn beam_words(beam: &Beam) -> Vec<String> {
     lines
 }
 
-fn point_words(point: &BeamPoint) -> String {
+fn point_words(point: &BeamPointTable) -> String {
     let parts = [
         (point.mass_kg, "kg"),
         (point.rotary_inertia_kg_m2, "kg m²"),
@@ -69,15 +69,15 @@ fn point_words(point: &BeamPoint) -> String {
     let carried: Vec<String> = carried.map(|(value, unit)| format!("{} {unit}", number(*value))).collect();
     let carried = if carried.is_empty() { String::new() } else { format!(", {}", carried.join(", ")) };
     let held = match point.support {
-        End::Free => "",
-        End::Pinned => ", pinned",
-        End::Clamped => ", clamped",
-        End::Sliding => ", held against turning",
+        EndSupport::Free => "",
+        EndSupport::Pinned => ", pinned",
+        EndSupport::Clamped => ", clamped",
+        EndSupport::Sliding => ", held against turning",
     };
     format!("{}: at {} mm{held}{carried}.", point.name, number(1e3 * point.at_m))
 }
 
-fn lumped_words(lumped: &Lumped) -> Vec<String> {
+fn lumped_words(lumped: &LumpedTable) -> Vec<String> {
     let masses = lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, number(mass.mass_kg)));
     let between = |ends: &[String; 2]| format!("{}–{}", ends[0], ends[1]);
     let springs = lumped.springs.iter();
@@ -152,8 +152,8 @@ fn raised(unit: &str) -> String {
     format!("{base}{}", exponent.chars().map(raise).collect::<String>())
 }
 
-fn rest(approach: Approach, side: Side) -> String {
-    let side = if side == Side::Above { "above" } else { "below" };
+fn rest(approach: Approach, side: StopSide) -> String {
+    let side = if side == StopSide::Above { "above" } else { "below" };
     match approach {
         Approach::Gap { gap_m, measured } => {
             format!("gap {} mm {side}{}", number(1e3 * gap_m), counted(measured))
@@ -233,17 +233,17 @@ fn acting_words(force: &ActingForce) -> String {
     format!("{place}, {size}{phase}")
 }
 
-fn load_words(load: &Load, excitation: &Excitation) -> String {
+fn load_words(load: &LoadTable, excitation: &Excitation) -> String {
     match load {
-        Load::Gravity { acceleration_m_s2 } => format!("Gravity: {} m/s².", number(*acceleration_m_s2)),
-        Load::Force { at, amplitude_n, order: 0, .. } => {
+        LoadTable::Gravity { acceleration_m_s2 } => format!("Gravity: {} m/s².", number(*acceleration_m_s2)),
+        LoadTable::Force { at, amplitude_n, order: 0, .. } => {
             format!("Constant force F at {at}: {} N.", number(*amplitude_n))
         }
-        Load::Force { at, amplitude_n, order, .. } => {
+        LoadTable::Force { at, amplitude_n, order, .. } => {
             format!("Force F at {at}: {} N, order {order}.", number(*amplitude_n))
         }
-        Load::ActingForce { force, order } => format!("Load: {}, order {order}.", acting_words(force)),
-        Load::DrivenSupport { support, motion, order, .. } => {
+        LoadTable::ActingForce { force, order } => format!("Load: {}, order {order}.", acting_words(force)),
+        LoadTable::DrivenSupport { support, motion, order, .. } => {
             let which = if excitation.supports_differ() { format!("{}", support + 1) } else { String::new() };
             let (what, amplitude) = match motion {
                 SupportDrive::Displacement(a) => ("motion u", format!("{} mm", amplitude_words(a, 1e3))),
@@ -253,7 +253,7 @@ fn load_words(load: &Load, excitation: &Excitation) -> String {
             };
             format!("Further {what}{which}: {amplitude}, order {order}.")
         }
-        Load::SupportMotion { support, amplitude_m, order, .. } => {
+        LoadTable::SupportMotion { support, amplitude_m, order, .. } => {
             let which = if excitation.supports_differ() { format!("{}", support + 1) } else { String::new() };
             format!("Further motion u{which}: {} mm, order {order}.", number(1e3 * amplitude_m))
         }

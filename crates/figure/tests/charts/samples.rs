@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    BasinAttractor, BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, MotionKind,
+    BasinAttractor, BasinMap, ConvergenceDiagram, DrawnMotion, ExponentDiagram, ExponentPoint, MotionKind,
     MultiplierDiagram, Multipliers, OrbitDiagram, OrbitImpulse, OrbitSample, SectionDiagram, SweepDiagram,
-    SweepOrigin, SweptMotion,
+    SweepOrigin,
 };
 
 pub fn basins() -> BasinMap {
@@ -27,7 +27,7 @@ pub fn basins() -> BasinMap {
 }
 
 pub fn sweep() -> SweepDiagram {
-    let motion = |origin, frequency_hz: f64, kind, samples_m: &[f64]| SweptMotion {
+    let motion = |origin, frequency_hz: f64, kind, samples_m: &[f64]| DrawnMotion {
         origin,
         frequency_hz,
         kind,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::{Comparison, Curves, Estimate, Filter, MeasuredPoints, Origin, PointOutcome, Residual};
+use super::{Comparison, Curves, Filter, FitEstimate, MeasuredPoints, Origin, PointOutcome, Residual};
 
 /// A quantity with its curves and what came of it.
 #[derive(Debug, Clone)]
@@ -121,7 +121,7 @@ pub(crate) fn comparison_document(comparison: &Comparison) -> Value {
     })
 }
 
-fn estimate(estimate: Estimate) -> Value {
+fn estimate(estimate: FitEstimate) -> Value {
     json!({
         "value": estimate.value,
         "standard_error": estimate.standard_error().filter(|error| error.is_finite()),

@@ -10,7 +10,10 @@ pub enum ComparisonError {
     NothingMeasured { quantity: &'static str },
     /// Too few points for what is to be fitted.
     #[error(
-        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the best shift and factor that were tried, {met} meet a stable branch of their period and only {near} of them lie within a factor of {} of it; are frequency and unit right? Give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more",
+        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the \
+        best shift and factor that were tried, {met} meet a stable branch of their period and only {near} \
+        of them lie within a factor of {} of it; are frequency and unit right? Give --frequency-factor or \
+        --frequency-offset and --amplitude-factor, or measure more",
         to_digits(*ratio)
     )]
     TooFewPoints {

@@ -26,7 +26,8 @@ pub enum MeasuredError {
     Record { path: PathBuf, source: SignalError },
     /// A record whose excitation frequency is not known.
     #[error(
-        "{}: the excitation frequency is not known; name the file like \"31.5Hz.csv\", or give the excited channel",
+        "{}: the excitation frequency is not known; name the file like \"31.5Hz.csv\", or give the excited \
+        channel",
         path.display()
     )]
     NoFrequency { path: PathBuf },

@@ -39,17 +39,16 @@
 //! Aperiodic and doubtful points take no part: branches are of periodic solutions. They are listed with the
 //! branch that is nearest, stable or not.
 //!
-//! | file | what |
-//! |---|---|
-//! | `curve.rs` | branches as curves of one quantity, by frequency |
-//! | `history.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
-//! | `observed.rs` | from stored branches to such curves |
-//! | `fit/` | shift and factor |
-//! | `judge.rs` | what becomes of each point |
-//! | `overlay/` | a measured history laid over orbits |
-//! | `measured.rs`, `records.rs` | tables of points, and records that are reduced to points |
-//! | `output.rs` | points over an output of the study |
-//! | `whole.rs`, `tables.rs`, `document.rs` | all quantities of a results folder, their tables, their document |
+//! * `curve.rs`: branches as curves of one quantity, by frequency.
+//! * `history.rs`: an orbit in samples, also behind a filter; orbits that cannot be gone over.
+//! * `observed.rs`: from stored branches to such curves.
+//! * `fit/`: shift and factor.
+//! * `judge.rs`: what becomes of each point.
+//! * `overlay/`: a measured history laid over orbits.
+//! * `measured.rs`, `records.rs`: tables of points, and records that are reduced to points.
+//! * `output.rs`: points over an output of the study.
+//! * `whole.rs`, `tables.rs`, `document.rs`: all quantities of a results folder, their tables, their
+//!   document.
 
 mod curve;
 mod document;
@@ -73,7 +72,7 @@ pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub(crate) use document::comparison_document;
 pub use document::{CompareReport, ComparedQuantity};
 pub use error::ComparisonError;
-pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, Residual, SecondMinimum};
+pub use fit::{Fit, FitEstimate, FitSettings, Fixed, Origin, Residual, SecondMinimum};
 pub use history::Filter;
 pub use judge::{Match, PointOutcome, Verdict};
 pub use measured::{MeasuredPoints, read_measured};

@@ -46,7 +46,9 @@ pub enum ObservationError {
     Signal(#[from] SignalError),
     /// Nothing of the motion is left to compare.
     #[error(
-        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion over {duration_s:.6} s, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
+        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion over \
+        {duration_s:.6} s, less than one step of 24 bits: there is nothing to compare with; is the cut-off \
+        that of the measurement?"
     )]
     #[expect(missing_docs, reason = "the message names its fields")]
     FilteredAway { cut_off_hz: f64, left: f64, duration_s: f64 },

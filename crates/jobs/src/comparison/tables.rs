@@ -178,7 +178,8 @@ fn beside(means: &[Amplitude]) -> impl Iterator<Item = String> {
     }
     far.into_iter().map(|(at, ratio)| {
         format!(
-            "the amplitude of the excitation at {} Hz, {:.4e}, is {ratio:.3} times what its neighbours say; it is taken as it is",
+            "the amplitude of the excitation at {} Hz, {:.4e}, is {ratio:.3} times what its neighbours say; \
+            it is taken as it is",
             at.frequency_hz,
             at.mean()
         )

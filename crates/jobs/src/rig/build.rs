@@ -51,10 +51,17 @@ mod tests {
 
     #[test]
     fn changes_are_put_over_the_study() {
-        let rig = "[rig]\nsweep_hz = [20.0, 70.0]\n[rig.changes.structure]\nyoungs_modulus_pa = 1.9e11\n[rig.changes.damping]\nmodal_ratio = 0.003\n[[rig.changes.stop]]\nat = \"contact\"\nlaw = \"linear\"\nstiffness_n_m = 1e6\nside = \"below\"\nfixed_to = \"left\"\n";
+        let rig = "[rig]\nsweep_hz = [20.0, 70.0]\n[rig.changes.structure]\nyoungs_modulus_pa = \
+        1.9e11\n[rig.changes.damping]\nmodal_ratio = 0.003\n[[rig.changes.stop]]\nat = \"contact\"\nlaw \
+        = \"linear\"\nstiffness_n_m = 1e6\nside = \"below\"\nfixed_to = \"left\"\n";
         let changed = with(rig).unwrap().study;
         let model = StudyFile::parse("study.toml", MODEL.to_owned()).unwrap().study;
-        let hammerbeam_study::file::Structure::Beam(beam) = &changed.structure else { panic!("not a beam") };
+        let hammerbeam_study::file::StructureTable::Beam(beam) = &changed.structure else {
+            panic!(
+                "not a \
+        beam"
+            )
+        };
         assert_eq!(
             (beam.spans[0].profile.youngs_modulus_pa, beam.spans[0].profile.density_kg_m3),
             (1.9e11, 7800.0)

@@ -6,17 +6,16 @@
 //! classified as a measured one would be. What the rig knows of itself (the state once in each period,
 //! without noise) is kept beside it, to count how often that is right.
 //!
-//! | file | what |
-//! |---|---|
-//! | `build.rs` | the study of the rig |
-//! | `sweep.rs` | stepped sweeps; a record at each frequency, and its point |
-//! | `chaos.rs` | largest exponents of aperiodic motions, from record and motion |
-//! | `decay.rs` | a free decay of the structure without its stops: eigenfrequencies and damping as they are measured |
-//! | `modes.rs` | which modes these are |
-//! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
-//! | `signals.rs` | measured and computed signals laid over one another |
-//! | `whole.rs` | all of it |
-//! | `tables.rs`, `document.rs`, `signal_document.rs` | its tables and its document |
+//! * `build.rs`: the study of the rig.
+//! * `sweep.rs`: stepped sweeps; a record at each frequency, and its point.
+//! * `chaos.rs`: largest exponents of aperiodic motions, from record and motion.
+//! * `decay.rs`: a free decay of the structure without its stops: eigenfrequencies and damping as they are
+//!   measured.
+//! * `modes.rs`: which modes these are.
+//! * `filter.rs`: what low-pass filters leave of the maxima along the branches.
+//! * `signals.rs`: measured and computed signals laid over one another.
+//! * `whole.rs`: all of it.
+//! * `tables.rs`, `document.rs`, `signal_document.rs`: its tables and its document.
 //!
 //! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and
 //! threads take whole sweeps, signals or solutions.
@@ -44,6 +43,6 @@ pub use filter::{
 pub use modes::{RigMode, rig_modes};
 pub use signal_document::signal_document;
 pub use signals::{SignalPair, compare_signal};
-pub use sweep::{Direction, RigPoint, sweep};
+pub use sweep::{RigPoint, SweepDirection, sweep};
 pub use tables::{RigChaos, figure_name, write_rig_tables};
 pub use whole::{RigReport, measure_rig};

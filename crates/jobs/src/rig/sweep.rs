@@ -33,14 +33,14 @@ const LONGEST: usize = 8;
 
 /// Direction of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
+pub enum SweepDirection {
     /// Rising frequencies.
     Up,
     /// Falling frequencies.
     Down,
 }
 
-impl Direction {
+impl SweepDirection {
     /// The word for it.
     #[must_use]
     pub const fn word(self) -> &'static str {
@@ -55,7 +55,7 @@ impl Direction {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigPoint {
     /// The sweep.
-    pub direction: Direction,
+    pub direction: SweepDirection,
     /// As a measured point: filtered acceleration, displacement, amplitude of the table.
     pub point: MeasuredPoint,
     /// What the filtered acceleration was taken for.
@@ -86,8 +86,9 @@ pub fn sweep(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<Vec<RigPoint>, RigError> {
-    let directions = [Direction::Up, Direction::Down];
-    let work = |(): &mut (), direction: &Direction, stop: &AtomicBool| one_way(rig, model, *direction, stop);
+    let directions = [SweepDirection::Up, SweepDirection::Down];
+    let work =
+        |(): &mut (), direction: &SweepDirection, stop: &AtomicBool| one_way(rig, model, *direction, stop);
     let swept = PooledOrder::new(threads, observer).each(&directions, &|| (), &work, |_, _| {});
     let mut points = Vec::new();
     for sweep in swept.ok_or(RigError::Interrupted)? {
@@ -99,11 +100,11 @@ pub fn sweep(
 fn one_way(
     rig: &Rig,
     model: &Model,
-    direction: Direction,
+    direction: SweepDirection,
     stop: &AtomicBool,
 ) -> Result<Vec<RigPoint>, RigError> {
     let [low, high] = rig.sweep_hz;
-    let (from, to) = if direction == Direction::Up { (low, high) } else { (high, low) };
+    let (from, to) = if direction == SweepDirection::Up { (low, high) } else { (high, low) };
     let mut state = vec![0.0; 2 * model.system.dof()];
     let mut points = Vec::new();
     for (index, frequency_hz) in
@@ -112,8 +113,8 @@ fn one_way(
         if stop.load(Ordering::Relaxed) {
             return Err(RigError::Interrupted);
         }
-        let seed =
-            2 * (1_000_003 * u64::from(rig.seed) + index as u64) + u64::from(direction == Direction::Down);
+        let seed = 2 * (1_000_003 * u64::from(rig.seed) + index as u64)
+            + u64::from(direction == SweepDirection::Down);
         let point = at_or_anew(rig, model, (direction, frequency_hz, seed), &state)?;
         state.clone_from(&point.state);
         points.push(point);
@@ -126,7 +127,7 @@ fn one_way(
 fn at_or_anew(
     rig: &Rig,
     model: &Model,
-    begin: (Direction, f64, u64),
+    begin: (SweepDirection, f64, u64),
     state: &[f64],
 ) -> Result<RigPoint, RigError> {
     let mut found = at(rig, model, begin, state);
@@ -171,7 +172,7 @@ pub(super) fn settled(
 fn at(
     rig: &Rig,
     model: &Model,
-    (direction, frequency_hz, seed): (Direction, f64, u64),
+    (direction, frequency_hz, seed): (SweepDirection, f64, u64),
     state: &[f64],
 ) -> Result<RigPoint, RigError> {
     let (mut simulation, begun_anew) = settled(rig, model, frequency_hz, state)?;

@@ -7,7 +7,7 @@ use hammerbeam_orbit::{
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 
-use super::{Match, Origin, Solver, Surveyed, Walk};
+use super::{BranchOrigin, OrbitMatcher, Solver, Surveyed, Walk};
 
 /// One branch for each period multiple of 1 and 2; the harmonic one overhangs.
 pub(crate) struct FakeSolver {
@@ -108,10 +108,10 @@ impl Solver for FakeSolver {
         })
     }
 
-    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+    fn begin<'a>(&'a self, origin: &BranchOrigin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
         let (multiple, frequency_hz) = match origin {
-            Origin::Found(start) => (start.period_multiple, start.frequency_hz),
-            Origin::Crossing(crossing) => {
+            BranchOrigin::Found(start) => (start.period_multiple, start.frequency_hz),
+            BranchOrigin::Crossing(crossing) => {
                 (crossing.factor * crossing.orbit.period_multiple, crossing.orbit.frequency_hz)
             }
         };
@@ -135,14 +135,14 @@ impl Solver for FakeSolver {
         Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked }))
     }
 
-    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String> {
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn OrbitMatcher + 'a>, String> {
         Ok(Box::new(FakeMatch(solution)))
     }
 }
 
 struct FakeMatch<'a>(&'a PeriodicSolution);
 
-impl Match for FakeMatch<'_> {
+impl OrbitMatcher for FakeMatch<'_> {
     fn distance(&self, (_, state): (f64, &[f64])) -> f64 {
         state.iter().zip(&self.0.nodes[0]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }

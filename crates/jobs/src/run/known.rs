@@ -17,7 +17,7 @@ use hammerbeam_results::{
 };
 
 use super::{
-    Match, Solver,
+    OrbitMatcher, Solver,
     agenda::{Sketch, Start},
 };
 
@@ -165,7 +165,7 @@ fn share(first: &Sketch, second: &Sketch, (frequency_hz, maxima): (f64, [f64; 2]
 /// Whether the solution is the one between two stored ones.
 fn is_between(
     store: &Store,
-    matcher: &dyn Match,
+    matcher: &dyn OrbitMatcher,
     (first, second): (i64, i64),
     share: f64,
 ) -> Result<bool, StoreError> {

@@ -54,7 +54,7 @@ pub use crate::walk::Walk;
 pub use plan::Plan;
 pub use report::{BranchReport, RunReport, end_of_side, peak_stability};
 pub use runner::{RunError, RunOutcome, run};
-pub use solver::{Match, Origin, Solver, Surveyed};
+pub use solver::{BranchOrigin, OrbitMatcher, Solver, Surveyed};
 pub use whole::{RunOrigin, RunRequest, WholeRun, run_study};
 
 #[cfg(test)]

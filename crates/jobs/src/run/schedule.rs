@@ -17,7 +17,7 @@ use hammerbeam_orbit::{Crossing, Side};
 use hammerbeam_results::store::{JobKind, JobRecord, Store, StoreError};
 
 use super::{
-    Origin, Plan, Solver,
+    BranchOrigin, Plan, Solver,
     agenda::{Agenda, Job, Start},
     known,
     worker::{Evaluation, From, Question, Task, WalkTask},
@@ -238,10 +238,12 @@ fn begin_walk(
     Ok(Task::Walk(WalkTask { key, side, from, stored, budget: plan.budget, share, cancelled }))
 }
 
-fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<Origin, StoreError> {
+fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<BranchOrigin, StoreError> {
     let job = agenda.jobs.iter().find(|job| job.starts.iter().any(|start| start.key == key));
     match job {
-        Some(job) if job.record.kind.leaves_source() => Ok(Origin::Crossing(crossing(store, &job.record)?)),
-        _ => Ok(Origin::Found(store.solution(key, Side::Up, 0)?)),
+        Some(job) if job.record.kind.leaves_source() => {
+            Ok(BranchOrigin::Crossing(crossing(store, &job.record)?))
+        }
+        _ => Ok(BranchOrigin::Found(store.solution(key, Side::Up, 0)?)),
     }
 }

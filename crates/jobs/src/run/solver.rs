@@ -61,7 +61,7 @@ pub trait Solver: Sync {
     ///
     /// # Errors
     /// Why it cannot begin, in words.
-    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String>;
+    fn begin<'a>(&'a self, origin: &BranchOrigin, side: Side) -> Result<Box<dyn Walk + 'a>, String>;
 
     /// The walk that a checkpoint was taken of; it goes on as if it had never been left.
     ///
@@ -75,7 +75,7 @@ pub trait Solver: Sync {
     ///
     /// # Errors
     /// Why that is not possible, in words.
-    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String>;
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn OrbitMatcher + 'a>, String>;
 }
 
 /// What a survey has found.
@@ -89,7 +89,7 @@ pub struct Surveyed {
 
 /// Where a walk begins.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Origin {
+pub enum BranchOrigin {
     /// At a solution that was found.
     Found(PeriodicSolution),
     /// Where the branch leaves another one.
@@ -97,7 +97,7 @@ pub enum Origin {
 }
 
 /// A solution that others are compared with, whatever the excitation period at which they begin.
-pub trait Match {
+pub trait OrbitMatcher {
     /// Distance of a state at a phase [cycles] from the solution, relative to it.
     fn distance(&self, state: (f64, &[f64])) -> f64;
 

@@ -12,7 +12,7 @@ use std::{
 use hammerbeam_orbit::{Crossing, Side};
 use hammerbeam_results::store::StoredMemory;
 
-use super::solver::{Origin, Solver, Surveyed};
+use super::solver::{BranchOrigin, Solver, Surveyed};
 use crate::walk::{Stretch, WalkLimits, walk_on};
 
 /// A piece of work.
@@ -54,7 +54,7 @@ pub(super) struct WalkTask {
 
 #[derive(Debug)]
 pub(super) enum From {
-    Origin(Origin),
+    Origin(BranchOrigin),
     Memory(StoredMemory),
 }
 
@@ -126,7 +126,7 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
         }
         Question::Leave(crossing) => {
             // Only a branch that can be followed is one.
-            solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
+            solver.begin(&BranchOrigin::Crossing(crossing.clone()), Side::Up)?;
             Ok(complete(vec![solver.root(crossing)?]))
         }
     }

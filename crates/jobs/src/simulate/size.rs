@@ -18,17 +18,20 @@ const OF_A_SAMPLE: u64 = 8;
 pub enum SimulationTooLarge {
     /// A free motion that is to be kept.
     #[error(
-        "the motion is {numbers} numbers, must be {most} at most where it is kept; allowed: a shorter duration, or less than {sampling_hz} samples in a second"
+        "the motion is {numbers} numbers, must be {most} at most where it is kept; allowed: a shorter \
+        duration, or less than {sampling_hz} samples in a second"
     )]
     Free { numbers: u64, most: u64, sampling_hz: f64 },
     /// A period has too many samples.
     #[error(
-        "{samples} samples of {dof} degrees of freedom and {elements} local elements is {numbers} numbers in a period, must be {most} at most; allowed: 1 to {most_samples} samples"
+        "{samples} samples of {dof} degrees of freedom and {elements} local elements is {numbers} numbers \
+        in a period, must be {most} at most; allowed: 1 to {most_samples} samples"
     )]
     Period { samples: u64, dof: usize, elements: usize, numbers: u64, most: u64, most_samples: u64 },
     /// A forced motion that is to be kept.
     #[error(
-        "{periods} periods of {of_period} numbers each is {numbers} numbers, must be {most} at most where it is kept; allowed: 1 to {most_periods} periods with {samples} samples in each"
+        "{periods} periods of {of_period} numbers each is {numbers} numbers, must be {most} at most where \
+        it is kept; allowed: 1 to {most_periods} periods with {samples} samples in each"
     )]
     Periods { periods: u64, of_period: u64, numbers: u64, most: u64, most_periods: u64, samples: u64 },
 }

@@ -17,7 +17,8 @@ pub enum CandidateError {
     NoMode { mode: usize, modes: usize, place: String },
     /// No stable orbit was found where one was measured.
     #[error(
-        "the model has no stable periodic response of {period_multiple} excitation period(s) at {frequency_hz} Hz that simulation finds"
+        "the model has no stable periodic response of {period_multiple} excitation period(s) at \
+        {frequency_hz} Hz that simulation finds"
     )]
     NoResponse { frequency_hz: f64, period_multiple: u32 },
     /// An orbit could not be followed to these parameters.

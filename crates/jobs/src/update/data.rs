@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, io, ops::Range, path::PathBuf};
 
 use hammerbeam_fit::{Bounds, Deviations};
 use hammerbeam_study::{
-    Report,
+    FaultReport,
     document::{Problem, place},
     number::Number,
 };
@@ -89,7 +89,7 @@ pub struct ResponseDatum {
 
 /// What was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Observation {
+pub enum MeasuredDatum {
     /// An eigenfrequency [Hz].
     Eigenfrequency(EigenfrequencyDatum),
     /// A damping ratio.
@@ -102,7 +102,7 @@ pub enum Observation {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Datum {
     /// What it is.
-    pub observation: Observation,
+    pub observation: MeasuredDatum,
     /// Its value, in SI units.
     pub value: f64,
     /// Its standard deviation.
@@ -120,9 +120,9 @@ pub(super) struct DataSource {
 }
 
 impl DataSource {
-    pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> Report {
+    pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> FaultReport {
         let problem = Problem { key: key.to_owned(), span: place(&self.places, key), message, help };
-        Report::new(&self.name, &self.text, vec![problem])
+        FaultReport::new(&self.name, &self.text, vec![problem])
     }
 }
 
@@ -152,7 +152,7 @@ pub enum DataError {
     Unreadable { path: PathBuf, source: io::Error },
     /// The file says something that is not allowed.
     #[error("{0}")]
-    Invalid(Report),
+    Invalid(FaultReport),
 }
 
 impl UpdateData {

@@ -10,7 +10,7 @@ use hammerbeam_results::whole_file::{WriteError, replace};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::{FittedDatum, FittedParameter, Observation, Update, UpdateData, UpdateError};
+use super::{FittedDatum, FittedParameter, MeasuredDatum, Update, UpdateData, UpdateError};
 
 /// The updated study in the folder of results.
 const STUDY: &str = "updated.toml";
@@ -83,7 +83,8 @@ impl Update {
             .map(|parameter| format!("{} = {:e}", parameter.key, parameter.value))
             .collect();
         Some(format!(
-            "the fit does not converge: {why}, and a further step would still be {:.1e} standard errors long. It had come to {}, with chi-squared {:.4e}. \
+            "the fit does not converge: {why}, and a further step would still be {:.1e} standard errors \
+            long. It had come to {}, with chi-squared {:.4e}. \
              Another start, bounds, or fewer parameters may help",
             found.end.distance(),
             reached.join(", "),
@@ -153,9 +154,9 @@ impl FittedDatum {
     #[must_use]
     pub fn name(&self, data: &UpdateData) -> String {
         match self.datum.observation {
-            Observation::Eigenfrequency(of) => format!("{} {}", of.table.name(), of.mode + 1),
-            Observation::Damping(of) => format!("damping ratio {}", of.mode + 1),
-            Observation::Response(of) => {
+            MeasuredDatum::Eigenfrequency(of) => format!("{} {}", of.table.name(), of.mode + 1),
+            MeasuredDatum::Damping(of) => format!("damping ratio {}", of.mode + 1),
+            MeasuredDatum::Response(of) => {
                 let orbit = &data.orbits[of.orbit];
                 format!("{} at {} Hz, period {}", of.of.name(), orbit.frequency_hz, orbit.period_multiple)
             }

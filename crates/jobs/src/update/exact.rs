@@ -4,7 +4,7 @@
 use hammerbeam_structure::{BeamChange, Boundary, PointChange};
 use hammerbeam_study::{
     StudyError, StudyFile,
-    file::{Beam, Structure},
+    file::{BeamTable, StructureTable},
     number::Number,
 };
 
@@ -21,7 +21,7 @@ pub(super) fn eigenfrequency_derivatives(
     value: f64,
     table: FrequencyTable,
 ) -> Result<Option<Vec<f64>>, StudyError> {
-    let Structure::Beam(beam) = &file.study.structure else { return Ok(None) };
+    let StructureTable::Beam(beam) = &file.study.structure else { return Ok(None) };
     let boundary = match table {
         FrequencyTable::Clamped => Boundary::Supported,
         FrequencyTable::FreeInterface => Boundary::Released,
@@ -37,7 +37,7 @@ pub(super) fn eigenfrequency_derivatives(
 }
 
 /// What of a beam changes with a number, and how fast; nothing at all if the number is not of the structure.
-fn change(beam: &Beam, number: &Number, value: f64) -> Option<BeamChange> {
+fn change(beam: &BeamTable, number: &Number, value: f64) -> Option<BeamChange> {
     // The last path has numbers where the others may have names.
     let key = number.keys.last()?;
     let Some(key) = key.strip_prefix("structure.") else { return Some(BeamChange::default()) };
@@ -63,7 +63,7 @@ fn change(beam: &Beam, number: &Number, value: f64) -> Option<BeamChange> {
 }
 
 /// Changes of all points with `point.NUMBER.KEY`.
-fn point_changes(beam: &Beam, key: &str) -> Option<Vec<PointChange>> {
+fn point_changes(beam: &BeamTable, key: &str) -> Option<Vec<PointChange>> {
     let (index, key) = key.strip_prefix("point.")?.split_once('.')?;
     let index = index.parse::<usize>().ok()?.checked_sub(1)?;
     let none = PointChange::default();

@@ -169,7 +169,8 @@ impl fmt::Display for Finding {
                 } else {
                     write!(
                         formatter,
-                        ": changed together by steps of {}, they stay within the interval up to {:.0} % of their values either way (reported from {:.0} % on)",
+                        ": changed together by steps of {}, they stay within the interval up to {:.0} % of \
+                        their values either way (reported from {:.0} % on)",
                         steps(direction),
                         100.0 * half_width,
                         100.0 * UNDETERMINED
@@ -178,7 +179,8 @@ impl fmt::Display for Finding {
             }
             Self::Collinear { direction, index } => write!(
                 formatter,
-                "{} nearly make up for each other: of a step of {} only one part in {index:.0} is seen (reported from {COLLINEAR:.0} on); \
+                "{} nearly make up for each other: of a step of {} only one part in {index:.0} is seen \
+                (reported from {COLLINEAR:.0} on); \
                  only the precision of the data separates them",
                 names(direction),
                 steps(direction)
@@ -186,37 +188,43 @@ impl fmt::Display for Finding {
             Self::AtBound { key, value } => {
                 write!(
                     formatter,
-                    "{key} is held at its bound, {value}; the intervals are those of the other parameters with it there"
+                    "{key} is held at its bound, {value}; the intervals are those of the other parameters \
+                    with it there"
                 )
             }
             Self::PoorFit { chi_squared, freedoms, probability } => write!(
                 formatter,
-                "the model does not fit: chi-squared is {chi_squared:.1} with {freedoms} degrees of freedom, which errors of the stated size exceed with a probability of {probability:.1e}; \
+                "the model does not fit: chi-squared is {chi_squared:.1} with {freedoms} degrees of \
+                freedom, which errors of the stated size exceed with a probability of {probability:.1e}; \
                  the intervals count on the model and are too narrow"
             ),
             Self::LargeFactor { factor } => write!(
                 formatter,
-                "the residuals are {factor:.0} times as large as stated: the model does not fit, or the fit ended in a minimum that is not the lowest (try another start)"
+                "the residuals are {factor:.0} times as large as stated: the model does not fit, or the fit \
+                ended in a minimum that is not the lowest (try another start)"
             ),
             Self::AnotherMinimum { values, chi_squared } => {
                 let values: Vec<String> =
                     values.iter().map(|(key, value)| format!("{key} = {value:.6e}")).collect();
                 write!(
                     formatter,
-                    "other values fit about as well: {}, with chi-squared {chi_squared:.4e}; `low` and `high` in the data file exclude what cannot be",
+                    "other values fit about as well: {}, with chi-squared {chi_squared:.4e}; `low` and \
+                    `high` in the data file exclude what cannot be",
                     values.join(", ")
                 )
             }
             Self::NothingToTest => {
                 write!(
                     formatter,
-                    "there are as many parameters as data: the model goes through the data whether it is right or not"
+                    "there are as many parameters as data: the model goes through the data whether it is \
+                    right or not"
                 )
             }
             Self::Unstable { frequency_hz } => {
                 write!(
                     formatter,
-                    "the response at {frequency_hz} Hz is unstable with the best values, so it could not have been measured"
+                    "the response at {frequency_hz} Hz is unstable with the best values, so it could not \
+                    have been measured"
                 )
             }
         }

@@ -1,10 +1,10 @@
 //! The measured numbers of a data file: eigenfrequencies, damping ratios, responses, each with its standard
 //! deviation.
 
-use hammerbeam_study::document::{Quantity, Table, Value, quantity};
+use hammerbeam_study::document::{Quantity, TomlTable, Value, quantity};
 
 use super::data::{
-    DampingDatum, Datum, EigenfrequencyDatum, FrequencyTable, Maximum, MeasuredOrbit, Observation,
+    DampingDatum, Datum, EigenfrequencyDatum, FrequencyTable, Maximum, MeasuredDatum, MeasuredOrbit,
     ResponseDatum,
 };
 
@@ -23,7 +23,11 @@ fn one_or_more<T>(value: &Value<'_>, read: impl Fn(&Value<'_>) -> Option<T>) -> 
 }
 
 /// Standard deviations of `values`: their own, or a part of each value.
-fn read_deviations(table: &Table<'_>, own: (&'static str, &Quantity), values: &[f64]) -> Option<Vec<f64>> {
+fn read_deviations(
+    table: &TomlTable<'_>,
+    own: (&'static str, &Quantity),
+    values: &[f64],
+) -> Option<Vec<f64>> {
     let (key, quantity) = own;
     let absolute = table.optional(key);
     let relative = table.optional("deviation_relative");
@@ -52,7 +56,7 @@ fn read_deviations(table: &Table<'_>, own: (&'static str, &Quantity), values: &[
 
 /// Numbers of modes, from 0, and as many values.
 fn modes_and_values(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     values: (&'static str, &Quantity),
     deviations: (&'static str, &Quantity),
 ) -> Option<Vec<(usize, f64, f64)>> {
@@ -84,27 +88,27 @@ impl FrequencyTable {
     }
 }
 
-pub(super) fn read_eigenfrequencies(table: Table<'_>, data: &mut Vec<Datum>) {
+pub(super) fn read_eigenfrequencies(table: TomlTable<'_>, data: &mut Vec<Datum>) {
     let which = table.optional("table").map_or(Some(FrequencyTable::Clamped), |value| value.choice(&TABLES));
     let rows = modes_and_values(&table, ("hz", &quantity::FREQUENCY), ("deviation_hz", &quantity::FREQUENCY));
     let place = table.path_of("mode");
     table.finish();
     let (Some(which), Some(rows)) = (which, rows) else { return };
     data.extend(rows.into_iter().map(|(mode, value, deviation)| Datum {
-        observation: Observation::Eigenfrequency(EigenfrequencyDatum { table: which, mode }),
+        observation: MeasuredDatum::Eigenfrequency(EigenfrequencyDatum { table: which, mode }),
         value,
         deviation,
         place: place.clone(),
     }));
 }
 
-pub(super) fn read_damping(table: Table<'_>, data: &mut Vec<Datum>) {
+pub(super) fn read_damping(table: TomlTable<'_>, data: &mut Vec<Datum>) {
     let quantity = &quantity::MEASURED_RATIO;
     let rows = modes_and_values(&table, ("ratio", quantity), ("deviation", quantity));
     let place = table.path_of("mode");
     table.finish();
     data.extend(rows.into_iter().flatten().map(|(mode, value, deviation)| Datum {
-        observation: Observation::Damping(DampingDatum { mode }),
+        observation: MeasuredDatum::Damping(DampingDatum { mode }),
         value,
         deviation,
         place: place.clone(),
@@ -128,7 +132,7 @@ impl Maximum {
     }
 }
 
-pub(super) fn read_orbit(table: Table<'_>, orbits: &mut Vec<MeasuredOrbit>, data: &mut Vec<Datum>) {
+pub(super) fn read_orbit(table: TomlTable<'_>, orbits: &mut Vec<MeasuredOrbit>, data: &mut Vec<Datum>) {
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let multiple = table.optional("period_multiple").map_or(Some(1), |value| value.whole(1, 64));
     let mut measured = Vec::new();
@@ -155,7 +159,7 @@ pub(super) fn read_orbit(table: Table<'_>, orbits: &mut Vec<MeasuredOrbit>, data
     let orbit = orbits.len();
     orbits.push(MeasuredOrbit { frequency_hz, period_multiple, place: place.clone() });
     data.extend(measured.into_iter().map(|(of, value, deviation)| Datum {
-        observation: Observation::Response(ResponseDatum { orbit, of }),
+        observation: MeasuredDatum::Response(ResponseDatum { orbit, of }),
         value,
         deviation,
         place: place.clone(),

@@ -48,8 +48,8 @@ mod starts;
 
 pub use candidate::CandidateError;
 pub use data::{
-    DampingDatum, DataError, Datum, EigenfrequencyDatum, FittedKey, FrequencyTable, Maximum, MeasuredOrbit,
-    Observation, ResponseDatum, UpdateData,
+    DampingDatum, DataError, Datum, EigenfrequencyDatum, FittedKey, FrequencyTable, Maximum, MeasuredDatum,
+    MeasuredOrbit, ResponseDatum, UpdateData,
 };
 pub use document::{UpdateReport, write_update};
 pub use finding::Finding;

@@ -10,7 +10,7 @@ use hammerbeam_study::{Model, StudyFile, number::Number};
 
 use super::{
     candidate::{CandidateError, built, candidate},
-    data::{Datum, FrequencyTable, Observation, UpdateData},
+    data::{Datum, FrequencyTable, MeasuredDatum, UpdateData},
     exact::eigenfrequency_derivatives,
     observe::{damping_ratios, table},
     response::{Orbits, maximum},
@@ -118,7 +118,7 @@ impl<'a> UpdateProblem<'a> {
         let mut column: Vec<Option<f64>> = vec![None; self.data.data.len()];
         for table in [FrequencyTable::Clamped, FrequencyTable::FreeInterface] {
             let of_table = |datum: &Datum| match datum.observation {
-                Observation::Eigenfrequency(of) if of.table == table => Some(of.mode),
+                MeasuredDatum::Eigenfrequency(of) if of.table == table => Some(of.mode),
                 _ => None,
             };
             if !self.data.data.iter().any(|datum| of_table(datum).is_some()) {
@@ -199,13 +199,13 @@ impl FitProblem for UpdateProblem<'_> {
 
 /// What a model says to each of the data.
 fn values(data: &[Datum], model: &Model, orbits: &[PeriodicSolution]) -> Result<Vec<f64>, CandidateError> {
-    let asks_for_damping = data.iter().any(|datum| matches!(datum.observation, Observation::Damping(_)));
+    let asks_for_damping = data.iter().any(|datum| matches!(datum.observation, MeasuredDatum::Damping(_)));
     let ratios = if asks_for_damping { damping_ratios(model.system.model()) } else { Vec::new() };
     let value = |datum: &Datum| {
         let (list, mode) = match datum.observation {
-            Observation::Eigenfrequency(of) => (table(&model.tables, of.table), of.mode),
-            Observation::Damping(of) => (ratios.as_slice(), of.mode),
-            Observation::Response(of) => return maximum(model, &orbits[of.orbit], of.of),
+            MeasuredDatum::Eigenfrequency(of) => (table(&model.tables, of.table), of.mode),
+            MeasuredDatum::Damping(of) => (ratios.as_slice(), of.mode),
+            MeasuredDatum::Response(of) => return maximum(model, &orbits[of.orbit], of.of),
         };
         let (modes, place) = (list.len(), datum.place.clone());
         list.get(mode).copied().ok_or(CandidateError::NoMode { mode: mode + 1, modes, place })

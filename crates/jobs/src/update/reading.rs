@@ -5,10 +5,10 @@ use std::path::Path;
 use hammerbeam_fit::{Bounds, Deviations};
 use hammerbeam_signal::limits::{LARGEST_TEXT, read_text as read_file};
 use hammerbeam_study::{
-    Report, StudyFile,
+    FaultReport, StudyFile,
     changed::limits,
-    document::{Reading, Table, Value, quantity},
-    file::Structure,
+    document::{Reading, TomlTable, Value, quantity},
+    file::StructureTable,
     number::{self, Number},
 };
 use toml::de::DeTable;
@@ -38,7 +38,7 @@ impl UpdateData {
     }
 }
 
-fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, Report> {
+fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, FaultReport> {
     let reading = Reading::default();
     let read = read_text(&text, &reading, study);
     let (problems, left_out, places) = reading.into_parts();
@@ -48,7 +48,7 @@ fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, Repo
             let Read { title, deviations, parameters, orbits, data } = read;
             Ok(UpdateData { title, deviations, parameters, orbits, data, source })
         }
-        _ => Err(Report::new(name, &text, problems).and(left_out)),
+        _ => Err(FaultReport::new(name, &text, problems).and(left_out)),
     }
 }
 
@@ -68,13 +68,13 @@ fn read_text(text: &str, reading: &Reading, study: &StudyFile) -> Option<Read> {
     if !errors.is_empty() {
         return None;
     }
-    let root = Table::new(reading, String::new(), 0..0, document.get_ref());
+    let root = TomlTable::new(reading, String::new(), 0..0, document.get_ref());
     let read = read_root(&root, reading, study);
     root.finish();
     read
 }
 
-fn read_root(root: &Table<'_>, reading: &Reading, study: &StudyFile) -> Option<Read> {
+fn read_root(root: &TomlTable<'_>, reading: &Reading, study: &StudyFile) -> Option<Read> {
     let before = reading.count();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
     let choices = [("known", Deviations::Known), ("up-to-a-factor", Deviations::UpToFactor)];
@@ -104,7 +104,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, study: &StudyFile) -> Option<R
 
 /// Nothing to fit, or too few data.
 fn refuse_what_cannot_be_fitted(
-    root: &Table<'_>,
+    root: &TomlTable<'_>,
     parameters: &[FittedKey],
     data: &[Datum],
     deviations: Deviations,
@@ -124,7 +124,8 @@ fn refuse_what_cannot_be_fitted(
         );
         let why = if more == 1 {
             format!(
-                "allowed: {needed} data or more, since the standard deviations are estimated from what is left"
+                "allowed: {needed} data or more, since the standard deviations are estimated from what is \
+                left"
             )
         } else {
             format!("allowed: {needed} data or more, or fewer parameters")
@@ -137,7 +138,7 @@ fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-fn read_parameters(root: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> Vec<FittedKey> {
+fn read_parameters(root: &TomlTable<'_>, study: &StudyFile, numbers: &[Number]) -> Vec<FittedKey> {
     let mut read: Vec<FittedKey> = Vec::new();
     for table in root.tables("parameter") {
         let Some(parameter) = read_parameter(&table, study, numbers) else {
@@ -154,7 +155,7 @@ fn read_parameters(root: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> V
     read
 }
 
-fn read_parameter(table: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> Option<FittedKey> {
+fn read_parameter(table: &TomlTable<'_>, study: &StudyFile, numbers: &[Number]) -> Option<FittedKey> {
     let any = &quantity::ANY;
     let key = table.required("key").and_then(|value| read_key(&value, numbers));
     let start = table.optional("start").map(|value| value.number(any));
@@ -208,7 +209,7 @@ fn read_key(value: &Value<'_>, numbers: &[Number]) -> Option<(String, Number)> {
 /// Points stay on a beam whose length is not fitted, and a beam stays as long as its points ask that are not
 /// fitted.
 fn keep_points_on_the_beam(parameters: &mut [FittedKey], study: &StudyFile) {
-    let Structure::Beam(beam) = &study.study.structure else { return };
+    let StructureTable::Beam(beam) = &study.study.structure else { return };
     let is = |parameter: &FittedKey, key: &str| parameter.number.keys.last().is_some_and(|last| last == key);
     let place = |index: usize| format!("structure.point.{}.at_m", index + 1);
     let fits_length = parameters.iter().any(|parameter| is(parameter, "structure.length_m"));

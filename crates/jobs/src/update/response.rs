@@ -7,7 +7,7 @@ use crate::{comparison::history::history, orbit_solver};
 
 use super::{
     candidate::CandidateError,
-    data::{Datum, Maximum, MeasuredOrbit, Observation, UpdateData},
+    data::{Datum, Maximum, MeasuredDatum, MeasuredOrbit, UpdateData},
 };
 
 /// How orbits of one study are looked for.
@@ -121,7 +121,7 @@ fn distance(
     data: &[Datum],
 ) -> Result<f64, CandidateError> {
     let square = |datum: &Datum| match datum.observation {
-        Observation::Response(response) if response.orbit == index => {
+        MeasuredDatum::Response(response) if response.orbit == index => {
             let found = maximum(model, orbit, response.of);
             Some(found.map(|found| (found / datum.value).ln().powi(2)))
         }

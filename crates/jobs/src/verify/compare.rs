@@ -5,7 +5,7 @@ use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution};
 use hammerbeam_results::row::Row;
 
 use super::{
-    quantity::Quantity,
+    quantity::VerifiedQuantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
     unknown::{Unknown, touches_at_nodes},
@@ -22,7 +22,7 @@ const ACCELERATION: f64 = 1e-7;
 /// A comparison: `difference` may be `tolerance` at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Comparison {
-    pub(super) quantity: Quantity,
+    pub(super) quantity: VerifiedQuantity,
     pub(super) stored: f64,
     pub(super) recomputed: f64,
     /// Over what it may be, in units of the tolerance.
@@ -161,7 +161,7 @@ pub(super) fn compare(
     (tolerance, sensitivity): (f64, f64),
 ) -> Vec<Comparison> {
     let measures = Measures::of((system, response), scales, solution.frequency_hz, found);
-    let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
+    let mut list = vec![plain(VerifiedQuantity::Residual, solution.residual, found.residual, found.residual)];
     let margin = tolerance * found.gain * measures.contact[0];
     let rigid = nearest(system, found, |law| law.rigid().is_some());
     let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
@@ -206,7 +206,7 @@ fn nearest_kink(system: &System, found: &Recomputed) -> f64 {
     kinks.map(|(_, penetration)| penetration.abs()).fold(f64::INFINITY, f64::min)
 }
 
-fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> Comparison {
+fn plain(quantity: VerifiedQuantity, stored: f64, recomputed: f64, difference: f64) -> Comparison {
     Comparison { quantity, stored, recomputed, difference, grazing: false }
 }
 
@@ -227,7 +227,7 @@ fn maxima(
         list.push(plain(quantity, stored, new, difference));
     };
     push(
-        Quantity::Displacement,
+        VerifiedQuantity::Displacement,
         stored.displacement,
         new.displacement,
         new.displacement.max(measures.displacement),
@@ -235,21 +235,21 @@ fn maxima(
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     let is_known = (stored.acceleration - new.acceleration).abs() > unknown.acceleration;
     let measure = if is_known { acceleration } else { f64::INFINITY };
-    push(Quantity::Acceleration, stored.acceleration, new.acceleration, measure);
+    push(VerifiedQuantity::Acceleration, stored.acceleration, new.acceleration, measure);
     let is_none = stored.contact_force.max(new.contact_force) <= unknown.force;
     let measure = if is_none { f64::INFINITY } else { factor * new.contact_force };
-    push(Quantity::ContactForce, stored.contact_force, new.contact_force, measure);
+    push(VerifiedQuantity::ContactForce, stored.contact_force, new.contact_force, measure);
     let [struck, touched] =
         [stored.impact_velocity, new.impact_velocity].map(|speed| speed.max(unknown.touch_at_node));
     // Whether a contact that grazes is touched at all is rounding.
     let speed = if touched > 0.0 { touched } else { struck };
     let touch = if speed > 0.0 { measures.touch_factor(speed) } else { 1.0 };
     let measure = if struck.max(touched) <= unknown.speed { f64::INFINITY } else { touch * speed };
-    push(Quantity::ImpactVelocity, struck, touched, measure);
+    push(VerifiedQuantity::ImpactVelocity, struck, touched, measure);
     let period = f64::from(solution.period_multiple) / solution.frequency_hz;
     let is_none = is_none && stored.impulse.max(new.impulse) <= unknown.force * period;
     let measure = if is_none { f64::INFINITY } else { measures.impulse(found) };
-    push(Quantity::Impulse, stored.impulse, new.impulse, measure);
+    push(VerifiedQuantity::Impulse, stored.impulse, new.impulse, measure);
 }
 
 /// As many contacts may come or go as graze, or are touched where the orbit is cut.
@@ -259,7 +259,12 @@ fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     let allowed = missing > 0 && missing as usize <= grazing;
     Comparison {
         grazing: allowed,
-        ..plain(Quantity::Contacts, stored.into(), new.into(), if missing > 0 { f64::INFINITY } else { 0.0 })
+        ..plain(
+            VerifiedQuantity::Contacts,
+            stored.into(),
+            new.into(),
+            if missing > 0 { f64::INFINITY } else { 0.0 },
+        )
     }
 }
 
@@ -279,11 +284,11 @@ fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64
         let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + sensitivity);
         let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
         let (stored, new) = (stored.norm(), multiplier.value.norm());
-        list.push(plain(Quantity::Multipliers, stored, new, difference));
+        list.push(plain(VerifiedQuantity::Multipliers, stored, new, difference));
     }
     if solution.floquet_multipliers.len() != found.multipliers.len() {
         let counts = (solution.floquet_multipliers.len() as f64, found.multipliers.len() as f64);
-        list.push(plain(Quantity::Multipliers, counts.0, counts.1, f64::INFINITY));
+        list.push(plain(VerifiedQuantity::Multipliers, counts.0, counts.1, f64::INFINITY));
     }
     list
 }
@@ -293,7 +298,7 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or_default();
     let same = row.leading_multiplier == [re, im.abs()] && row.stability == solution.stability();
     let [row_re, row_im] = row.leading_multiplier;
-    (!same).then(|| plain(Quantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
+    (!same).then(|| plain(VerifiedQuantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
 }
 
 /// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a
@@ -321,7 +326,7 @@ fn events(
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {
         if claimed {
-            list.push(plain(Quantity::Events, 0.0, distance, distance));
+            list.push(plain(VerifiedQuantity::Events, 0.0, distance, distance));
         }
     };
     let has = |kind| claims.has(kind);
@@ -334,12 +339,12 @@ fn events(
 }
 
 /// Bound of the difference of a quantity.
-pub(super) fn bound(quantity: Quantity, tolerance: f64) -> f64 {
+pub(super) fn bound(quantity: VerifiedQuantity, tolerance: f64) -> f64 {
     match quantity {
-        Quantity::Events => EVENT.max(tolerance),
-        Quantity::Displacement => DISPLACEMENT.max(tolerance),
-        Quantity::ContactForce => FORCE.max(tolerance),
-        Quantity::Acceleration => ACCELERATION.max(tolerance),
+        VerifiedQuantity::Events => EVENT.max(tolerance),
+        VerifiedQuantity::Displacement => DISPLACEMENT.max(tolerance),
+        VerifiedQuantity::ContactForce => FORCE.max(tolerance),
+        VerifiedQuantity::Acceleration => ACCELERATION.max(tolerance),
         _ => tolerance,
     }
 }

@@ -4,7 +4,7 @@ use hammerbeam_results::columns::TableColumn;
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
+pub enum VerifiedQuantity {
     /// That the motion from the first node meets the others and closes.
     Residual,
     /// Floquet multipliers; in a disagreement their moduli.
@@ -27,7 +27,7 @@ pub enum Quantity {
     Motion,
 }
 
-impl Quantity {
+impl VerifiedQuantity {
     /// All of them, in the order of a report.
     pub const ALL: [Self; 10] = [
         Self::Residual,

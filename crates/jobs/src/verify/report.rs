@@ -2,7 +2,7 @@
 
 use super::{
     compare::{Comparison, bound},
-    quantity::Quantity,
+    quantity::VerifiedQuantity,
     settings::VerifySettings,
 };
 
@@ -22,7 +22,7 @@ pub struct VerifiedPlace {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worst {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: VerifiedQuantity,
     /// Largest difference, as it is compared with [`Worst::bound`].
     pub difference: f64,
     /// What it may be.
@@ -54,7 +54,7 @@ pub struct Disagreement {
     /// Where.
     pub place: VerifiedPlace,
     /// What disagrees.
-    pub quantity: Quantity,
+    pub quantity: VerifiedQuantity,
     /// Stored value.
     pub stored: f64,
     /// Recomputed value.
@@ -74,7 +74,7 @@ pub struct Verification {
     pub stored: u64,
     /// Solutions that were computed again.
     pub sampled: u64,
-    /// One for each of [`Quantity::ALL`].
+    /// One for each of [`VerifiedQuantity::ALL`].
     pub worst: Vec<Worst>,
     /// Every disagreement, in the order of the branches; the worst of each quantity of a solution.
     pub disagreements: Vec<Disagreement>,
@@ -84,7 +84,7 @@ pub struct Verification {
 
 impl Verification {
     pub(super) fn new(stored: u64, settings: &VerifySettings) -> Self {
-        let worst = Quantity::ALL.map(|quantity| Worst {
+        let worst = VerifiedQuantity::ALL.map(|quantity| Worst {
             quantity,
             difference: 0.0,
             bound: bound(quantity, settings.tolerance),
@@ -113,7 +113,7 @@ impl Verification {
     ) {
         self.sampled += 1;
         let failed = |message: &String| Comparison {
-            quantity: Quantity::Motion,
+            quantity: VerifiedQuantity::Motion,
             stored: 0.0,
             recomputed: f64::NAN,
             difference: if message.is_empty() { 0.0 } else { f64::INFINITY },
@@ -128,7 +128,7 @@ impl Verification {
             let of_quantity = comparisons.iter().filter(|comparison| comparison.quantity == worst.quantity);
             let largest = of_quantity.max_by(|a, b| a.difference.total_cmp(&b.difference)).copied();
             let Some(comparison) = largest else {
-                worst.compared += u64::from(worst.quantity == Quantity::Motion);
+                worst.compared += u64::from(worst.quantity == VerifiedQuantity::Motion);
                 continue;
             };
             worst.compared += 1;

@@ -97,7 +97,8 @@ mod tests {
     #[test]
     fn the_three_forms_of_a_card_give_the_same_fields() {
         let small = "GRID          11              1.      2.      3.\n";
-        let large = "GRID*                 11                              1.              2.\n*                     3.\n";
+        let large = "GRID*                 11                              1.              \
+        2.\n*                     3.\n";
         let free = "GRID,11,,1.,2.,3.\n";
         for text in [small, large, free] {
             let mut lines = Lines::new(text.as_bytes());
@@ -109,7 +110,8 @@ mod tests {
 
     #[test]
     fn cards_that_are_not_wanted_are_passed_over_with_their_continuations() {
-        let text = "$ title\nASET           3  123456\nCORD2R*  10\n* 1\n* 2\nEXTRN          3      12       4       0\n               5       3\nENDDATA\n";
+        let text = "$ title\nASET           3  123456\nCORD2R*  10\n* 1\n* 2\nEXTRN          3      \
+        12       4       0\n               5       3\nENDDATA\n";
         let mut lines = Lines::new(text.as_bytes());
         let card = next_card(&mut lines, &["EXTRN"]).unwrap().unwrap();
         assert_eq!((card.field(0), card.field(3), card.field(8), card.field(9)), ("3", "0", "5", "3"));

@@ -3,38 +3,49 @@
 //!
 //! The mathematics stands in the crate docs; here is who does what:
 //!
-//! | file | idea |
-//! |---|---|
-//! | `flow.rs`, `run.rs`, `standstill.rs`, `error.rs` | a run over a stretch; whether it gets on; why it does not |
-//! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
-//! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
-//! | `output.rs` | rows that read displacements, and bounds on them |
-//! | `clearance.rs`, `flight.rs` | certified search for the next contact |
-//! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
-//! | `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs` | the matrices of a step |
-//! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
-//! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
-//! | `memory.rs`, `volume.rs` | laws that remember the speed of an impact; what contacts do to volumes of states |
-//! | `impact.rs`, `velocity_jump.rs`, `stick.rs` | impacts on rigid stops, the forces that jump with them; chatter, stops that stick and lift |
-//! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
-//! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
-//! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
-//! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last, and corners beyond the ends |
-//! | `brief_opening.rs` | contacts that open for an instant between two presses |
-//! | `touches.rs` | what of the touches of a stretch counts in an orbit |
-//! | `kink.rs` | kinks of the force of a closed contact |
-//! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
-//! | `enclosure.rs` | proof that closed contacts stay closed all through a step |
-//! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
-//! | `sensitivity.rs` | the fundamental matrix and the frequency column |
-//! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
-//! | `course.rs` | what a motion went through |
-//! | `given_up.rs` | why no force step was good enough |
-//! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
-//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
-//! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
-//! | `tracing.rs` | what each piece of motion adds to that |
-//! | `panels.rs` | a motion in smooth panels, for integrals over it and its extrema |
+//! * `flow.rs`, `run.rs`, `standstill.rs`, `error.rs`: a run over a stretch; whether it gets on; why it does
+//!   not.
+//! * `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs`: the structure as independent second-order
+//!   blocks.
+//! * `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs`: the particular solution of the load.
+//! * `output.rs`: rows that read displacements, and bounds on them.
+//! * `clearance.rs`, `flight.rs`: certified search for the next contact.
+//! * `collocation.rs`, `recurrence.rs`: the nodes of a step and its constants.
+//! * `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs`: the matrices of a step.
+//! * `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs`: one step with forces, and its error.
+//! * `damped_step.rs`, `onset.rs`: forces that depend on the velocity; sensitivities where they set in with a
+//!   jump.
+//! * `memory.rs`, `volume.rs`: laws that remember the speed of an impact; what contacts do to volumes of
+//!   states.
+//! * `impact.rs`, `velocity_jump.rs`, `stick.rs`: impacts on rigid stops, the forces that jump with them;
+//!   chatter, stops that stick and lift.
+//! * `held.rs`, `hold.rs`, `structure.rs`: the structure that is left while rigid stops are held; going over
+//!   to it and back.
+//! * `pressing.rs`: what held stops press with, also while forces act, and where that ends.
+//! * `lu.rs`, `lanes.rs`, `elementary.rs`: small dense equations, loops on vectors, sines and exponentials on
+//!   them.
+//! * `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs`: steps from touch to release, with error
+//!   control; two events at once; turns in front of the first node or behind the last, and corners beyond the
+//!   ends.
+//! * `brief_opening.rs`: contacts that open for an instant between two presses.
+//! * `touches.rs`: what of the touches of a stretch counts in an orbit.
+//! * `kink.rs`: kinks of the force of a closed contact.
+//! * `touching.rs`, `force_bound.rs`: certified search for further contacts while forces act.
+//! * `enclosure.rs`: proof that closed contacts stay closed all through a step.
+//! * `forecast.rs`, `polynomial.rs`: how long a contact will last; where a polynomial falls below zero.
+//! * `sensitivity.rs`: the fundamental matrix and the frequency column.
+//! * `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs`: the column of a parameter; of the
+//!   damping, which is in every matrix; of a number that the modes depend on.
+//! * `course.rs`: what a motion went through.
+//! * `given_up.rs`: why no force step was good enough.
+//! * `near_miss.rs`: least clearance of flights, least speed of touches, least penetration between two
+//!   presses: what vanishes at grazing.
+//! * `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `sampling.rs`,
+//!   `defect.rs`: maxima on the continuous motion, reading inside a step, and what its polynomials leave of a
+//!   force there.
+//! * `trace.rs`: states at given phases, and every contact with its impulse and the energy it took.
+//! * `tracing.rs`: what each piece of motion adds to that.
+//! * `panels.rs`: a motion in smooth panels, for integrals over it and its extrema.
 
 mod aim;
 mod attempt;

@@ -4,15 +4,20 @@
 //! speed v is that with which the present contact began, so the law has a memory: a contact has to be
 //! followed from its beginning. The factor c is what the models differ in:
 //!
-//! | model | c(e) | source |
-//! |---|---|---|
-//! | [`HuntCrossley`](RestitutionModel::HuntCrossley) | `3 (1 - e)/2` | Hunt and Crossley, J. Appl. Mech. 42 (1975), 440-445 |
-//! | [`HerbertMcWhannell`](RestitutionModel::HerbertMcWhannell) | `6 (1 - e)/((2 e - 1)^2 + 3)` | Herbert and McWhannell, J. Eng. Ind. 99 (1977), 513-518 |
-//! | [`LeeWang`](RestitutionModel::LeeWang) | `3 (1 - e)/4` | Lee and Wang, J. Mech. Transm. Autom. Des. 105 (1983), 534-540 |
-//! | [`LankaraniNikravesh`](RestitutionModel::LankaraniNikravesh) | `3 (1 - e^2)/4` | Lankarani and Nikravesh, J. Mech. Des. 112 (1990), 369-376 |
-//! | [`Gonthier`](RestitutionModel::Gonthier) | `(1 - e^2)/e` | Gonthier and others, Multibody Syst. Dyn. 11 (2004), 209-233 |
-//! | [`Flores`](RestitutionModel::Flores) | `8 (1 - e)/(5 e)` | Flores and others, Multibody Syst. Dyn. 25 (2011), 357-375 |
-//! | [`HuGuo`](RestitutionModel::HuGuo) | `3 (1 - e)/(2 e)` | Hu and Guo, Multibody Syst. Dyn. 35 (2015), 131-151 |
+//! * [`HuntCrossley`](RestitutionModel::HuntCrossley): c(e) `3 (1 - e)/2`; source Hunt and Crossley, J. Appl.
+//!   Mech. 42 (1975), 440-445.
+//! * [`HerbertMcWhannell`](RestitutionModel::HerbertMcWhannell): c(e) `6 (1 - e)/((2 e - 1)^2 + 3)`; source
+//!   Herbert and McWhannell, J. Eng. Ind. 99 (1977), 513-518.
+//! * [`LeeWang`](RestitutionModel::LeeWang): c(e) `3 (1 - e)/4`; source Lee and Wang, J. Mech. Transm. Autom.
+//!   Des. 105 (1983), 534-540.
+//! * [`LankaraniNikravesh`](RestitutionModel::LankaraniNikravesh): c(e) `3 (1 - e^2)/4`; source Lankarani and
+//!   Nikravesh, J. Mech. Des. 112 (1990), 369-376.
+//! * [`Gonthier`](RestitutionModel::Gonthier): c(e) `(1 - e^2)/e`; source Gonthier and others, Multibody
+//!   Syst. Dyn. 11 (2004), 209-233.
+//! * [`Flores`](RestitutionModel::Flores): c(e) `8 (1 - e)/(5 e)`; source Flores and others, Multibody Syst.
+//!   Dyn. 25 (2011), 357-375.
+//! * [`HuGuo`](RestitutionModel::HuGuo): c(e) `3 (1 - e)/(2 e)`; source Hu and Guo, Multibody Syst. Dyn. 35
+//!   (2015), 131-151.
 //!
 //! The coefficient e that goes in is not quite the ratio of speeds that comes out of two bodies with nothing
 //! else acting: that is the `e_out` of `(1 + e_out) c = ln((1 + c)/(1 - e_out c))`, `e_out = 1 - 2 c/3 +

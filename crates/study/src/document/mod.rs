@@ -1,7 +1,7 @@
 //! Reading a TOML document so that everything wrong with it is found, and found where it stands.
 //!
 //! A derived deserialiser stops at the first fault and loses positions inside tagged tables. Here every table
-//! is asked for its keys one by one ([`Table`]), every value is checked against its [`Quantity`], all faults
+//! is asked for its keys one by one ([`TomlTable`]), every value is checked against its [`Quantity`], all faults
 //! are collected ([`Problem`]), and what was never asked for is unknown by definition.
 
 mod problem;
@@ -12,9 +12,9 @@ mod table;
 pub mod unit;
 mod value;
 
-pub use problem::{Problem, Report};
+pub use problem::{FaultReport, Problem};
 pub use quantity::Quantity;
 pub use reading::{Reading, place};
 pub use suggest::closest;
-pub use table::Table;
+pub use table::TomlTable;
 pub use value::Value;

@@ -20,7 +20,7 @@ pub struct Problem {
 
 /// All faults of one document, with its text.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct FaultReport {
     /// Name of the document, usually its path.
     pub name: String,
     text: String,
@@ -30,7 +30,7 @@ pub struct Report {
     pub left_out: usize,
 }
 
-impl Report {
+impl FaultReport {
     /// The faults in a text, in its order.
     pub fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| problem.span.as_ref().map_or(usize::MAX, |span| span.start));
@@ -116,7 +116,7 @@ fn boundary(text: &str, index: usize) -> usize {
     (0..=index.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for FaultReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.render(false))
     }
@@ -126,7 +126,7 @@ impl fmt::Display for Report {
 mod tests {
     use super::*;
 
-    fn report() -> Report {
+    fn report() -> FaultReport {
         let text = "title = \"ä\"\nlength_m = -1.0\n";
         let problem = Problem {
             key: "length_m".into(),
@@ -134,7 +134,7 @@ mod tests {
             message: "`length_m` is -1 m".into(),
             help: vec!["allowed: more than 0 m".into()],
         };
-        Report::new("study.toml", text, vec![problem])
+        FaultReport::new("study.toml", text, vec![problem])
     }
 
     #[test]
@@ -162,7 +162,7 @@ mod tests {
             message: format!("unknown key `{key}`"),
             help: vec![key.into()],
         };
-        let shown = Report::new("b\u{85}.toml", &text, vec![problem]).render(false);
+        let shown = FaultReport::new("b\u{85}.toml", &text, vec![problem]).render(false);
         assert!(!shown.contains(|one: char| one != '\n' && is_control(one)), "{shown:?}");
         let column = |part: &str| {
             let line = shown.lines().find(|line| line.contains(part)).unwrap();

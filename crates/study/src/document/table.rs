@@ -13,7 +13,7 @@ use super::{
 const MOST_NAMES: usize = 100;
 
 /// A table of the document; what is never asked for is an unknown key.
-pub struct Table<'a> {
+pub struct TomlTable<'a> {
     reading: &'a Reading,
     path: String,
     span: Range<usize>,
@@ -23,7 +23,7 @@ pub struct Table<'a> {
     refused: RefCell<Vec<&'static str>>,
 }
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// The table at a key path.
     pub fn new(reading: &'a Reading, path: String, span: Range<usize>, entries: &'a DeTable<'a>) -> Self {
         Self { reading, path, span, entries, asked: RefCell::default(), refused: RefCell::default() }
@@ -102,7 +102,7 @@ impl<'a> Table<'a> {
     }
 
     /// The elements of an array of tables such as `[[stop]]`; none if the key is not there.
-    pub fn tables(&self, key: &'static str) -> Vec<Table<'a>> {
+    pub fn tables(&self, key: &'static str) -> Vec<TomlTable<'a>> {
         let Some(value) = self.optional(key) else { return Vec::new() };
         let elements = value.tables(&format!("tables, written [[{}]]", self.path_of(key)));
         elements.unwrap_or_default().iter().filter_map(Value::table).collect()
@@ -186,14 +186,14 @@ impl<'a> Table<'a> {
 
 impl<'a> Value<'a> {
     /// The value as a table.
-    pub fn table(&self) -> Option<Table<'a>> {
+    pub fn table(&self) -> Option<TomlTable<'a>> {
         self.table_with_help(Vec::new())
     }
 
     /// The same; `help` says what is allowed where it is something else.
-    pub fn table_with_help(&self, help: Vec<String>) -> Option<Table<'a>> {
+    pub fn table_with_help(&self, help: Vec<String>) -> Option<TomlTable<'a>> {
         match self.entries() {
-            Some((reading, path, span, entries)) => Some(Table::new(reading, path, span, entries)),
+            Some((reading, path, span, entries)) => Some(TomlTable::new(reading, path, span, entries)),
             None => self.wrong_type_with_help("a table", help),
         }
     }

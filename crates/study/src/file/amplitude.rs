@@ -3,7 +3,7 @@
 use hammerbeam_motion::AmplitudeCurve;
 use serde::Serialize;
 
-use crate::document::{Quantity, Table, Value, quantity};
+use crate::document::{Quantity, TomlTable, Value, quantity};
 
 /// Amplitude of the excitation, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,7 +65,7 @@ impl Amplitude {
 /// Refuses a table that does not cover the range of the frequency [Hz]: what a shaker does beyond it is not
 /// known.
 pub(super) fn check_range(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     key: &'static str,
     amplitude: &Amplitude,
     [low, high]: [f64; 2],

@@ -3,18 +3,18 @@
 use hammerbeam_structure::{self as linear, StructureError};
 use serde::{Serialize, Serializer};
 
-use crate::document::{Reading, Table};
+use crate::document::{Reading, TomlTable};
 
 use super::{
-    beam_end::{END_KINDS, End},
-    beam_point::{self, BeamPoint},
+    beam_end::{END_KINDS, EndSupport},
+    beam_point::{self, BeamPointTable},
     beam_span::{self, BeamSpanEntry},
     names::Names,
 };
 
 /// A beam in bending.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Beam {
+pub struct BeamTable {
     /// Length of all spans [m].
     pub length_m: f64,
     /// Number of finite elements, before nodes are added at the points.
@@ -23,11 +23,11 @@ pub struct Beam {
     #[serde(flatten, serialize_with = "as_written")]
     pub spans: Vec<BeamSpanEntry>,
     /// Support at x = 0.
-    pub left: End,
+    pub left: EndSupport,
     /// Support at x = length.
-    pub right: End,
+    pub right: EndSupport,
     /// Named points.
-    pub points: Vec<BeamPoint>,
+    pub points: Vec<BeamPointTable>,
 }
 
 /// A single span as keys of the structure, several as a list.
@@ -42,7 +42,7 @@ fn as_written<S: Serializer>(spans: &[BeamSpanEntry], serializer: S) -> Result<S
     }
 }
 
-impl Beam {
+impl BeamTable {
     /// The only span, where there is one, and it bends after Euler and Bernoulli without added mass.
     #[must_use]
     pub fn uniform(&self) -> Option<&BeamSpanEntry> {
@@ -71,7 +71,7 @@ impl Beam {
             spans: self.spans.iter().map(BeamSpanEntry::descriptor).collect::<Result<_, _>>()?,
             left: self.left.descriptor(),
             right: self.right.descriptor(),
-            points: self.points.iter().map(BeamPoint::descriptor).collect(),
+            points: self.points.iter().map(BeamPointTable::descriptor).collect(),
         })
     }
 
@@ -97,14 +97,14 @@ impl Beam {
     }
 }
 
-pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Beam> {
+pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<BeamTable> {
     let (length_m, spans) = beam_span::read(table, reading);
     let elements = table.required("elements").and_then(|value| value.whole(1, 1000));
     let left = table.required("left").and_then(|value| value.choice(&END_KINDS));
     let right = table.required("right").and_then(|value| value.choice(&END_KINDS));
     names.add_beam_ends(left, right);
     let points = beam_point::read(table, reading, length_m, names);
-    let beam = Beam {
+    let beam = BeamTable {
         length_m: length_m?,
         elements: elements?,
         spans: spans?,

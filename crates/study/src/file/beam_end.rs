@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Support of an end of a beam, or of a point on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum End {
+pub enum EndSupport {
     /// Neither displacement nor rotation.
     Clamped,
     /// No displacement.
@@ -17,7 +17,7 @@ pub enum End {
     Free,
 }
 
-impl End {
+impl EndSupport {
     /// Whether the support holds the displacement, so that its motion can be prescribed.
     #[must_use]
     pub fn holds_displacement(self) -> bool {
@@ -35,5 +35,9 @@ impl End {
 }
 
 /// The words for them.
-pub(super) const END_KINDS: [(&str, End); 4] =
-    [("clamped", End::Clamped), ("pinned", End::Pinned), ("sliding", End::Sliding), ("free", End::Free)];
+pub(super) const END_KINDS: [(&str, EndSupport); 4] = [
+    ("clamped", EndSupport::Clamped),
+    ("pinned", EndSupport::Pinned),
+    ("sliding", EndSupport::Sliding),
+    ("free", EndSupport::Free),
+];

@@ -3,16 +3,16 @@
 use hammerbeam_structure as linear;
 use serde::Serialize;
 
-use crate::document::{Reading, Table, Value, quantity};
+use crate::document::{Reading, TomlTable, Value, quantity};
 
 use super::{
-    beam_end::{END_KINDS, End},
+    beam_end::{END_KINDS, EndSupport},
     names::{Names, read_name},
 };
 
 /// A named point of a beam and what is attached to it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BeamPoint {
+pub struct BeamPointTable {
     /// Name.
     pub name: String,
     /// Distance from the left end [m].
@@ -31,15 +31,15 @@ pub struct BeamPoint {
     pub rotational_damper_n_m_s_rad: f64,
     /// How the point is held.
     #[serde(skip_serializing_if = "is_free")]
-    pub support: End,
+    pub support: EndSupport,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
-fn is_free(support: &End) -> bool {
-    *support == End::Free
+fn is_free(support: &EndSupport) -> bool {
+    *support == EndSupport::Free
 }
 
-impl BeamPoint {
+impl BeamPointTable {
     /// The point in the terms of the structure crate.
     pub(super) fn descriptor(&self) -> linear::BeamPoint {
         linear::BeamPoint {
@@ -57,19 +57,19 @@ impl BeamPoint {
 }
 
 pub(super) fn read(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     reading: &Reading,
     length_m: Option<f64>,
     names: &mut Names,
-) -> Option<Vec<BeamPoint>> {
+) -> Option<Vec<BeamPointTable>> {
     let before = reading.count();
     let points = table.tables("point");
-    let read: Vec<BeamPoint> =
+    let read: Vec<BeamPointTable> =
         points.into_iter().filter_map(|point| read_point(point, length_m, names)).collect();
     (reading.count() == before).then_some(read)
 }
 
-fn read_point(table: Table<'_>, length_m: Option<f64>, names: &mut Names) -> Option<BeamPoint> {
+fn read_point(table: TomlTable<'_>, length_m: Option<f64>, names: &mut Names) -> Option<BeamPointTable> {
     let name = read_name(&table, names);
     let at = table.required("at_m").and_then(|value| read_position(&value, length_m));
     let added = |key, quantity| table.optional(key).map_or(Some(0.0), |value| value.number(quantity));
@@ -79,9 +79,9 @@ fn read_point(table: Table<'_>, length_m: Option<f64>, names: &mut Names) -> Opt
     let damper = added("damper_n_s_m", &quantity::DAMPER);
     let rotational_spring = added("rotational_spring_n_m_rad", &quantity::ROTATIONAL_STIFFNESS);
     let rotational_damper = added("rotational_damper_n_m_s_rad", &quantity::ROTATIONAL_DAMPER);
-    let support = table.optional("support").map_or(Some(End::Free), |value| value.choice(&END_KINDS));
+    let support = table.optional("support").map_or(Some(EndSupport::Free), |value| value.choice(&END_KINDS));
     table.finish();
-    Some(BeamPoint {
+    Some(BeamPointTable {
         name: name?,
         at_m: at?,
         mass_kg: mass?,

@@ -3,11 +3,11 @@
 use hammerbeam_structure::Section as LinearSection;
 use serde::Serialize;
 
-use crate::document::{Table, Value, quantity};
+use crate::document::{TomlTable, Value, quantity};
 
 /// Cross-section of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Section {
+pub struct SectionKeys {
     /// Area [m^2].
     pub area_m2: f64,
     /// Second moment of area about the axis of bending [m^4].
@@ -26,9 +26,9 @@ pub(super) struct GivenSection {
 
 impl GivenSection {
     /// The section in a material of that Poisson ratio, if it has shear.
-    pub(super) fn with_poisson_ratio(self, poisson_ratio: Option<f64>) -> Section {
+    pub(super) fn with_poisson_ratio(self, poisson_ratio: Option<f64>) -> SectionKeys {
         let of_form = |ratio| self.shear_coefficient.or_else(|| self.form.shear_coefficient(ratio));
-        Section {
+        SectionKeys {
             area_m2: self.form.area(),
             second_moment_m4: self.form.second_moment(),
             shear_coefficient: poisson_ratio.and_then(of_form),
@@ -89,7 +89,7 @@ pub(super) fn read(value: &Value<'_>, length_m: Option<f64>, has_shear: bool) ->
 }
 
 /// The shear coefficient: asked for where the form does not have one.
-fn read_coefficient(table: &Table<'_>, has_shear: bool, is_needed: bool) -> Option<Option<f64>> {
+fn read_coefficient(table: &TomlTable<'_>, has_shear: bool, is_needed: bool) -> Option<Option<f64>> {
     const KEY: &str = "shear_coefficient";
     if !has_shear {
         return without_shear(table, KEY).then_some(None);
@@ -99,7 +99,7 @@ fn read_coefficient(table: &Table<'_>, has_shear: bool, is_needed: bool) -> Opti
 }
 
 /// Refuses a key of beams with shear; whether it is not there.
-pub(super) fn without_shear(table: &Table<'_>, key: &'static str) -> bool {
+pub(super) fn without_shear(table: &TomlTable<'_>, key: &'static str) -> bool {
     if !table.has(key) {
         return true;
     }
@@ -109,7 +109,7 @@ pub(super) fn without_shear(table: &Table<'_>, key: &'static str) -> bool {
     false
 }
 
-fn read_general(table: &Table<'_>) -> Option<LinearSection> {
+fn read_general(table: &TomlTable<'_>) -> Option<LinearSection> {
     let area = table.required_with_help("area_m2", forms()).and_then(|value| value.number(&quantity::AREA));
     let moment = table
         .required_with_help("second_moment_m4", forms())
@@ -117,7 +117,7 @@ fn read_general(table: &Table<'_>) -> Option<LinearSection> {
     LinearSection::general(area?, moment?).ok()
 }
 
-fn read_rectangle(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSection> {
+fn read_rectangle(table: &TomlTable<'_>, length_m: Option<f64>) -> Option<LinearSection> {
     let width = table.required_with_help("width_m", forms()).and_then(|value| value.number(&quantity::WIDTH));
     let height =
         table.required_with_help("height_m", forms()).and_then(|value| value.number(&quantity::HEIGHT));
@@ -126,7 +126,7 @@ fn read_rectangle(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSect
     LinearSection::rectangle(width, height).ok()
 }
 
-fn read_round(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSection> {
+fn read_round(table: &TomlTable<'_>, length_m: Option<f64>) -> Option<LinearSection> {
     let outer = table
         .required_with_help("outer_diameter_m", forms())
         .and_then(|value| value.number(&quantity::WIDTH));
@@ -144,7 +144,7 @@ fn read_round(table: &Table<'_>, length_m: Option<f64>) -> Option<LinearSection>
 }
 
 /// Whether a beam is at least twice as long as high; noted where it is not.
-fn is_slender(table: &Table<'_>, key: &'static str, height: f64, length: f64) -> bool {
+fn is_slender(table: &TomlTable<'_>, key: &'static str, height: f64, length: f64) -> bool {
     let is_slender = 2.0 * height <= length;
     if !is_slender {
         let help = format!("allowed: at most half of the length, {length} m; beam theory needs slenderness");

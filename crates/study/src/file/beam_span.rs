@@ -3,9 +3,9 @@
 use hammerbeam_structure::{self as linear, Shear, StructureError};
 use serde::Serialize;
 
-use crate::document::{Reading, Table, Value, quantity};
+use crate::document::{Reading, TomlTable, Value, quantity};
 
-use super::beam_section::{self, GivenSection, Section};
+use super::beam_section::{self, GivenSection, SectionKeys};
 
 /// A stretch of a beam with one section and one material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -21,7 +21,7 @@ pub struct BeamSpanEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BeamProfile {
     /// Cross-section.
-    pub section: Section,
+    pub section: SectionKeys,
     /// Young's modulus [Pa].
     pub youngs_modulus_pa: f64,
     /// Density [kg/m^3].
@@ -89,9 +89,9 @@ struct GivenProfile {
 /// Reads the keys of a span, or those that hold for all spans.
 #[derive(Clone, Copy)]
 struct ProfileReader<'r, 'a> {
-    table: &'r Table<'a>,
+    table: &'r TomlTable<'a>,
     /// The table whose keys hold where this one has none, and what it says.
-    outer: Option<(&'r Table<'a>, &'r GivenProfile)>,
+    outer: Option<(&'r TomlTable<'a>, &'r GivenProfile)>,
     /// Whether keys have to be here or there.
     is_needed: bool,
     has_shear: bool,
@@ -144,7 +144,7 @@ impl ProfileReader<'_, '_> {
         };
         let added = Self { is_needed: false, ..*self };
         let read = |value: &Value<'_>| value.number(&quantity::ADDED_MASS_PER_LENGTH);
-        let is_given = |table: &Table<'_>| table.has("added_mass_kg_m");
+        let is_given = |table: &TomlTable<'_>| table.has("added_mass_kg_m");
         let has_added = is_given(self.table) || self.outer.is_some_and(|(table, _)| is_given(table));
         let added_mass = added.chosen("added_mass_kg_m", none(), |given| given.added_mass_kg_m, read);
         let added_mass_kg_m = if has_added { added_mass } else { Some(0.0) };
@@ -170,7 +170,7 @@ impl GivenProfile {
 ///
 /// # Returns
 /// Length of all spans [m], and the spans; each `None` where something of it is wrong.
-pub(super) fn read(table: &Table<'_>, reading: &Reading) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
+pub(super) fn read(table: &TomlTable<'_>, reading: &Reading) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
     let theories = [("euler-bernoulli", false), ("timoshenko", true)];
     let has_shear = table.optional("theory").map_or(Some(false), |value| value.choice(&theories));
     let has_shear_or_not = has_shear.unwrap_or(table.has("poisson_ratio"));
@@ -182,7 +182,7 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading) -> (Option<f64>, Option
     (length, has_shear.and(spans))
 }
 
-fn read_one(table: &Table<'_>, has_shear: bool) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
+fn read_one(table: &TomlTable<'_>, has_shear: bool) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
     let length = table.required("length_m").and_then(|value| value.number(&quantity::LENGTH));
     let reader = ProfileReader { table, outer: None, is_needed: true, has_shear };
     let profile = reader.read(length).whole(has_shear);
@@ -193,7 +193,7 @@ fn read_one(table: &Table<'_>, has_shear: bool) -> (Option<f64>, Option<Vec<Beam
 }
 
 fn read_several(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     reading: &Reading,
     has_shear: bool,
 ) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
@@ -212,7 +212,7 @@ fn read_several(
         spans.iter().map(|span| span.required("length_m")?.number(&quantity::LENGTH)).collect();
     let length = lengths.iter().copied().sum::<Option<f64>>().filter(|length| *length > 0.0);
     let common = ProfileReader { table, outer: None, is_needed: false, has_shear }.read(length);
-    let read = |(span, length_m): (Table<'_>, Option<f64>)| {
+    let read = |(span, length_m): (TomlTable<'_>, Option<f64>)| {
         let reader =
             ProfileReader { table: &span, outer: Some((table, &common)), is_needed: true, has_shear };
         let profile = reader.read(length).whole(has_shear);

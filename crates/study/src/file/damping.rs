@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use crate::document::{Table, Value, quantity};
+use crate::document::{TomlTable, Value, quantity};
 
 /// Damping of the motion relative to the support. Discrete dampers count besides.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Damping {
+pub enum DampingTable {
     /// Ratio to critical damping of the modes.
     Modal(ModalRatio),
     /// `C = a M + b K`.
@@ -29,8 +29,8 @@ pub enum ModalRatio {
     Each(Vec<f64>),
 }
 
-pub(super) fn read(root: &Table<'_>) -> Option<Damping> {
-    let none = Damping::Modal(ModalRatio::Every(0.0));
+pub(super) fn read(root: &TomlTable<'_>) -> Option<DampingTable> {
+    let none = DampingTable::Modal(ModalRatio::Every(0.0));
     let Some(value) = root.optional("damping") else { return Some(none) };
     let table = value.table()?;
     let modal = table.optional("modal_ratio");
@@ -41,7 +41,7 @@ pub(super) fn read(root: &Table<'_>) -> Option<Damping> {
             rayleigh.problem("`rayleigh` is given besides `modal_ratio`".into(), help);
             None
         }
-        (Some(modal), None) => read_modal(&modal).map(Damping::Modal),
+        (Some(modal), None) => read_modal(&modal).map(DampingTable::Modal),
         (None, Some(rayleigh)) => read_rayleigh(&rayleigh),
         (None, None) => Some(none),
     };
@@ -63,11 +63,11 @@ fn read_modal(value: &Value<'_>) -> Option<ModalRatio> {
     ratios.into_iter().collect::<Option<Vec<f64>>>().map(ModalRatio::Each)
 }
 
-fn read_rayleigh(value: &Value<'_>) -> Option<Damping> {
+fn read_rayleigh(value: &Value<'_>) -> Option<DampingTable> {
     let table = value.table()?;
     let mass = table.required("mass_per_s").and_then(|value| value.number(&quantity::RAYLEIGH_MASS));
     let stiffness =
         table.required("stiffness_s").and_then(|value| value.number(&quantity::RAYLEIGH_STIFFNESS));
     table.finish();
-    Some(Damping::Rayleigh { mass_per_s: mass?, stiffness_s: stiffness? })
+    Some(DampingTable::Rayleigh { mass_per_s: mass?, stiffness_s: stiffness? })
 }

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::document::{Table, Value, quantity};
+use crate::document::{TomlTable, Value, quantity};
 
 use super::{
-    ActingForce, Amplitude, ForcePlace, ForceSize, Structure, amplitude, force,
+    ActingForce, Amplitude, ForcePlace, ForceSize, StructureTable, amplitude, force,
     names::Names,
     support_motion::{self, MovingSupport, PrescribedMotion, SupportDrive},
 };
@@ -164,7 +164,11 @@ enum Kind {
     Force,
 }
 
-pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure>) -> Option<Excitation> {
+pub(super) fn read(
+    root: &TomlTable<'_>,
+    names: &Names,
+    structure: Option<&StructureTable>,
+) -> Option<Excitation> {
     let Some(table) = root.optional("excitation") else { return Some(Excitation::None) };
     let table = table.table()?;
     let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
@@ -192,7 +196,7 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
 }
 
 /// One force, on a point with an amplitude or otherwise.
-fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
+fn read_force(table: &TomlTable<'_>, names: &Names) -> Option<ExcitationKind> {
     let (place, size) = force::read(table, names, &quantity::FORCE)?;
     Some(match (place, size) {
         (ForcePlace::At(at), ForceSize::Amplitude(amplitude_n)) => ExcitationKind::Force { at, amplitude_n },
@@ -201,7 +205,7 @@ fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
 }
 
 /// The entries of `[[excitation.force]]`.
-fn read_forces(table: &Table<'_>, names: &Names, range: Option<[f64; 2]>) -> Option<ExcitationKind> {
+fn read_forces(table: &TomlTable<'_>, names: &Names, range: Option<[f64; 2]>) -> Option<ExcitationKind> {
     for key in ["at", "between", "amplitude_n", "unbalance_mass_kg", "eccentricity_m", "phase_rad"] {
         if let Some(value) = table.optional(key) {
             let help = vec!["allowed: in each entry of `force`, which says it for its own".to_owned()];
@@ -223,7 +227,7 @@ fn read_forces(table: &Table<'_>, names: &Names, range: Option<[f64; 2]>) -> Opt
 }
 
 /// A table has to cover the range of the frequency.
-fn check_table(table: &Table<'_>, kind: &ExcitationKind, range: [f64; 2]) {
+fn check_table(table: &TomlTable<'_>, kind: &ExcitationKind, range: [f64; 2]) {
     let (key, amplitude) = match kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m),
         ExcitationKind::SupportAcceleration { amplitude_m_s2, .. } => ("amplitude_m_s2", amplitude_m_s2),
@@ -237,8 +241,8 @@ fn check_table(table: &Table<'_>, kind: &ExcitationKind, range: [f64; 2]) {
 }
 
 /// A support that moves further than the beam is long is in the wrong unit.
-fn check_magnitude(table: &Table<'_>, kind: &ExcitationKind, structure: &Structure) {
-    let Structure::Beam(beam) = structure else { return };
+fn check_magnitude(table: &TomlTable<'_>, kind: &ExcitationKind, structure: &StructureTable) {
+    let StructureTable::Beam(beam) = structure else { return };
     let (key, amplitude) = match kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m.largest()),
         ExcitationKind::SupportMotions { supports } => {

@@ -1,6 +1,6 @@
 //! `[figures]`: what is drawn of a results folder besides what it holds by itself.
 
-use crate::document::{Reading, Table, quantity};
+use crate::document::{Reading, TomlTable, quantity};
 
 /// What the figures of a study show; no part of its identity.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,7 +20,7 @@ pub struct DrawnOrbit {
     pub period_multiple: u32,
 }
 
-pub(super) fn read(root: &Table<'_>, reading: &Reading) -> Option<Figures> {
+pub(super) fn read(root: &TomlTable<'_>, reading: &Reading) -> Option<Figures> {
     let Some(value) = root.optional("figures") else { return Some(Figures::default()) };
     let table = value.table()?;
     let before = reading.count();
@@ -30,7 +30,7 @@ pub(super) fn read(root: &Table<'_>, reading: &Reading) -> Option<Figures> {
     (reading.count() == before).then_some(Figures { low_pass_hz, orbits })
 }
 
-fn read_orbit(table: Table<'_>) -> Option<DrawnOrbit> {
+fn read_orbit(table: TomlTable<'_>) -> Option<DrawnOrbit> {
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let multiple = table.optional("period_multiple").map_or(Some(1), |value| value.whole(1, 64));
     table.finish();

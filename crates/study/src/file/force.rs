@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, Table, quantity};
+use crate::document::{Quantity, TomlTable, quantity};
 
 use super::{Amplitude, amplitude, names::Names};
 
@@ -83,13 +83,17 @@ const UNBALANCE: [&str; 2] = ["unbalance_mass_kg", "eccentricity_m"];
 /// Reads `at` or `between`, and `amplitude_n` or an unbalance; no phase.
 ///
 /// * `constant`: what an amplitude may be that is a number.
-pub(super) fn read(table: &Table<'_>, names: &Names, constant: &Quantity) -> Option<(ForcePlace, ForceSize)> {
+pub(super) fn read(
+    table: &TomlTable<'_>,
+    names: &Names,
+    constant: &Quantity,
+) -> Option<(ForcePlace, ForceSize)> {
     let place = read_place(table, names);
     let size = read_size(table, constant);
     Some((place?, size?))
 }
 
-fn read_place(table: &Table<'_>, names: &Names) -> Option<ForcePlace> {
+fn read_place(table: &TomlTable<'_>, names: &Names) -> Option<ForcePlace> {
     let Some(between) = table.optional("between") else {
         let at = table.required("at").and_then(|value| names.point(&value));
         return at.map(ForcePlace::At);
@@ -102,7 +106,7 @@ fn read_place(table: &Table<'_>, names: &Names) -> Option<ForcePlace> {
     names.pair(&between, false).map(ForcePlace::Between)
 }
 
-fn read_size(table: &Table<'_>, constant: &Quantity) -> Option<ForceSize> {
+fn read_size(table: &TomlTable<'_>, constant: &Quantity) -> Option<ForceSize> {
     if !UNBALANCE.iter().any(|key| table.has(key)) {
         let value = table.required(AMPLITUDE)?;
         let allowed = if value.is_list() { &quantity::FORCE } else { constant };
@@ -122,14 +126,18 @@ fn read_size(table: &Table<'_>, constant: &Quantity) -> Option<ForceSize> {
 }
 
 /// Refuses a table of amplitudes that does not cover the range of the frequency [Hz].
-pub(super) fn check_size(table: &Table<'_>, size: &ForceSize, range: [f64; 2]) {
+pub(super) fn check_size(table: &TomlTable<'_>, size: &ForceSize, range: [f64; 2]) {
     if let ForceSize::Amplitude(amplitude) = size {
         amplitude::check_range(table, AMPLITUDE, amplitude, range);
     }
 }
 
 /// Reads an entry of `[[excitation.force]]`.
-pub(super) fn read_entry(entry: Table<'_>, names: &Names, range: Option<[f64; 2]>) -> Option<ActingForce> {
+pub(super) fn read_entry(
+    entry: TomlTable<'_>,
+    names: &Names,
+    range: Option<[f64; 2]>,
+) -> Option<ActingForce> {
     let force = read(&entry, names, &quantity::FORCE);
     let phase = entry.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
     if let (Some((_, size)), Some(range)) = (&force, range) {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table, Value, quantity};
+use crate::document::{Reading, TomlTable, Value, quantity};
 
 use super::{
     ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude, force, names::Names,
@@ -12,7 +12,7 @@ use super::{
 /// A load besides the excitation; of order 0 it is constant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Load {
+pub enum LoadTable {
     /// A uniform acceleration field.
     Gravity {
         /// Acceleration along the displacement [m/s^2]; negative pulls downwards.
@@ -63,7 +63,7 @@ pub enum Load {
     },
 }
 
-impl Load {
+impl LoadTable {
     /// Multiple of the excitation frequency; 0 of a constant.
     #[must_use]
     pub fn order(&self) -> u32 {
@@ -103,18 +103,18 @@ const KINDS: [(&str, Kind); 3] =
     [("gravity", Kind::Gravity), ("force", Kind::Force), ("support-motion", Kind::SupportMotion)];
 
 pub(super) fn read(
-    root: &Table<'_>,
+    root: &TomlTable<'_>,
     reading: &Reading,
     names: &Names,
     excitation: Option<&Excitation>,
-) -> Option<Vec<Load>> {
+) -> Option<Vec<LoadTable>> {
     let before = reading.count();
     let loads =
         root.tables("load").into_iter().filter_map(|load| read_load(load, names, excitation)).collect();
     (reading.count() == before).then_some(loads)
 }
 
-fn read_load(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Load> {
+fn read_load(table: TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<LoadTable> {
     let kind = table.required("kind").and_then(|value| value.choice(&KINDS))?;
     let load = match kind {
         Kind::Gravity => read_gravity(&table),
@@ -125,12 +125,12 @@ fn read_load(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -
     load
 }
 
-fn read_gravity(table: &Table<'_>) -> Option<Load> {
+fn read_gravity(table: &TomlTable<'_>) -> Option<LoadTable> {
     let acceleration = table.required("acceleration_m_s2").and_then(|value| value.number(&quantity::GRAVITY));
-    Some(Load::Gravity { acceleration_m_s2: acceleration? })
+    Some(LoadTable::Gravity { acceleration_m_s2: acceleration? })
 }
 
-fn read_force(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Load> {
+fn read_force(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<LoadTable> {
     let force = force::read(table, names, &quantity::LOAD_FORCE);
     let (order, phase) = read_harmonic(table, 0);
     if excitation == Some(&Excitation::None) && order.is_some_and(|order| order > 0) {
@@ -143,20 +143,20 @@ fn read_force(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>)
         force::check_size(table, &size, excitation.range_hz());
     }
     Some(match (place, size.constant()) {
-        (ForcePlace::At(at), Some(amplitude_n)) => Load::Force { at, amplitude_n, order, phase_rad },
-        (place, _) => Load::ActingForce { force: ActingForce { place, size, phase_rad }, order },
+        (ForcePlace::At(at), Some(amplitude_n)) => LoadTable::Force { at, amplitude_n, order, phase_rad },
+        (place, _) => LoadTable::ActingForce { force: ActingForce { place, size, phase_rad }, order },
     })
 }
 
 /// Refuses a constant of which the frequency is to change the amplitude.
-fn check_over_frequency(table: &Table<'_>, keeps: bool, order: u32) {
+fn check_over_frequency(table: &TomlTable<'_>, keeps: bool, order: u32) {
     if !keeps && order == 0 {
         let help = vec!["allowed: only with `order` >= 1".to_owned()];
         table.problem("order", "the amplitude of a constant depends on the frequency".to_owned(), help);
     }
 }
 
-fn read_support_motion(table: &Table<'_>, excitation: Option<&Excitation>) -> Option<Load> {
+fn read_support_motion(table: &TomlTable<'_>, excitation: Option<&Excitation>) -> Option<LoadTable> {
     if excitation.is_some_and(|excitation| excitation.supports().is_empty()) {
         let help = vec!["allowed: only with `kind = \"support-motion\"` in [excitation]".into()];
         table.problem("kind", "a load of kind \"support-motion\" needs a moving support".into(), help);
@@ -179,9 +179,9 @@ fn read_support_motion(table: &Table<'_>, excitation: Option<&Excitation>) -> Op
     }
     Some(match motion {
         SupportDrive::Displacement(Amplitude::Constant(amplitude_m)) => {
-            Load::SupportMotion { support, amplitude_m, order, phase_rad }
+            LoadTable::SupportMotion { support, amplitude_m, order, phase_rad }
         }
-        motion => Load::DrivenSupport { support, motion, order, phase_rad },
+        motion => LoadTable::DrivenSupport { support, motion, order, phase_rad },
     })
 }
 
@@ -196,7 +196,7 @@ fn read_support(value: &Value<'_>, excitation: &Excitation) -> Option<usize> {
 }
 
 /// `order`, which a load has to state, and `phase_rad`, which a constant does not have.
-fn read_harmonic(table: &Table<'_>, lowest_order: u32) -> (Option<u32>, Option<f64>) {
+fn read_harmonic(table: &TomlTable<'_>, lowest_order: u32) -> (Option<u32>, Option<f64>) {
     let order = table.required("order").and_then(|value| value.whole(lowest_order, 1000));
     let Some(phase) = table.optional("phase_rad") else { return (order, Some(0.0)) };
     if order == Some(0) {

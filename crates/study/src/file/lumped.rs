@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, Reading, Table, quantity};
+use crate::document::{Quantity, Reading, TomlTable, quantity};
 
 use super::names::{Names, read_name};
 
 /// Masses that move along one line, joined by springs and dampers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Lumped {
+pub struct LumpedTable {
     /// The masses; one degree of freedom each.
     pub masses: Vec<Mass>,
     /// Linear springs.
@@ -44,7 +44,7 @@ pub struct Damper {
     pub damping_n_s_m: f64,
 }
 
-pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Lumped> {
+pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<LumpedTable> {
     let before = reading.count();
     names.add_ground();
     table.required("mass")?;
@@ -58,14 +58,14 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
     };
     let springs = links("spring", "stiffness_n_m", &quantity::STIFFNESS);
     let dampers = links("damper", "damping_n_s_m", &quantity::DAMPER);
-    (reading.count() == before).then(|| Lumped {
+    (reading.count() == before).then(|| LumpedTable {
         masses,
         springs: springs.into_iter().map(|(between, k)| Spring { between, stiffness_n_m: k }).collect(),
         dampers: dampers.into_iter().map(|(between, d)| Damper { between, damping_n_s_m: d }).collect(),
     })
 }
 
-fn read_mass(table: Table<'_>, names: &mut Names) -> Option<Mass> {
+fn read_mass(table: TomlTable<'_>, names: &mut Names) -> Option<Mass> {
     let name = read_name(&table, names);
     let mass = table.required("mass_kg").and_then(|value| value.number(&quantity::MASS));
     table.finish();
@@ -73,7 +73,7 @@ fn read_mass(table: Table<'_>, names: &mut Names) -> Option<Mass> {
 }
 
 fn read_link(
-    table: Table<'_>,
+    table: TomlTable<'_>,
     constant: &'static str,
     quantity: &Quantity,
     names: &Names,

@@ -40,34 +40,34 @@ mod support_motion;
 mod vary;
 
 pub use amplitude::Amplitude;
-pub use beam::Beam;
-pub use beam_end::End;
-pub use beam_point::BeamPoint;
-pub use beam_section::Section;
+pub use beam::BeamTable;
+pub use beam_end::EndSupport;
+pub use beam_point::BeamPointTable;
+pub use beam_section::SectionKeys;
 pub use beam_span::{BeamProfile, BeamSpanEntry};
-pub use continuation::{Continuation, Segments};
-pub use damping::{Damping, ModalRatio};
+pub use continuation::{ContinuationTable, SegmentChoice};
+pub use damping::{DampingTable, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};
 pub use figures::{DrawnOrbit, Figures};
 pub use force::{ActingForce, ForcePlace, ForceSize};
-pub use load::Load;
+pub use load::LoadTable;
 
-pub use lumped::{Damper, Lumped, Mass, Spring};
+pub use lumped::{Damper, LumpedTable, Mass, Spring};
 pub(crate) use matrices::MatrixProblem;
 pub use matrices::{
-    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    DirectionEntry, InputFile, MatricesTable, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
     PointPlaceEntry, RowSetEntry,
 };
 pub use output::{OutputEntry, OutputPlace, OutputSource};
 pub use output_value::{OutputQuantity, OutputValue};
 pub use parameter::{DampingKey, ParameterKind, VariedParameter};
-pub use reduction::{Reduction, ReductionMethod};
-pub use response::Response;
+pub use reduction::{ReductionMethod, ReductionTable};
+pub use response::ResponseTable;
 pub use rig::Rig;
 pub use search::Search;
 pub use stop::{FixedTo, Place, Stop, StopEntry};
-pub use stop_law::{Approach, GapMeasured, Side, StopLaw, StopRest};
-pub use structure::Structure;
+pub use stop_law::{Approach, GapMeasured, StopLaw, StopRest, StopSide};
+pub use structure::StructureTable;
 pub use study::{Study, StudyError, StudyFile};
 pub use support_motion::{MovingSupport, SupportDrive};
 pub use vary::{Curve, CurveOf, Vary};

@@ -1,8 +1,8 @@
 //! The names of a structure, and references to them.
 
-use crate::document::{Table, Value};
+use crate::document::{TomlTable, Value};
 
-use super::beam_end::End;
+use super::beam_end::EndSupport;
 
 /// Everything a study may refer to by name.
 #[derive(Debug, Default)]
@@ -10,7 +10,7 @@ pub(super) struct Names {
     /// Points and masses: where motion is observed and forces act.
     points: Vec<String>,
     /// Ends of a beam; they are observed like points.
-    ends: Vec<(&'static str, Option<End>)>,
+    ends: Vec<(&'static str, Option<EndSupport>)>,
     /// Whether the ground is a support that can move.
     ground: bool,
     /// Supports by name, of a structure that has such.
@@ -21,7 +21,7 @@ pub(super) struct Names {
 const RESERVED: [&str; 5] = ["left", "right", "ground", "space", "support"];
 
 impl Names {
-    pub(super) fn add_beam_ends(&mut self, left: Option<End>, right: Option<End>) {
+    pub(super) fn add_beam_ends(&mut self, left: Option<EndSupport>, right: Option<EndSupport>) {
         self.ends = vec![("left", left), ("right", right)];
     }
 
@@ -61,7 +61,7 @@ impl Names {
 
     /// Ends of a beam that are clamped or pinned.
     pub(super) fn held_ends(&self) -> Vec<&str> {
-        let held = self.ends.iter().filter(|(_, end)| end.is_some_and(End::holds_displacement));
+        let held = self.ends.iter().filter(|(_, end)| end.is_some_and(EndSupport::holds_displacement));
         held.map(|(name, _)| *name).collect()
     }
 
@@ -128,7 +128,7 @@ impl Names {
 }
 
 /// The `name` of a point or a mass: new, not empty, not reserved.
-pub(super) fn read_name(table: &Table<'_>, names: &mut Names) -> Option<String> {
+pub(super) fn read_name(table: &TomlTable<'_>, names: &mut Names) -> Option<String> {
     let value = table.required("name")?;
     let name = value.text()?;
     let fault = if name.trim().is_empty() {

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Reading, Table, Value};
+use crate::document::{Reading, TomlTable, Value};
 
 use super::{
     Excitation, Stop, StopEntry,
@@ -69,7 +69,11 @@ pub(super) struct Referred<'a> {
     pub stops: Option<&'a [Stop]>,
 }
 
-pub(super) fn read(root: &Table<'_>, reading: &Reading, referred: &Referred<'_>) -> Option<Vec<OutputEntry>> {
+pub(super) fn read(
+    root: &TomlTable<'_>,
+    reading: &Reading,
+    referred: &Referred<'_>,
+) -> Option<Vec<OutputEntry>> {
     let before = reading.count();
     let tables = root.tables("output");
     if tables.len() > MOST {
@@ -88,7 +92,7 @@ pub(super) fn read(root: &Table<'_>, reading: &Reading, referred: &Referred<'_>)
 }
 
 /// The name given, or "output 1", "output 2", ...
-fn read_name(table: &Table<'_>, index: usize, others: &[OutputEntry]) -> Option<String> {
+fn read_name(table: &TomlTable<'_>, index: usize, others: &[OutputEntry]) -> Option<String> {
     let Some(value) = table.optional("name") else { return Some(format!("output {}", index + 1)) };
     let name = value.text()?;
     let is_taken = others.iter().any(|other| other.name == name);
@@ -101,7 +105,7 @@ fn read_name(table: &Table<'_>, index: usize, others: &[OutputEntry]) -> Option<
     Some(name.to_owned())
 }
 
-fn read_output(table: Table<'_>, referred: &Referred<'_>) -> Option<OutputEntry> {
+fn read_output(table: TomlTable<'_>, referred: &Referred<'_>) -> Option<OutputEntry> {
     let source = read_source(&table, referred);
     let quantity = read_quantity(&table, source.as_ref());
     let (most, usual) = HARMONICS;
@@ -113,7 +117,7 @@ fn read_output(table: Table<'_>, referred: &Referred<'_>) -> Option<OutputEntry>
     Some(OutputEntry { name: String::new(), source: source?, quantity: quantity?, harmonics, figures })
 }
 
-fn read_source(table: &Table<'_>, referred: &Referred<'_>) -> Option<OutputSource> {
+fn read_source(table: &TomlTable<'_>, referred: &Referred<'_>) -> Option<OutputSource> {
     let keys = ["at", "between", "stop"];
     let given: Vec<&str> = keys.into_iter().filter(|key| table.has(key)).collect();
     if given.len() != 1 {
@@ -173,7 +177,7 @@ fn read_stop(value: &Value<'_>, stops: &[Stop]) -> Option<OutputSource> {
 }
 
 /// Of a stop the force, of places a displacement or what it changes by.
-fn read_quantity(table: &Table<'_>, source: Option<&OutputSource>) -> Option<OutputQuantity> {
+fn read_quantity(table: &TomlTable<'_>, source: Option<&OutputSource>) -> Option<OutputQuantity> {
     let is_stop = matches!(source, Some(OutputSource::Stop { .. }));
     let usual = if is_stop { OutputQuantity::Force } else { OutputQuantity::Displacement };
     let Some(value) = table.optional("quantity") else { return Some(usual) };

@@ -5,11 +5,13 @@ use hammerbeam_motion::{LawConstant, law::LawKey};
 use serde::{Serialize, Serializer, ser::SerializeStructVariant};
 
 use crate::{
-    document::{Quantity, Table, Value, quantity},
+    document::{Quantity, TomlTable, Value, quantity},
     number::{number_named, numbers},
 };
 
-use super::{Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopEntry, StopLaw, Structure};
+use super::{
+    DampingTable, Excitation, ExcitationKind, LoadTable, ModalRatio, Stop, StopEntry, StopLaw, StructureTable,
+};
 
 /// A parameter of the study and the range in which it varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -103,10 +105,10 @@ pub enum DampingKey {
 pub(super) struct Variable<'a> {
     /// The text of the file.
     pub text: &'a str,
-    pub structure: Option<&'a Structure>,
+    pub structure: Option<&'a StructureTable>,
     pub excitation: Option<&'a Excitation>,
-    pub damping: Option<&'a Damping>,
-    pub loads: Option<&'a [Load]>,
+    pub damping: Option<&'a DampingTable>,
+    pub loads: Option<&'a [LoadTable]>,
     pub stops: Option<&'a [Stop]>,
 }
 
@@ -161,39 +163,39 @@ impl Variable<'_> {
     }
 }
 
-fn of_damping(damping: &Damping) -> Vec<Known> {
+fn of_damping(damping: &DampingTable) -> Vec<Known> {
     let of = |name: &str, key, quantity| (format!("damping.{name}"), ParameterKind::Damping(key), quantity);
     match damping {
-        Damping::Modal(ModalRatio::Every(_)) => {
+        DampingTable::Modal(ModalRatio::Every(_)) => {
             vec![("damping.modal_ratio".to_owned(), ParameterKind::ModalRatio, quantity::DAMPING_RATIO)]
         }
-        Damping::Modal(ModalRatio::Each(ratios)) => {
+        DampingTable::Modal(ModalRatio::Each(ratios)) => {
             let of_mode = |mode: usize| {
                 let name = format!("modal_ratio.{}", mode + 1);
                 of(&name, DampingKey::ModalRatio { mode }, quantity::DAMPING_RATIO)
             };
             (0..ratios.len()).map(of_mode).collect()
         }
-        Damping::Rayleigh { .. } => vec![
+        DampingTable::Rayleigh { .. } => vec![
             of("rayleigh.mass_per_s", DampingKey::RayleighMass, quantity::RAYLEIGH_MASS),
             of("rayleigh.stiffness_s", DampingKey::RayleighStiffness, quantity::RAYLEIGH_STIFFNESS),
         ],
     }
 }
 
-fn of_dampers(structure: &Structure) -> Vec<Known> {
+fn of_dampers(structure: &StructureTable) -> Vec<Known> {
     let of =
         |name: String, key, quantity| (format!("structure.{name}"), ParameterKind::Damping(key), quantity);
     match structure {
-        Structure::Lumped(lumped) => {
+        StructureTable::Lumped(lumped) => {
             let of_damper = |damper: usize| {
                 let name = format!("damper.{}.damping_n_s_m", damper + 1);
                 of(name, DampingKey::Damper { damper }, quantity::DAMPER)
             };
             (0..lumped.dampers.len()).map(of_damper).collect()
         }
-        Structure::Beam(beam) => {
-            let of_point = |(point, given): (usize, &super::BeamPoint)| {
+        StructureTable::Beam(beam) => {
+            let of_point = |(point, given): (usize, &super::BeamPointTable)| {
                 let name = |key: &str| format!("point.{}.{key}", given.name);
                 [
                     of(name("damper_n_s_m"), DampingKey::PointDamper { point }, quantity::DAMPER),
@@ -206,7 +208,7 @@ fn of_dampers(structure: &Structure) -> Vec<Known> {
             };
             beam.points.iter().enumerate().flat_map(of_point).collect()
         }
-        Structure::Matrices(_) => Vec::new(),
+        StructureTable::Matrices(_) => Vec::new(),
     }
 }
 
@@ -223,7 +225,7 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
 }
 
 /// Reads `parameter` and `range`; the range in any case, so that all faults of both are reported at once.
-pub(super) fn read(table: &Table<'_>, study: Variable<'_>) -> Option<VariedParameter> {
+pub(super) fn read(table: &TomlTable<'_>, study: Variable<'_>) -> Option<VariedParameter> {
     let name = table.required("parameter");
     let range = table.required("range");
     let meant = name.as_ref().and_then(|name| Some((name, meaning(name, name.text()?, study)?)));

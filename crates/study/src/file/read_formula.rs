@@ -4,10 +4,10 @@ use hammerbeam_motion::law::{
     CONSTANTS, DEEPEST, Formula, FormulaError, Function, LONGEST, LawValue, VARIABLES,
 };
 
-use crate::document::{Table, closest, quantity};
+use crate::document::{TomlTable, closest, quantity};
 
 /// `formula`, and `constants` with a number for each name.
-pub(super) fn read(table: &Table<'_>) -> Option<LawValue> {
+pub(super) fn read(table: &TomlTable<'_>) -> Option<LawValue> {
     let formula = table.required("formula");
     let constants = table
         .optional("constants")

@@ -12,9 +12,9 @@ use hammerbeam_motion::law::{
 
 use super::{
     read_formula,
-    stop_law::{Approach, GapMeasured, Side, StopLaw, StopRest},
+    stop_law::{Approach, GapMeasured, StopLaw, StopRest, StopSide},
 };
-use crate::document::{Table, Value, quantity};
+use crate::document::{TomlTable, Value, quantity};
 
 /// The law of a stop, or those of the two that it is read as.
 pub(super) enum ReadLaw {
@@ -27,21 +27,21 @@ pub(super) enum ReadLaw {
 /// The sides on which a one-sided law acts.
 #[derive(Clone, Copy)]
 enum Sides {
-    One(Side),
+    One(StopSide),
     Both,
 }
 
 impl Sides {
-    fn of(self, law: impl Fn(Side) -> StopLaw) -> ReadLaw {
+    fn of(self, law: impl Fn(StopSide) -> StopLaw) -> ReadLaw {
         match self {
             Self::One(side) => ReadLaw::One(law(side)),
-            Self::Both => ReadLaw::Pair([law(Side::Above), law(Side::Below)]),
+            Self::Both => ReadLaw::Pair([law(StopSide::Above), law(StopSide::Below)]),
         }
     }
 }
 
 /// Which law it is. Of two with one word the second is meant where its key is given.
-pub(super) fn read_description(table: &Table<'_>) -> Option<&'static LawDescription> {
+pub(super) fn read_description(table: &TomlTable<'_>) -> Option<&'static LawDescription> {
     let mut named: Vec<(&str, &'static LawDescription)> = Vec::new();
     for described in DESCRIPTIONS {
         if !named.iter().any(|(name, _)| *name == described.name) {
@@ -59,7 +59,7 @@ pub(super) fn read_description(table: &Table<'_>) -> Option<&'static LawDescript
 }
 
 /// The law of that description, from its keys.
-pub(super) fn read(table: &Table<'_>, description: &'static LawDescription) -> Option<ReadLaw> {
+pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) -> Option<ReadLaw> {
     if let Some(alternative) = description.alternative.filter(|alternative| !alternative.is_default)
         && let Some(other) = table.optional(alternative.other)
     {
@@ -85,14 +85,14 @@ pub(super) fn read(table: &Table<'_>, description: &'static LawDescription) -> O
                 return Some(ReadLaw::One(StopLaw::new(description, values, rest)));
             }
             let one = |side| StopLaw::new(one_sided, values.clone(), one_side_of(rest, side));
-            Some(ReadLaw::Pair([Side::Above, Side::Below].map(one)))
+            Some(ReadLaw::Pair([StopSide::Above, StopSide::Below].map(one)))
         }
         LawSides::Always { .. } => Some(ReadLaw::One(StopLaw::new(description, values?, StopRest::Always))),
     }
 }
 
 /// The values of all keys; every fault of them is noted.
-fn read_values(table: &Table<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
+fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
     let read: Vec<Option<LawValue>> =
         description.keys.iter().map(|key| read_value(table, key, description)).collect();
     let values: Vec<LawValue> = read.into_iter().collect::<Option<_>>()?;
@@ -106,7 +106,7 @@ fn read_values(table: &Table<'_>, description: &LawDescription) -> Option<Vec<La
     Some(values)
 }
 
-fn read_value(table: &Table<'_>, key: &LawKey, description: &LawDescription) -> Option<LawValue> {
+fn read_value(table: &TomlTable<'_>, key: &LawKey, description: &LawDescription) -> Option<LawValue> {
     let or = |default: f64, quantity| {
         let given = table.optional(key.name);
         given.map_or(Some(default), |value| value.number(quantity)).map(LawValue::Number)
@@ -135,7 +135,7 @@ fn read_value(table: &Table<'_>, key: &LawKey, description: &LawDescription) -> 
 }
 
 /// Notes that a law of several terms has none; the last is named.
-fn refuse_no_term(table: &Table<'_>, keys: &[LawKey]) {
+fn refuse_no_term(table: &TomlTable<'_>, keys: &[LawKey]) {
     let Some(last) = keys.last() else { return };
     let names: Vec<String> = keys.iter().rev().map(|key| format!("`{}`", key.name)).collect();
     let zero = last.quantity().map_or_else(String::new, |quantity| quantity.with_unit(0.0));
@@ -150,7 +150,7 @@ fn refuse_no_term(table: &Table<'_>, keys: &[LawKey]) {
 }
 
 /// `stiffness_n_m15`, or radii, moduli and Poisson's ratios.
-fn read_hertz(table: &Table<'_>) -> Option<HertzStiffness> {
+fn read_hertz(table: &TomlTable<'_>) -> Option<HertzStiffness> {
     const SPHERES: [&str; 3] = ["radii_m", "moduli_pa", "poisson_ratios"];
     let given = table.optional("stiffness_n_m15");
     let of_spheres = SPHERES.iter().any(|key| table.has(key));
@@ -192,20 +192,23 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
     Some(radii)
 }
 
-fn read_sides(table: &Table<'_>) -> Option<Sides> {
-    let choices =
-        [("above", Sides::One(Side::Above)), ("below", Sides::One(Side::Below)), ("both", Sides::Both)];
+fn read_sides(table: &TomlTable<'_>) -> Option<Sides> {
+    let choices = [
+        ("above", Sides::One(StopSide::Above)),
+        ("below", Sides::One(StopSide::Below)),
+        ("both", Sides::Both),
+    ];
     table.required("side").and_then(|value| value.choice(&choices))
 }
 
-fn read_gap(table: &Table<'_>) -> Option<Approach> {
+fn read_gap(table: &TomlTable<'_>) -> Option<Approach> {
     let gap = table.optional("gap_m").map_or(Some(0.0), |value| value.number(&quantity::GAP));
     let measured = read_measured(table);
     gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured })
 }
 
 /// Gap and side of a law that takes no preload.
-fn read_with_gap(table: &Table<'_>, refused: NoPreload) -> (Option<Approach>, Option<Sides>) {
+fn read_with_gap(table: &TomlTable<'_>, refused: NoPreload) -> (Option<Approach>, Option<Sides>) {
     let NoPreload { why, allowed } = refused;
     let sides = read_sides(table);
     let gap = read_gap(table);
@@ -217,7 +220,7 @@ fn read_with_gap(table: &Table<'_>, refused: NoPreload) -> (Option<Approach>, Op
 }
 
 /// Gap or preload, and the sides.
-fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Sides>) {
+fn read_one_sided(table: &TomlTable<'_>) -> (Option<Approach>, Option<Sides>) {
     let sides = read_sides(table);
     let Some(preload) = table.optional("preload_n") else {
         return (read_gap(table), sides);
@@ -231,13 +234,13 @@ fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Sides>) {
     (preload.number(&quantity::PRELOAD).map(|preload_n| Approach::Preload { preload_n }), sides)
 }
 
-fn read_measured(table: &Table<'_>) -> Option<GapMeasured> {
+fn read_measured(table: &TomlTable<'_>) -> Option<GapMeasured> {
     let choices = [("undeformed", GapMeasured::Undeformed), ("at-rest", GapMeasured::AtRest)];
     table.optional("gap_measured").map_or(Some(GapMeasured::Undeformed), |value| value.choice(&choices))
 }
 
 /// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`.
-fn read_gaps(table: &Table<'_>) -> Option<StopRest> {
+fn read_gaps(table: &TomlTable<'_>) -> Option<StopRest> {
     let both = table.optional("gap_m");
     let each = ["gap_above_m", "gap_below_m"].map(|key| table.optional(key));
     if both.is_some() {
@@ -253,10 +256,10 @@ fn read_gaps(table: &Table<'_>) -> Option<StopRest> {
 }
 
 /// One side of a stop on both sides.
-fn one_side_of(rest: StopRest, side: Side) -> StopRest {
+fn one_side_of(rest: StopRest, side: StopSide) -> StopRest {
     match rest {
         StopRest::TwoSided { gap_above_m, gap_below_m, gap_measured: measured } => {
-            let gap_m = if side == Side::Above { gap_above_m } else { gap_below_m };
+            let gap_m = if side == StopSide::Above { gap_above_m } else { gap_below_m };
             StopRest::OneSided { approach: Approach::Gap { gap_m, measured }, side }
         }
         other => other,

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::document::{Table, quantity};
+use crate::document::{TomlTable, quantity};
 
-use super::Structure;
+use super::StructureTable;
 
 /// How the structure is reduced.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Reduction {
+pub struct ReductionTable {
     /// The basis.
     pub method: ReductionMethod,
     /// Highest eigenfrequency kept [Hz]; not used by [`ReductionMethod::None`] and
@@ -59,11 +59,11 @@ const METHODS: [(&str, ReductionMethod); 9] = [
 ];
 
 /// A beam and matrices have to say how they are reduced; lumped masses are not reduced unless they say so.
-pub(super) fn read(root: &Table<'_>, structure: Option<&Structure>) -> Option<Reduction> {
-    let lumped = matches!(structure, Some(Structure::Lumped(_)));
+pub(super) fn read(root: &TomlTable<'_>, structure: Option<&StructureTable>) -> Option<ReductionTable> {
+    let lumped = matches!(structure, Some(StructureTable::Lumped(_)));
     if !root.has("reduction") && (lumped || structure.is_none()) {
         root.optional("reduction");
-        return Some(Reduction { method: ReductionMethod::None, cut_off_hz: 0.0 });
+        return Some(ReductionTable { method: ReductionMethod::None, cut_off_hz: 0.0 });
     }
     let table = root.required("reduction").and_then(|value| value.table())?;
     let method = table.required("method").and_then(|value| value.choice(&METHODS));
@@ -71,11 +71,11 @@ pub(super) fn read(root: &Table<'_>, structure: Option<&Structure>) -> Option<Re
         Some(method) if !method.cuts_off() => Some(0.0),
         _ => table.required("cut_off_hz").and_then(|value| value.number(&quantity::FREQUENCY)),
     };
-    let is_matrices = matches!(structure, Some(Structure::Matrices(_)) | None);
+    let is_matrices = matches!(structure, Some(StructureTable::Matrices(_)) | None);
     if method == Some(ReductionMethod::Given) && !is_matrices {
         let help = vec!["allowed: \"given\" for matrices that are reduced already, or \"none\"".to_owned()];
         table.problem("method", "`method` is \"given\", but the structure is not".to_owned(), help);
     }
     table.finish();
-    Some(Reduction { method: method?, cut_off_hz: cut_off_hz? })
+    Some(ReductionTable { method: method?, cut_off_hz: cut_off_hz? })
 }

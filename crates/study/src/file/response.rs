@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::document::{Table, Value};
+use crate::document::{TomlTable, Value};
 
 use super::{Place, Stop, names::Names};
 
 /// What a study asks for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Response {
+pub struct ResponseTable {
     /// The point whose displacement and acceleration are reported.
     pub point: String,
     /// Orbit periods over excitation period, each of which is sought.
@@ -18,7 +18,7 @@ pub struct Response {
     pub period_doubling_depth: u32,
 }
 
-pub(super) fn read(root: &Table<'_>, names: &Names, stops: Option<&[Stop]>) -> Option<Response> {
+pub(super) fn read(root: &TomlTable<'_>, names: &Names, stops: Option<&[Stop]>) -> Option<ResponseTable> {
     let table = match root.optional("response") {
         Some(value) => Some(value.table()?),
         None => None,
@@ -33,7 +33,7 @@ pub(super) fn read(root: &Table<'_>, names: &Names, stops: Option<&[Stop]>) -> O
     if let Some(table) = table {
         table.finish();
     }
-    Some(Response { point: point?, period_multiples: multiples?, period_doubling_depth: depth? })
+    Some(ResponseTable { point: point?, period_multiples: multiples?, period_doubling_depth: depth? })
 }
 
 /// First point of the first stop, else the first point or mass, else the right end.

@@ -1,6 +1,6 @@
 //! `[rig]`: a measurement made with another model, to be held against this one.
 
-use crate::document::{Table, Value, quantity};
+use crate::document::{TomlTable, Value, quantity};
 
 use super::Excitation;
 
@@ -37,7 +37,7 @@ pub struct Rig {
 const SIGNALS: [(f64, u32); 8] =
     [(31.0, 1), (31.5, 1), (33.6, 1), (34.5, 1), (50.8, 2), (61.65, 2), (63.7, 2), (66.5, 2)];
 
-pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<Option<Rig>> {
+pub(super) fn read(root: &TomlTable<'_>, excitation: Option<&Excitation>) -> Option<Option<Rig>> {
     let Some(value) = root.optional("rig") else { return Some(None) };
     if excitation.is_some_and(Excitation::supports_differ) {
         let help = vec!["allowed: supports that all move alike, with `at = [...]`".to_owned()];

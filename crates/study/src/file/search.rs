@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::Table;
+use crate::document::TomlTable;
 
 /// Where and how thoroughly orbits are looked for by simulation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,7 +19,7 @@ pub struct Search {
     pub unstable_starts: bool,
 }
 
-pub(super) fn read(root: &Table<'_>) -> Option<Search> {
+pub(super) fn read(root: &TomlTable<'_>) -> Option<Search> {
     let table = match root.optional("search") {
         Some(value) => Some(value.table()?),
         None => None,

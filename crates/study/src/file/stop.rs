@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table};
+use crate::document::{Reading, TomlTable};
 
 use super::{
     Excitation, StopLaw,
@@ -85,7 +85,7 @@ impl Serialize for FixedTo {
 }
 
 pub(super) fn read(
-    root: &Table<'_>,
+    root: &TomlTable<'_>,
     reading: &Reading,
     names: &Names,
     excitation: Option<&Excitation>,
@@ -124,7 +124,7 @@ fn of_law(name: &str, index: usize, place: &Place, law: ReadLaw) -> Vec<Stop> {
 }
 
 /// The name given, or "stop 1", "stop 2", ...
-fn read_name(table: &Table<'_>, index: usize, taken: &[String]) -> Option<String> {
+fn read_name(table: &TomlTable<'_>, index: usize, taken: &[String]) -> Option<String> {
     let Some(value) = table.optional("name") else { return Some(format!("stop {}", index + 1)) };
     let name = value.text()?;
     if name.trim().is_empty() || taken.iter().any(|other| other == name) {
@@ -138,7 +138,11 @@ fn read_name(table: &Table<'_>, index: usize, taken: &[String]) -> Option<String
     Some(name.to_owned())
 }
 
-fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<(Place, ReadLaw)> {
+fn read_stop(
+    table: TomlTable<'_>,
+    names: &Names,
+    excitation: Option<&Excitation>,
+) -> Option<(Place, ReadLaw)> {
     let place = read_place(&table, names, excitation);
     // Which keys a stop may have, its law says.
     let description = read_stop_law::read_description(&table)?;
@@ -147,7 +151,7 @@ fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -
     Some((place?, law?))
 }
 
-fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Place> {
+fn read_place(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Place> {
     let Some(between) = table.optional("between") else {
         let point = table.required("at").and_then(|value| names.point(&value));
         let fixed_to = read_fixed_to(table, names, excitation);
@@ -164,7 +168,7 @@ fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>)
 }
 
 /// A moving support by its name, or what stands still; by default the moving support if there is one.
-fn read_fixed_to(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<FixedTo> {
+fn read_fixed_to(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<FixedTo> {
     let moving = excitation.map_or_else(Vec::new, Excitation::moving_places);
     let mut known = moving.clone();
     known

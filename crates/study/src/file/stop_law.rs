@@ -22,7 +22,7 @@ pub enum StopRest {
         /// Gap or preload.
         approach: Approach,
         /// On which side the stop is.
-        side: Side,
+        side: StopSide,
     },
     /// On both sides of a clearance.
     TwoSided {
@@ -68,7 +68,7 @@ pub enum GapMeasured {
 /// On which side of the point a one-sided stop is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Side {
+pub enum StopSide {
     /// Contact where `r > gap`.
     Above,
     /// Contact where `r < -gap`.
@@ -193,7 +193,7 @@ impl Serialize for Contents<'_> {
                 LawValue::Formula(text, constants) => {
                     entries.serialize_entry(key.field, text)?;
                     if !constants.is_empty() {
-                        entries.serialize_entry("constants", &Table(constants))?;
+                        entries.serialize_entry("constants", &TomlTable(constants))?;
                     }
                 }
             }
@@ -215,9 +215,9 @@ impl Serialize for Contents<'_> {
 }
 
 /// Numbers by their names.
-struct Table<'a>(&'a [(String, f64)]);
+struct TomlTable<'a>(&'a [(String, f64)]);
 
-impl Serialize for Table<'_> {
+impl Serialize for TomlTable<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }

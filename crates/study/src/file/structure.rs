@@ -2,20 +2,20 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table};
+use crate::document::{Reading, TomlTable};
 
-use super::{Beam, Lumped, Matrices, beam, lumped, matrices, names::Names};
+use super::{BeamTable, LumpedTable, MatricesTable, beam, lumped, matrices, names::Names};
 
 /// The linear structure of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Structure {
+pub enum StructureTable {
     /// A uniform beam.
-    Beam(Beam),
+    Beam(BeamTable),
     /// Masses, springs and dampers.
-    Lumped(Lumped),
+    Lumped(LumpedTable),
     /// Matrices from files.
-    Matrices(Matrices),
+    Matrices(MatricesTable),
 }
 
 #[derive(Clone, Copy)]
@@ -26,15 +26,15 @@ enum Kind {
 }
 
 /// Reads the structure and its names.
-pub(super) fn read(root: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Structure> {
+pub(super) fn read(root: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<StructureTable> {
     let table = root.required("structure").and_then(|value| value.table())?;
     let kind = table.required("kind").and_then(|value| {
         value.choice(&[("beam", Kind::Beam), ("lumped", Kind::Lumped), ("matrices", Kind::Matrices)])
     })?;
     let structure = match kind {
-        Kind::Beam => beam::read(&table, reading, names).map(Structure::Beam),
-        Kind::Lumped => lumped::read(&table, reading, names).map(Structure::Lumped),
-        Kind::Matrices => matrices::read(&table, reading, names).map(Structure::Matrices),
+        Kind::Beam => beam::read(&table, reading, names).map(StructureTable::Beam),
+        Kind::Lumped => lumped::read(&table, reading, names).map(StructureTable::Lumped),
+        Kind::Matrices => matrices::read(&table, reading, names).map(StructureTable::Matrices),
     };
     table.finish();
     structure

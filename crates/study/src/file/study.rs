@@ -12,15 +12,15 @@ use serde::Serialize;
 use toml::de::DeTable;
 
 use crate::{
-    document::{Problem, Reading, Report, Table, place},
+    document::{FaultReport, Problem, Reading, TomlTable, place},
     setting::{Setting, SettingError},
 };
 
 use super::{
-    Continuation, Curve, Damping, Excitation, Figures, HarmonicExcitation, Load, OutputEntry, Reduction,
-    Response, Rig, Search, Stop, Structure, VariedParameter, Vary, continuation, damping, excitation,
-    figures, load, names::Names, output, parameter::Variable, reduction, response, rig, search, stop,
-    structure, vary,
+    ContinuationTable, Curve, DampingTable, Excitation, Figures, HarmonicExcitation, LoadTable, OutputEntry,
+    ReductionTable, ResponseTable, Rig, Search, Stop, StructureTable, VariedParameter, Vary, continuation,
+    damping, excitation, figures, load, names::Names, output, parameter::Variable, reduction, response, rig,
+    search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -30,23 +30,23 @@ pub struct Study {
     #[serde(skip)]
     pub title: String,
     /// The linear structure.
-    pub structure: Structure,
+    pub structure: StructureTable,
     /// How it is reduced.
-    pub reduction: Reduction,
+    pub reduction: ReductionTable,
     /// Damping of its modes.
-    pub damping: Damping,
+    pub damping: DampingTable,
     /// The excitation.
     pub excitation: Excitation,
     /// Further loads.
-    pub loads: Vec<Load>,
+    pub loads: Vec<LoadTable>,
     /// Local elements.
     pub stops: Vec<Stop>,
     /// What is asked for.
-    pub response: Response,
+    pub response: ResponseTable,
     /// How thoroughly branches are looked for.
     pub search: Search,
     /// How branches are followed.
-    pub continuation: Continuation,
+    pub continuation: ContinuationTable,
     /// Branches in other parameters; no part of the identity, since they stand beside the branches.
     #[serde(skip)]
     pub varies: Vec<Vary>,
@@ -75,7 +75,7 @@ impl Study {
 
     /// Points at which forces of the excitation and of the loads act.
     pub fn force_points(&self) -> impl Iterator<Item = &str> {
-        let of_loads = self.loads.iter().flat_map(Load::force_points).map(String::as_str);
+        let of_loads = self.loads.iter().flat_map(LoadTable::force_points).map(String::as_str);
         self.excitation.force_points().into_iter().chain(of_loads)
     }
 }
@@ -102,7 +102,7 @@ pub enum StudyError {
     Unreadable { path: PathBuf, source: io::Error },
     /// The file says something that is not allowed.
     #[error("{0}")]
-    Invalid(Report),
+    Invalid(FaultReport),
     /// A key cannot be given another value.
     #[error("{0}")]
     Setting(SettingError),
@@ -160,7 +160,7 @@ impl StudyFile {
         let (problems, left_out, places) = reading.into_parts();
         match study {
             Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
-            _ => Err(StudyError::Invalid(Report::new(name, &text, problems).and(left_out))),
+            _ => Err(StudyError::Invalid(FaultReport::new(name, &text, problems).and(left_out))),
         }
     }
 
@@ -176,7 +176,7 @@ impl StudyFile {
     /// elsewhere.
     #[must_use]
     pub fn text_with_whole_paths(&self) -> String {
-        let Structure::Matrices(matrices) = &self.study.structure else { return self.text.clone() };
+        let StructureTable::Matrices(matrices) = &self.study.structure else { return self.text.clone() };
         let mut text = self.text.clone();
         for file in matrices.files() {
             let path = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
@@ -190,7 +190,7 @@ impl StudyFile {
     #[must_use]
     pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> StudyError {
         let problem = Problem { key: key.to_owned(), span: place(&self.places, key), message, help };
-        StudyError::Invalid(Report::new(&self.name, &self.text, vec![problem]))
+        StudyError::Invalid(FaultReport::new(&self.name, &self.text, vec![problem]))
     }
 }
 
@@ -202,13 +202,13 @@ fn read_text(text: &str, reading: &Reading, pieces: bool) -> Option<Study> {
     if !errors.is_empty() {
         return None;
     }
-    let root = Table::new(reading, String::new(), 0..0, document.get_ref());
+    let root = TomlTable::new(reading, String::new(), 0..0, document.get_ref());
     let study = read_root(&root, reading, (text, pieces));
     root.finish();
     study
 }
 
-fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) -> Option<Study> {
+fn read_root(root: &TomlTable<'_>, reading: &Reading, (text, pieces): (&str, bool)) -> Option<Study> {
     let mut names = Names::default();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
     let structure = structure::read(root, reading, &mut names);

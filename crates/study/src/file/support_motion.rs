@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, Table, Value, quantity};
+use crate::document::{Quantity, TomlTable, Value, quantity};
 
 use super::{Amplitude, amplitude, names::Names};
 
@@ -38,7 +38,7 @@ pub(super) enum PrescribedMotion {
 }
 
 /// Reads `at` with `amplitude_m` or `amplitude_m_s2`, or a `support` for each motion.
-pub(super) fn read(table: &Table<'_>, names: &Names) -> Option<PrescribedMotion> {
+pub(super) fn read(table: &TomlTable<'_>, names: &Names) -> Option<PrescribedMotion> {
     if table.has("support") {
         return read_each(table, names).map(PrescribedMotion::Each);
     }
@@ -51,7 +51,7 @@ pub(super) fn read(table: &Table<'_>, names: &Names) -> Option<PrescribedMotion>
 ///
 /// * `displacement`, `acceleration`: what they may be as numbers; tables hold what is more than 0.
 pub(super) fn read_motion(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     displacement: &Quantity,
     acceleration: &Quantity,
 ) -> Option<SupportDrive> {
@@ -70,7 +70,7 @@ pub(super) fn read_motion(
     read(value, acceleration, &quantity::ACCELERATION).map(SupportDrive::Acceleration)
 }
 
-fn read_each(table: &Table<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
+fn read_each(table: &TomlTable<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
     for key in ["at", "amplitude_m", "amplitude_m_s2", "phase_rad"] {
         if let Some(value) = table.optional(key) {
             let help = vec!["allowed: in each entry of `support`, which says it for its own".to_owned()];
@@ -100,7 +100,7 @@ fn read_each(table: &Table<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
     (count > 1 && supports.len() == count).then_some(supports)
 }
 
-fn read_support(entry: Table<'_>, names: &Names) -> Option<MovingSupport> {
+fn read_support(entry: TomlTable<'_>, names: &Names) -> Option<MovingSupport> {
     let at = entry.required("at").and_then(|value| read_places(&value, names));
     refuse_tables(&entry);
     let drive = read_motion(&entry, &quantity::AMPLITUDE, &quantity::ACCELERATION);
@@ -110,7 +110,7 @@ fn read_support(entry: Table<'_>, names: &Names) -> Option<MovingSupport> {
 }
 
 /// A table over the frequency is a factor of the whole excitation.
-fn refuse_tables(entry: &Table<'_>) {
+fn refuse_tables(entry: &TomlTable<'_>) {
     for key in ["amplitude_m", "amplitude_m_s2"] {
         if let Some(value) = entry.optional(key).filter(Value::is_list) {
             let message =
@@ -144,7 +144,7 @@ fn read_places(value: &Value<'_>, names: &Names) -> Option<Vec<String>> {
 mod tests {
     use crate::{
         Model, StudyFile,
-        file::{Excitation, FixedTo, Load, Place, Study},
+        file::{Excitation, FixedTo, LoadTable, Place, Study},
     };
 
     const TUBE: &str = r#"
@@ -219,7 +219,7 @@ mod tests {
     fn a_further_harmonic_says_whose_it_is() {
         let load = "[[load]]\nkind = \"support-motion\"\nat = \"right\"\namplitude_m = 1e-4\norder = 3\n";
         let study = tube_with("[response]", &format!("{load}[response]")).unwrap().study;
-        assert!(matches!(study.loads[0], Load::SupportMotion { support: 1, order: 3, .. }));
+        assert!(matches!(study.loads[0], LoadTable::SupportMotion { support: 1, order: 3, .. }));
         let nameless = load.replace("at = \"right\"\n", "");
         assert_refused("[response]", &format!("{nameless}[response]"), &["`at` is missing"]);
         let other = load.replace("right", "middle");

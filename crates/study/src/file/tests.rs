@@ -50,21 +50,21 @@ fn assert_refused(study: Result<Study, String>, parts: &[&str]) {
 #[test]
 fn the_paper_is_read_as_it_is_written() {
     let study = parse(PAPER).unwrap();
-    let Structure::Beam(beam) = &study.structure else { panic!("not a beam") };
+    let StructureTable::Beam(beam) = &study.structure else { panic!("not a beam") };
     assert_eq!(
         (beam.length_m, beam.elements, beam.left, beam.right),
-        (0.2579822, 44, End::Clamped, End::Free)
+        (0.2579822, 44, EndSupport::Clamped, EndSupport::Free)
     );
     assert_eq!(beam.spans[0].profile.section.area_m2, 0.0298 * 0.0020);
     assert_eq!((beam.points[0].at_m, beam.points[0].mass_kg), (0.2432157, 0.03756));
-    assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.015)));
+    assert_eq!(study.damping, DampingTable::Modal(ModalRatio::Every(0.015)));
     assert_eq!(study.excitation.range_hz(), [19.0, 110.0]);
     assert_eq!(study.excitation.moving_places(), ["left"]);
     let place = Place::At { point: "contact".into(), fixed_to: FixedTo::Support(0) };
     assert_eq!(study.stops[0].place, place);
     assert_eq!(
         study.response,
-        Response { point: "contact".into(), period_multiples: vec![1, 2, 3], period_doubling_depth: 0 }
+        ResponseTable { point: "contact".into(), period_multiples: vec![1, 2, 3], period_doubling_depth: 0 }
     );
 }
 
@@ -72,17 +72,17 @@ fn the_paper_is_read_as_it_is_written() {
 fn what_is_not_said_has_its_default() {
     let study = parse(LUMPED).unwrap();
     assert_eq!(study.reduction.method, ReductionMethod::None);
-    assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.0)));
+    assert_eq!(study.damping, DampingTable::Modal(ModalRatio::Every(0.0)));
     assert_eq!(
         study.excitation.harmonic().map(|harmonic| (harmonic.order, harmonic.phase_rad)),
         Some((1, 0.0))
     );
     assert_eq!(
         study.response,
-        Response { point: "a".into(), period_multiples: vec![1], period_doubling_depth: 0 }
+        ResponseTable { point: "a".into(), period_multiples: vec![1], period_doubling_depth: 0 }
     );
     assert_eq!(study.continuation.max_step_hz, 0.0002);
-    assert_eq!(study.continuation.segments, Segments::Auto);
+    assert_eq!(study.continuation.segments, SegmentChoice::Auto);
 }
 
 #[test]
@@ -398,6 +398,6 @@ fn a_quantity_with_its_unit_is_a_parameter() {
     assert_eq!(number.value, 2.0);
     let changed = crate::number::replaced(&text, &[number], &[2.5]);
     assert!(changed.contains("mass = \"2.5 kg\""), "{changed}");
-    let Structure::Lumped(lumped) = parse(&changed).unwrap().structure else { panic!("not lumped") };
+    let StructureTable::Lumped(lumped) = parse(&changed).unwrap().structure else { panic!("not lumped") };
     assert_eq!(lumped.masses[1].mass_kg, 2.5);
 }

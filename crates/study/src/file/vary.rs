@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table, quantity};
+use crate::document::{Reading, TomlTable, quantity};
 
 use super::{
     Excitation, VariedParameter,
@@ -76,7 +76,7 @@ const KINDS: [(&str, CurveOf); 4] = [
 ];
 
 pub(super) fn read(
-    root: &Table<'_>,
+    root: &TomlTable<'_>,
     reading: &Reading,
     study: Variable<'_>,
 ) -> Option<(Vec<Vary>, Vec<Curve>)> {
@@ -93,12 +93,12 @@ pub(super) fn read(
 }
 
 /// What is there of both, unread.
-pub(super) fn passed_over(root: &Table<'_>) -> (Vec<Vary>, Vec<Curve>) {
+pub(super) fn passed_over(root: &TomlTable<'_>) -> (Vec<Vary>, Vec<Curve>) {
     ["vary", "curve"].iter().for_each(|key| drop(root.optional(key)));
     (Vec::new(), Vec::new())
 }
 
-fn read_vary(table: Table<'_>, study: Variable<'_>) -> Option<Vary> {
+fn read_vary(table: TomlTable<'_>, study: Variable<'_>) -> Option<Vary> {
     let parameter = parameter::read(&table, study);
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let multiple = read_multiple(&table);
@@ -107,7 +107,7 @@ fn read_vary(table: Table<'_>, study: Variable<'_>) -> Option<Vary> {
     Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple?, steps: steps? })
 }
 
-fn read_curve(table: Table<'_>, study: Variable<'_>) -> Option<Curve> {
+fn read_curve(table: TomlTable<'_>, study: Variable<'_>) -> Option<Curve> {
     let of = table.required("of").and_then(|value| value.choice(&KINDS));
     let near = table.required("near_hz").and_then(|value| value.number(&quantity::FREQUENCY));
     let parameter = parameter::read(&table, study);
@@ -116,6 +116,6 @@ fn read_curve(table: Table<'_>, study: Variable<'_>) -> Option<Curve> {
     Some(Curve { of: of?, near_hz: near?, parameter: parameter?, period_multiple: multiple? })
 }
 
-fn read_multiple(table: &Table<'_>) -> Option<u32> {
+fn read_multiple(table: &TomlTable<'_>) -> Option<u32> {
     table.optional("period_multiple").map_or(Some(1), |value| value.whole(1, 64))
 }

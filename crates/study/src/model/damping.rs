@@ -7,7 +7,7 @@
 use hammerbeam_motion::DampingPart;
 
 use super::structure::{ReduceError, reduce};
-use crate::file::{Damping, DampingKey, ModalRatio, ParameterKind, Structure, Study};
+use crate::file::{DampingKey, DampingTable, ModalRatio, ParameterKind, StructureTable, Study};
 
 /// The constants of the damping that vary in a study, each once, in the order of their first appearance.
 pub(super) fn varied_keys(study: &Study) -> Vec<DampingKey> {
@@ -48,30 +48,30 @@ pub(super) fn value(study: &Study, key: DampingKey) -> f64 {
 /// zero.
 fn constants(study: &mut Study, mut show: impl FnMut(DampingKey, &mut f64)) {
     match &mut study.damping {
-        Damping::Modal(ModalRatio::Every(ratio)) => *ratio = 0.0,
-        Damping::Modal(ModalRatio::Each(ratios)) => {
+        DampingTable::Modal(ModalRatio::Every(ratio)) => *ratio = 0.0,
+        DampingTable::Modal(ModalRatio::Each(ratios)) => {
             for (mode, ratio) in ratios.iter_mut().enumerate() {
                 show(DampingKey::ModalRatio { mode }, ratio);
             }
         }
-        Damping::Rayleigh { mass_per_s, stiffness_s } => {
+        DampingTable::Rayleigh { mass_per_s, stiffness_s } => {
             show(DampingKey::RayleighMass, mass_per_s);
             show(DampingKey::RayleighStiffness, stiffness_s);
         }
     }
     match &mut study.structure {
-        Structure::Lumped(lumped) => {
+        StructureTable::Lumped(lumped) => {
             for (damper, given) in lumped.dampers.iter_mut().enumerate() {
                 show(DampingKey::Damper { damper }, &mut given.damping_n_s_m);
             }
         }
-        Structure::Beam(beam) => {
+        StructureTable::Beam(beam) => {
             for (point, given) in beam.points.iter_mut().enumerate() {
                 show(DampingKey::PointDamper { point }, &mut given.damper_n_s_m);
                 show(DampingKey::RotationalDamper { point }, &mut given.rotational_damper_n_m_s_rad);
             }
         }
         // The matrix of damping has no constants to vary.
-        Structure::Matrices(_) => {}
+        StructureTable::Matrices(_) => {}
     }
 }

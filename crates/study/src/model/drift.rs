@@ -39,7 +39,8 @@ impl std::fmt::Display for Drift {
         if self.held_by_stops {
             write!(
                 f,
-                "only stops that can open hold the rigid-body motion ({direction}), at 0 Hz; solutions that do not touch them come in families, \
+                "only stops that can open hold the rigid-body motion ({direction}), at 0 Hz; solutions that \
+                do not touch them come in families, \
                  and a search among them may take long"
             )
         } else {

@@ -6,7 +6,7 @@ use hammerbeam_motion::{
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
-use crate::file::{Approach, FixedTo, GapMeasured, Place, Side, Stop, StopRest, StudyError, StudyFile};
+use crate::file::{Approach, FixedTo, GapMeasured, Place, Stop, StopRest, StopSide, StudyError, StudyFile};
 
 use super::load::rest;
 
@@ -40,11 +40,13 @@ impl Relative {
         }
     }
 
-    fn towards(self, side: Side) -> Self {
+    fn towards(self, side: StopSide) -> Self {
         let turned = |values: &[f64]| values.iter().map(|value| -value).collect();
         match side {
-            Side::Above => self,
-            Side::Below => Self { shape: turned(&self.shape), support_ratios: turned(&self.support_ratios) },
+            StopSide::Above => self,
+            StopSide::Below => {
+                Self { shape: turned(&self.shape), support_ratios: turned(&self.support_ratios) }
+            }
         }
     }
 
@@ -123,7 +125,7 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<(LocalEl
         _ => unreachable!("a stop rests as its law is described"),
     };
     let element = |part: LawPart| {
-        let turned = if part.is_turned { Side::Below } else { Side::Above };
+        let turned = if part.is_turned { StopSide::Below } else { StopSide::Above };
         let name = format!("{}{}", stop.name, part.suffix);
         let sign = if part.is_turned { -1.0 } else { 1.0 };
         (relative.clone().towards(turned).element(&name, part.law), sign)

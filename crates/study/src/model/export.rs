@@ -5,7 +5,7 @@ use std::fmt::Write;
 use hammerbeam_structure::{ExportedMatrices, RowLabel};
 
 use super::structure::linear_structure;
-use crate::file::{Structure, StudyError, StudyFile};
+use crate::file::{StructureTable, StudyError, StudyFile};
 
 /// The matrices of a study's beam or masses, and the text of the study that reads them from the files
 /// `K.mtx`,
@@ -15,7 +15,7 @@ use crate::file::{Structure, StudyError, StudyFile};
 /// [`StudyError::Invalid`]: the study has matrices already, or its structure is refused.
 pub fn matrix_study(file: &StudyFile) -> Result<(ExportedMatrices, String), StudyError> {
     let structure = match &file.study.structure {
-        Structure::Matrices(_) => {
+        StructureTable::Matrices(_) => {
             return Err(file.fault(
                 "structure.kind",
                 "the structure is given as matrices already".into(),

@@ -109,23 +109,25 @@ impl Drive {
         }
     }
 
-    fn add(&mut self, further: &file::Load, model: &ReducedModel) {
+    fn add(&mut self, further: &file::LoadTable, model: &ReducedModel) {
         match further {
-            file::Load::Gravity { acceleration_m_s2 } => self.kept.forces.push(HarmonicForce {
+            file::LoadTable::Gravity { acceleration_m_s2 } => self.kept.forces.push(HarmonicForce {
                 shape: model.uniform_acceleration.clone(),
                 harmonic: Harmonic { order: 0, amplitude: *acceleration_m_s2, phase: 0.0 },
             }),
-            file::Load::Force { at, amplitude_n, order, phase_rad } => {
+            file::LoadTable::Force { at, amplitude_n, order, phase_rad } => {
                 self.kept.forces.push(HarmonicForce {
                     shape: shape(model, at),
                     harmonic: Harmonic { order: *order, amplitude: *amplitude_n, phase: *phase_rad },
                 });
             }
-            file::Load::ActingForce { force, order } => self.act(force, (*order, force.phase_rad), model),
-            file::Load::DrivenSupport { support, motion, order, phase_rad } => {
+            file::LoadTable::ActingForce { force, order } => {
+                self.act(force, (*order, force.phase_rad), model)
+            }
+            file::LoadTable::DrivenSupport { support, motion, order, phase_rad } => {
                 self.drive_support(*support, motion, (*order, *phase_rad));
             }
-            file::Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
+            file::LoadTable::SupportMotion { support, amplitude_m, order, phase_rad } => {
                 let harmonic = Harmonic { order: *order, amplitude: *amplitude_m, phase: *phase_rad };
                 self.kept.support.push(SupportHarmonic { support: *support, harmonic });
             }
@@ -210,8 +212,8 @@ pub(super) fn rest(load: &Load, model: &ReducedModel) -> Result<Vec<f64>, usize>
 /// # Errors
 /// The fault at the load.
 pub(super) fn check_direction(file: &StudyFile) -> Result<(), StudyError> {
-    let file::Structure::Matrices(matrices) = &file.study.structure else { return Ok(()) };
-    let gravity = file.study.loads.iter().position(|load| matches!(load, file::Load::Gravity { .. }));
+    let file::StructureTable::Matrices(matrices) = &file.study.structure else { return Ok(()) };
+    let gravity = file.study.loads.iter().position(|load| matches!(load, file::LoadTable::Gravity { .. }));
     match (gravity, matrices.acceleration_direction) {
         (Some(load), None) => {
             let help = "allowed: with `acceleration_direction = \"-z\"`, say, in [structure]".to_owned();

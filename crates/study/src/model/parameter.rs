@@ -5,7 +5,7 @@ use hammerbeam_orbit::Response;
 
 use super::{Model, damping};
 use crate::file::{
-    Amplitude, Damping, HarmonicExcitation, ModalRatio, ParameterKind, Study, VariedParameter,
+    Amplitude, DampingTable, HarmonicExcitation, ModalRatio, ParameterKind, Study, VariedParameter,
 };
 
 /// A parameter of the system whose value in the study is `factor value + offset`.
@@ -60,7 +60,7 @@ impl Model {
                 Ok(StudyParameter { factor, ..plain(Parameter::ExcitationScale) })
             }
             ParameterKind::ModalRatio => {
-                let Damping::Modal(ModalRatio::Every(offset)) = study.damping else {
+                let DampingTable::Modal(ModalRatio::Every(offset)) = study.damping else {
                     return Err(format!("{} is not the same for every mode", varied.name));
                 };
                 Ok(StudyParameter { offset, ..plain(Parameter::ADDED_DAMPING_RATIO) })

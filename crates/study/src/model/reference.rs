@@ -6,7 +6,7 @@
 
 use hammerbeam_structure::{OutlinePoint, Reduced};
 
-use crate::file::{ParameterKind, Structure, Study};
+use crate::file::{ParameterKind, StructureTable, Study};
 
 /// Nodes as near as this, in lengths of the beam, are one.
 const SAME_PLACE: f64 = 1e-9;
@@ -29,7 +29,7 @@ impl Reference {
 /// Numbers of nodes before the points of a beam and the borders of its spans: where they change, the mesh
 /// does, and the modes jump.
 pub(super) fn nodes_before_points(study: &Study, outline: &[OutlinePoint]) -> Vec<usize> {
-    let Structure::Beam(beam) = &study.structure else { return Vec::new() };
+    let StructureTable::Beam(beam) = &study.structure else { return Vec::new() };
     let before = |at: f64| outline.iter().filter(|node| node.at < at - SAME_PLACE * beam.length_m).count();
     beam.points.iter().map(|point| point.at_m).chain(beam.borders_m()).map(before).collect()
 }

@@ -4,7 +4,8 @@ use hammerbeam_structure as linear;
 use linear::{Connection, LumpedMass, MatrixReport, ModalRatios, Reduced, StructureError};
 
 use crate::file::{
-    Damping, Lumped, Matrices, MatrixProblem, ModalRatio, Place, ReductionMethod, Structure, Study,
+    DampingTable, LumpedTable, MatricesTable, MatrixProblem, ModalRatio, Place, ReductionMethod,
+    StructureTable, Study,
 };
 
 /// Why there is no reduced structure.
@@ -47,7 +48,7 @@ pub(super) fn reduce_and_report(
     study: &Study,
     interface: &[String],
 ) -> Result<(Reduced, Option<MatrixReport>), ReduceError> {
-    if let Structure::Matrices(matrices) = &study.structure {
+    if let StructureTable::Matrices(matrices) = &study.structure {
         return reduce_matrices(study, matrices, interface);
     }
     let structure = linear_structure(study)?;
@@ -66,15 +67,15 @@ pub(super) fn reduce_and_report(
 /// [`StructureError`], also of a study that has matrices.
 pub(super) fn linear_structure(study: &Study) -> Result<linear::Structure, StructureError> {
     match &study.structure {
-        Structure::Beam(beam) => beam.descriptor()?.structure(),
-        Structure::Lumped(lumped) => lumped_descriptor(lumped).structure(),
-        Structure::Matrices(_) => Err(StructureError::NotForMatrices),
+        StructureTable::Beam(beam) => beam.descriptor()?.structure(),
+        StructureTable::Lumped(lumped) => lumped_descriptor(lumped).structure(),
+        StructureTable::Matrices(_) => Err(StructureError::NotForMatrices),
     }
 }
 
 fn reduce_matrices(
     study: &Study,
-    matrices: &Matrices,
+    matrices: &MatricesTable,
     interface: &[String],
 ) -> Result<(Reduced, Option<MatrixReport>), ReduceError> {
     let linear = matrices.descriptor().map_err(ReduceError::Files)?;
@@ -91,7 +92,7 @@ fn reduce_matrices(
     Ok((reduced, Some(report)))
 }
 
-fn lumped_descriptor(lumped: &Lumped) -> linear::Lumped {
+fn lumped_descriptor(lumped: &LumpedTable) -> linear::Lumped {
     let link = |between: &[String; 2], constant: f64| Connection { between: between.clone(), constant };
     linear::Lumped {
         masses: lumped
@@ -116,12 +117,14 @@ fn reduction(study: &Study) -> linear::Reduction {
     }
 }
 
-fn damping(damping: &Damping) -> linear::Damping {
+fn damping(damping: &DampingTable) -> linear::Damping {
     match damping {
-        Damping::Modal(ModalRatio::Every(ratio)) => linear::Damping::modal(*ratio),
-        Damping::Modal(ModalRatio::Each(ratios)) => {
+        DampingTable::Modal(ModalRatio::Every(ratio)) => linear::Damping::modal(*ratio),
+        DampingTable::Modal(ModalRatio::Each(ratios)) => {
             linear::Damping { modal: ModalRatios::PerMode(ratios.clone()), ..linear::Damping::none() }
         }
-        Damping::Rayleigh { mass_per_s, stiffness_s } => linear::Damping::rayleigh(*mass_per_s, *stiffness_s),
+        DampingTable::Rayleigh { mass_per_s, stiffness_s } => {
+            linear::Damping::rayleigh(*mass_per_s, *stiffness_s)
+        }
     }
 }

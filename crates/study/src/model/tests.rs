@@ -151,15 +151,19 @@ fn a_two_sided_stop_pushed_past_one_spring_keeps_its_force() {
 /// A free-free beam, the gap of whose left end is a parameter of the test.
 fn floating(stops: &str) -> Model {
     let text = format!(
-        "[structure]\nkind = \"beam\"\nlength_m = 0.6\nelements = 6\nsection = {{ width_m = 0.02, height_m = 0.003 }}\n\
+        "[structure]\nkind = \"beam\"\nlength_m = 0.6\nelements = 6\nsection = \
+        {{ width_m = 0.02, height_m = 0.003 }}\n\
          youngs_modulus_pa = 7.0e10\ndensity_kg_m3 = 2700.0\nleft = \"free\"\nright = \"free\"\n\
-         [[structure.point]]\nname = \"middle\"\nat_m = 0.3\n[reduction]\nmethod = \"none\"\n[damping]\nmodal_ratio = 0.02\n\
-         [excitation]\nkind = \"force\"\nat = \"middle\"\namplitude_n = 0.3\nfrequency_hz = [5.0, 60.0]\n{stops}"
+         [[structure.point]]\nname = \"middle\"\nat_m = 0.3\n[reduction]\nmethod \
+         = \"none\"\n[damping]\nmodal_ratio = 0.02\n\
+         [excitation]\nkind = \"force\"\nat = \"middle\"\namplitude_n = 0.3\nfrequency_hz = [5.0, \
+         60.0]\n{stops}"
     );
     build(&text).unwrap()
 }
 
-const HELD_LEFT: &str = "[[stop]]\nat = \"left\"\nlaw = \"two-sided\"\nstiffness_n_m = 2.0e3\ngap_m = 0.0\nfixed_to = \"space\"\n";
+const HELD_LEFT: &str = "[[stop]]\nat = \"left\"\nlaw = \"two-sided\"\nstiffness_n_m = 2.0e3\ngap_m = \
+0.0\nfixed_to = \"space\"\n";
 
 /// Displacement of a point in a drift, relative to the largest.
 fn moved(drift: &Drift, name: &str) -> f64 {
@@ -178,7 +182,8 @@ fn a_beam_held_at_one_end_turns_about_it() {
 
 #[test]
 fn a_stop_that_can_open_holds_a_drift_while_it_is_closed() {
-    let below = "[[stop]]\nat = \"right\"\nlaw = \"linear\"\nstiffness_n_m = 2.0e3\ngap_m = 1e-3\nside = \"below\"\nfixed_to = \"space\"\n";
+    let below = "[[stop]]\nat = \"right\"\nlaw = \"linear\"\nstiffness_n_m = 2.0e3\ngap_m = 1e-3\nside \
+    = \"below\"\nfixed_to = \"space\"\n";
     let drifts = floating(&format!("{HELD_LEFT}{below}")).drifts();
     assert_eq!(drifts.len(), 1);
     assert!(drifts[0].held_by_stops && (moved(&drifts[0], "right") - 1.0).abs() < 1e-12);

@@ -98,7 +98,8 @@ fn folder(options: &CompareOptions) -> Result<PathBuf, Failure> {
         _ => false,
     };
     if same {
-        let message = "--out is the results folder itself, where the tables of `rig` have the same names; without --out they go into its folder compare";
+        let message = "--out is the results folder itself, where the tables of `rig` have the same names; \
+        without --out they go into its folder compare";
         return Err(Failure::BadInput(message.to_owned()));
     }
     Ok(folder.clone())

@@ -1,7 +1,7 @@
 //! A comparison in words.
 
 use hammerbeam_jobs::comparison::{
-    CompareReport, ComparedQuantity, Estimate, Filter, Fit, Origin, PointOutcome, Residual, Verdict,
+    CompareReport, ComparedQuantity, Filter, Fit, FitEstimate, Origin, PointOutcome, Residual, Verdict,
 };
 use hammerbeam_signal::MeasuredQuantity;
 
@@ -42,7 +42,8 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
         format!("  residual before         {}", residual(comparison.before)),
         format!("  residual after          {}", residual(comparison.after)),
         format!(
-            "  explained {}, too far {}, only unstable branches {}, no branch {}{}; aperiodic {}, doubtful {}",
+            "  explained {}, too far {}, only unstable branches {}, no branch {}{}; aperiodic {}, doubtful \
+            {}",
             count("explained"),
             count("too-far"),
             count("only-unstable"),
@@ -70,10 +71,12 @@ fn comparison(compared: &ComparedQuantity, point: &str) -> Vec<String> {
 /// What has to be known of a fit: numbers that are no minimum, or hardly separated, and another minimum.
 pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let frequency = if fit.offset { "frequency offset" } else { "frequency factor" };
-    let at_end = |(name, estimate): (&str, Estimate)| {
+    let at_end = |(name, estimate): (&str, FitEstimate)| {
         let (low, high) = estimate.ends()?;
         Some(format!(
-            "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may fall: this is no minimum and has no standard error, and all else is for this value; give the true one if it lies out there"
+            "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may \
+            fall: this is no minimum and has no standard error, and all else is for this value; give the \
+            true one if it lies out there"
         ))
     };
     let mut notes: Vec<String> = [(frequency, fit.frequency), ("amplitude factor", fit.amplitude)]
@@ -98,7 +101,10 @@ fn beyond(compared: &ComparedQuantity) -> Option<String> {
     let [low, high] = compared.range_hz;
     let beyond = compared.beyond();
     (beyond > 0).then(|| {
-        format!("{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where nothing is computed or drawn")
+        format!(
+            "{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where \
+        nothing is computed or drawn"
+        )
     })
 }
 
@@ -112,13 +118,14 @@ fn second_minimum(fit: &Fit) -> Option<String> {
     };
     let end = if second.at_end { ", at an end of what is tried" } else { "" };
     Some(format!(
-        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
+        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} \
+        times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
         second.amplitude, second.cost_ratio, second.points, fit.points
     ))
 }
 
 /// A number and where it comes from.
-pub fn estimate(estimate: Estimate, digits: usize) -> String {
+pub fn estimate(estimate: FitEstimate, digits: usize) -> String {
     let value = estimate.value;
     match estimate.origin {
         Origin::Given => format!("{value:.digits$} (given)"),

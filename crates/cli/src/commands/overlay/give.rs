@@ -120,13 +120,15 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     ));
     lines.push(format!("  correlation            {:.6}", overlay.alignment.correlation));
     lines.push(format!(
-        "  time shift             {} s: there on the clock of the record the orbit begins, the excitation at phase 0",
+        "  time shift             {} s: there on the clock of the record the orbit begins, the excitation \
+        at phase 0",
         plain_number(laid.phase_zero_s())
     ));
     let given = if options.amplitude_factor.is_some() { " (given)" } else { "" };
     lines.push(format!("  amplitude factor       {:.6}{given}", overlay.factor));
     lines.push(format!(
-        "  residual               {:.4} of the computed root mean square with the factor {}, {:.4} with {:.6}",
+        "  residual               {:.4} of the computed root mean square with the factor {}, {:.4} with \
+        {:.6}",
         overlay.residual_before,
         overlay.factor.signum(),
         overlay.residual_after,

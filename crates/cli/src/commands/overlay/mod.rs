@@ -93,14 +93,13 @@ fn sensor(input: &Input, options: &OverlayOptions) -> Result<MeasuredQuantity, F
 fn frequency(input: &Input, options: &OverlayOptions) -> Result<f64, Failure> {
     let path: &Path = &options.input.file;
     match (input.reference(), options.frequency) {
-        (Some(reference), _) => {
-            Ok(excitation_frequency(&reference.samples, input.record.sampling_rate_hz)?)
-        }
+        (Some(reference), _) => Ok(excitation_frequency(&reference.samples, input.record.sampling_rate_hz)?),
         (None, Some(frequency)) => Ok(frequency),
         (None, None) => frequency_in_name(path).ok_or_else(|| {
             let shown = path.display();
             Failure::BadInput(format!(
-                "{shown}: the excitation frequency is not known; give --frequency or --reference, or name the file like \"31.5Hz.csv\""
+                "{shown}: the excitation frequency is not known; give --frequency or --reference, or name \
+                the file like \"31.5Hz.csv\""
             ))
         }),
     }
@@ -119,7 +118,8 @@ fn period(found: &Classification, options: &OverlayOptions) -> Result<u32, Failu
         }
     };
     Err(Failure::NoResult(format!(
-        "{kind}: it is no periodic orbit; --period N lays its mean over N excitation periods over one all the same"
+        "{kind}: it is no periodic orbit; --period N lays its mean over N excitation periods over one all \
+        the same"
     )))
 }
 
@@ -154,7 +154,8 @@ fn nothing(branches: &StoredBranches, period_multiple: u32, settings: &OverlaySe
     periods.dedup();
     let periods: Vec<String> = periods.iter().map(u32::to_string).collect();
     Failure::NoResult(format!(
-        "no stable orbit{of} of {period_multiple} excitation period(s) is stored {place}; the branches have periods {}",
+        "no stable orbit{of} of {period_multiple} excitation period(s) is stored {place}; the branches have \
+        periods {}",
         periods.join(", ")
     ))
 }

@@ -56,7 +56,8 @@ pub fn text(found: &RigReport, folder: &Path, files: &[String]) -> String {
         let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
         let ratio = FilteredBranch::ratio(&all, index, false, true);
         lines.push(format!(
-            "  {} Hz lowers maximum accelerations of stable solutions by the factor {:.2} (median), at most {:.2}",
+            "  {} Hz lowers maximum accelerations of stable solutions by the factor {:.2} (median), at most \
+            {:.2}",
             filter.cut_off_hz, ratio.median, ratio.largest.0
         ));
     }
@@ -73,8 +74,10 @@ fn markdown(found: &RigReport) -> String {
     let rig = &found.rig;
     let _ = writeln!(
         text,
-        "Swept from {} to {} Hz and back in steps of {} Hz; accelerations behind a low-pass filter of {} Hz, order {}, sampled at {} Hz, with noise of {} m/s² (displacements: {} m), seed {}. \
-         Each motion settled for {} excitation periods and was recorded for {}. The branches are {} periodic solutions of `{}`.\n",
+        "Swept from {} to {} Hz and back in steps of {} Hz; accelerations behind a low-pass filter of {} \
+        Hz, order {}, sampled at {} Hz, with noise of {} m/s² (displacements: {} m), seed {}. \
+         Each motion settled for {} excitation periods and was recorded for {}. The branches are {} \
+         periodic solutions of `{}`.\n",
         rig.sweep_hz[0],
         rig.sweep_hz[1],
         rig.step_hz,
@@ -103,7 +106,10 @@ fn modes(text: &mut String, found: &RigReport) {
     if found.modes.is_empty() {
         return;
     }
-    text.push_str("## Eigenfrequencies and damping, from a free decay without the stop\n\n| mode | measured (Hz) | model (Hz) | model over measured | damping ratio |\n|---|---|---|---|---|\n");
+    text.push_str(
+        "## Eigenfrequencies and damping, from a free decay without the stop\n\n| mode | measured \
+    (Hz) | model (Hz) | model over measured | damping ratio |\n|---|---|---|---|---|\n",
+    );
     for mode in &found.modes {
         let number = mode.number.map_or_else(|| "none".to_owned(), |number| number.to_string());
         let model = mode.model_hz.map_or_else(|| "-".to_owned(), |hz| format!("{hz:.3}"));
@@ -122,7 +128,10 @@ fn modes(text: &mut String, found: &RigReport) {
 }
 
 fn excitation(text: &mut String, found: &RigReport) {
-    text.push_str("## Figure 2: acceleration of the table\n\nAll frequencies are in `figure_02.csv`.\n\n| frequency (Hz) | computed (m/s²) | measured (m/s²) | measured over computed |\n|---|---|---|---|\n");
+    text.push_str(
+        "## Figure 2: acceleration of the table\n\nAll frequencies are in `figure_02.csv`.\n\n| \
+    frequency (Hz) | computed (m/s²) | measured (m/s²) | measured over computed |\n|---|---|---|---|\n",
+    );
     let up: Vec<_> = found.points.iter().filter(|point| point.direction.word() == "up").collect();
     for point in up.iter().step_by((up.len() / 10).max(1)) {
         let hz = point.point.frequency_hz;
@@ -137,8 +146,12 @@ fn excitation(text: &mut String, found: &RigReport) {
 
 fn comparisons(text: &mut String, found: &RigReport) {
     text.push_str(
-        "## Figure 6: measured points over the branches\n\nPoints are shifted by a factor of the frequency and a factor of the value. Residuals are root mean squares of natural logarithms; 0.1 is about 10 %.\n\n\
-         | what | frequency factor | amplitude factor | residual before | after | within reach | explained | too far | only unstable branches | no branch | aperiodic | doubtful |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "## Figure 6: measured points over the branches\n\nPoints are shifted by a factor of the frequency \
+        and a factor of the value. Residuals are root mean squares of natural logarithms; 0.1 is about 10 \
+        %.\n\n\
+         | what | frequency factor | amplitude factor | residual before | after | within reach | explained \
+         | too far | only unstable branches | no branch | aperiodic | doubtful \
+         |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (name, _, comparison) in &found.comparisons {
         let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
@@ -171,7 +184,8 @@ fn comparisons(text: &mut String, found: &RigReport) {
     let _ = writeln!(
         text,
         "\nIn brackets: periodic points that meet a stable branch of their period.\n\n\
-         The records show what the states themselves do (known here, unlike on a rig) at {right} points, something else at {wrong}, and leave {doubtful} in doubt.\n",
+         The records show what the states themselves do (known here, unlike on a rig) at {right} points, \
+         something else at {wrong}, and leave {doubtful} in doubt.\n",
     );
 }
 
@@ -187,7 +201,8 @@ fn chaos(text: &mut String, found: &RigReport) {
     let _ = writeln!(
         text,
         "## Aperiodic points: largest Lyapunov exponents\n\n\
-         Of {} aperiodic points the record has a positive exponent (Wolf) at {}, the motion itself one whose interval of 95 % is above zero at {}, both at {}.{ratio} \
+         Of {} aperiodic points the record has a positive exponent (Wolf) at {}, the motion itself one \
+         whose interval of 95 % is above zero at {}, both at {}.{ratio} \
          Each is in `measured.csv`.\n",
         chaos.aperiodic, chaos.by_record, chaos.by_motion, chaos.by_both,
     );
@@ -202,7 +217,12 @@ fn what(name: &str) -> &str {
 }
 
 fn filters(text: &mut String, filters: &[Filter], filtered: &Filtered) {
-    text.push_str("## What filters leave of the computed maxima\n\nRatio of the maximum without the filter to that behind it. Every solution is in `figure_06_branches.csv`.\n\n| cut-off (Hz) | solutions | accelerations: median | largest | smallest | displacements: median | largest |\n|---|---|---|---|---|---|---|\n");
+    text.push_str(
+        "## What filters leave of the computed maxima\n\nRatio of the maximum without the filter \
+    to that behind it. Every solution is in `figure_06_branches.csv`.\n\n| cut-off (Hz) | solutions | \
+    accelerations: median | largest | smallest | displacements: median | largest \
+    |\n|---|---|---|---|---|---|---|\n",
+    );
     let all: Vec<&FilteredBranch> = filtered.branches.iter().collect();
     for (index, filter) in filters.iter().enumerate() {
         for (stable, name) in [(true, "stable"), (false, "all")] {
@@ -224,7 +244,8 @@ fn filters(text: &mut String, filters: &[Filter], filtered: &Filtered) {
     }
     let _ = writeln!(
         text,
-        "\nBy branches, {} Hz, stable and unstable solutions:\n\n| branch | period | solutions | accelerations: median | largest | smallest | displacements: median |\n|---|---|---|---|---|---|---|",
+        "\nBy branches, {} Hz, stable and unstable solutions:\n\n| branch | period | solutions | \
+        accelerations: median | largest | smallest | displacements: median |\n|---|---|---|---|---|---|---|",
         filters[0].cut_off_hz
     );
     for branch in filtered.branches.iter().filter(|branch| branch.points.len() >= SHOWN) {
@@ -251,7 +272,11 @@ fn ratio(ratio: FilteredRatio) -> String {
 }
 
 fn points(text: &mut String, found: &RigReport) {
-    text.push_str("## Each point, filtered accelerations over computed ones\n\n| point | kind | period | of the states | measured (m/s²) | shifted (Hz) | shifted (m/s²) | verdict | branch | difference |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str(
+        "## Each point, filtered accelerations over computed ones\n\n| point | kind | period | of \
+    the states | measured (m/s²) | shifted (Hz) | shifted (m/s²) | verdict | branch | difference \
+    |\n|---|---|---|---|---|---|---|---|---|---|\n",
+    );
     let Some((_, _, comparison)) = found.comparisons.first() else { return };
     for (point, outcome) in found.points.iter().zip(&comparison.points) {
         let period = |period: Option<u32>| period.map_or_else(|| "-".to_owned(), |n| n.to_string());
@@ -294,7 +319,8 @@ mod tests {
             filters(&mut text, &[filter], &Filtered { branches: Vec::new(), gaps });
             text
         };
-        let note = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they are in no ratio.";
+        let note = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they \
+        are in no ratio.";
         assert!(of(3).contains(note), "{}", of(3));
         assert!(!of(0).contains("gone over"), "{}", of(0));
     }

@@ -6,7 +6,14 @@ use hammerbeam_jobs::rig::{SignalPair, figure_name};
 
 /// The table, and notes to its rows.
 pub fn report(text: &mut String, signals: &[SignalPair]) {
-    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | factor | residual, factor 1 | with the factor | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str(
+        "## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose \
+    acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over \
+    that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | \
+    computed over measured | correlation | lag (cycles) | factor | residual, factor 1 | with the factor | \
+    max measured (m/s²) | computed | computed behind the filter \
+    |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
     for (index, signal) in signals.iter().enumerate() {
         let _ = writeln!(
             text,

@@ -68,7 +68,8 @@ fn text(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> String {
     lines.push(format!("decay of {}, with intervals of 95 %", named(input.channel())));
     for mode in &decay.modes {
         lines.push(format!(
-            "  {:>12.6} +- {:.6} Hz  damping ratio {:.6} +- {:.6}  decrement {:.6} +- {:.6}  amplitude {:.4e}",
+            "  {:>12.6} +- {:.6} Hz  damping ratio {:.6} +- {:.6}  decrement {:.6} +- {:.6}  amplitude \
+            {:.4e}",
             mode.frequency_hz.value,
             mode.frequency_hz.half_width,
             mode.damping_ratio.value,
@@ -89,11 +90,16 @@ fn text(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> String {
         ));
         match classical.halves {
             Some([first, second]) if classical.changes() == Some(true) => lines.push(format!(
-                "note: the decrement changes over the decay, from {:.5} to {:.5}: the damping is not viscous, or more modes are in it",
+                "note: the decrement changes over the decay, from {:.5} to {:.5}: the damping is not \
+                viscous, or more modes are in it",
                 first.value, second.value
             )),
             Some(_) => {}
-            None => lines.push("note: too few maxima to see whether the decrement changes over the decay".to_owned()),
+            None => lines.push(
+                "note: too few maxima to see whether the decrement changes over the \
+            decay"
+                    .to_owned(),
+            ),
         }
     }
     if !decay.white {

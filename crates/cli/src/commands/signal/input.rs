@@ -92,7 +92,8 @@ fn with_hint(error: RecordError) -> Failure {
         RecordError::TimeMissing { .. } => "with --rate the times in the file are not used",
         RecordError::TimeDecreases { .. } => "--repair order sorts by time",
         RecordError::DuplicateTimes { .. } => {
-            "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the samples"
+            "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the \
+            samples"
         }
         RecordError::Gaps { .. } => "--repair gaps fills them by interpolation",
         RecordError::Uneven { .. } => "--repair uneven interpolates to an even grid",

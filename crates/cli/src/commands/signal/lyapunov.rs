@@ -152,7 +152,10 @@ impl Found {
         for Outcome { name, exponent } in self.outcomes() {
             lines.push(match exponent {
                 Ok(ExponentEstimate { value, scatter }) => {
-                    format!("  {name:<10} {value:>12.5} 1/s  standard error of ten parts of the record {scatter:.5}")
+                    format!(
+                        "  {name:<10} {value:>12.5} 1/s  standard error of ten parts of the record \
+                    {scatter:.5}"
+                    )
                 }
                 Err(reason) => format!("  {name:<10} no result: {reason}"),
             });

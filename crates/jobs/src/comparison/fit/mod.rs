@@ -58,7 +58,7 @@ impl Default for FitSettings {
 
 /// A fitted or given number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
+pub struct FitEstimate {
     /// Its value.
     pub value: f64,
     /// Where it comes from.
@@ -85,7 +85,7 @@ pub enum Origin {
     },
 }
 
-impl Estimate {
+impl FitEstimate {
     /// Its standard error, if it has one.
     #[must_use]
     pub const fn standard_error(&self) -> Option<f64> {
@@ -111,9 +111,9 @@ pub struct Fit {
     /// Whether the shift of frequencies is an offset.
     pub offset: bool,
     /// Factor, or offset [Hz].
-    pub frequency: Estimate,
+    pub frequency: FitEstimate,
     /// Factor on values.
-    pub amplitude: Estimate,
+    pub amplitude: FitEstimate,
     /// Points that the fit goes by.
     pub points: usize,
     /// Correlation of the errors of both numbers, where both are at their minimum.
@@ -228,9 +228,9 @@ pub(super) fn fit(
     let amplitude = logarithm.exp();
     Ok(Fit {
         offset: settings.offset,
-        frequency: Estimate { value: frequency, origin: origin(0, settings.frequency, 1.0) },
+        frequency: FitEstimate { value: frequency, origin: origin(0, settings.frequency, 1.0) },
         // The error of a logarithm is a relative one.
-        amplitude: Estimate { value: amplitude, origin: origin(1, settings.amplitude, amplitude) },
+        amplitude: FitEstimate { value: amplitude, origin: origin(1, settings.amplitude, amplitude) },
         points: rows.len(),
         correlation: (free == [true; 2])
             .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE)),

@@ -18,7 +18,8 @@ pub enum OverlayError {
     NoneSampled(#[from] NoneSampled),
     /// Nothing of the motion is left to compare.
     #[error(
-        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
+        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion, less than one \
+        step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
     )]
     FilteredAway { cut_off_hz: f64, left: f64 },
     /// The waveform refuses.

@@ -60,7 +60,8 @@ pub fn nothing_alike(overlay: &Overlay) -> Option<String> {
     let alike = correlation >= NOTHING;
     (!alike).then(|| {
         format!(
-            "nothing is alike: the largest correlation of {tried} orbit(s) with the record is {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything"
+            "nothing is alike: the largest correlation of {tried} orbit(s) with the record is \
+            {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything"
         )
     })
 }
@@ -85,7 +86,8 @@ impl LaidWaveform<'_> {
         let [turned, as_it_is] = [correlation, self.overlay.alignment.correlation].map(|r| 1.0 - r);
         (turned < TURNED * as_it_is && as_it_is - turned > ROUNDING).then(|| {
             format!(
-                "turned around the measured signal would be more alike, with a correlation of {correlation:.4}: is the sensor's sign right?"
+                "turned around the measured signal would be more alike, with a correlation of \
+                {correlation:.4}: is the sensor's sign right?"
             )
         })
     }
@@ -95,7 +97,8 @@ impl LaidWaveform<'_> {
         let correlation = self.overlay.alignment.correlation;
         (correlation < HALF).then(|| {
             format!(
-                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than half; shift and factor mean little",
+                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than \
+                half; shift and factor mean little",
                 100.0 * correlation.max(0.0).powi(2)
             )
         })
@@ -107,7 +110,8 @@ impl LaidWaveform<'_> {
         let branches: Vec<String> = alike.branches.iter().map(u32::to_string).collect();
         let (low, high) = alike.frequency_hz;
         Some(format!(
-            "{} other orbit(s) between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter of the record can show: which of them it is remains open",
+            "{} other orbit(s) between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter \
+            of the record can show: which of them it is remains open",
             alike.count,
             branches.join(", ")
         ))
@@ -135,7 +139,8 @@ impl LaidWaveform<'_> {
         let scatter = self.measured.scatter / self.overlay.alignment.sizes.0;
         (scatter > self.overlay.residual_after && scatter >= SHOWS).then(|| {
             format!(
-                "pieces of the record differ from their mean by {:.1} % of it, more than the mean from the orbit",
+                "pieces of the record differ from their mean by {:.1} % of it, more than the mean from the \
+                orbit",
                 100.0 * scatter
             )
         })

@@ -11,7 +11,7 @@ use hammerbeam_structure::{
 };
 
 use super::entries::{
-    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    DirectionEntry, InputFile, MatricesTable, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
     PointPlaceEntry, RowSetEntry,
 };
 
@@ -24,7 +24,7 @@ pub(crate) struct MatrixProblem {
     pub message: String,
 }
 
-impl Matrices {
+impl MatricesTable {
     /// All files, each as often as it is named.
     pub(crate) fn files(&self) -> impl Iterator<Item = &InputFile> {
         let entries = self.components.iter().flat_map(|files| {

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// A structure given as matrices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Matrices {
+pub struct MatricesTable {
     /// Its components; one without a name where the files stand in `[structure]` itself.
     pub components: Vec<MatrixFiles>,
     /// Where nodes are.

@@ -2,7 +2,7 @@
 
 use hammerbeam_matrices::MatrixFormat;
 
-use crate::document::{Quantity, Reading, Table, Value, quantity};
+use crate::document::{Quantity, Reading, TomlTable, Value, quantity};
 
 use super::{
     super::file_checksum::checksum,
@@ -13,7 +13,7 @@ use super::{
 const FACTOR: Quantity = quantity::FACTOR;
 
 /// One component of `[structure]` itself, or those of `[[structure.component]]`.
-pub(super) fn read_components(table: &Table<'_>, reading: &Reading) -> Option<Vec<MatrixFiles>> {
+pub(super) fn read_components(table: &TomlTable<'_>, reading: &Reading) -> Option<Vec<MatrixFiles>> {
     if !table.has("component") {
         return read_files(table, String::new(), reading).map(|files| vec![files]);
     }
@@ -43,7 +43,7 @@ pub(super) fn read_components(table: &Table<'_>, reading: &Reading) -> Option<Ve
     components.into_iter().collect()
 }
 
-fn read_files(table: &Table<'_>, name: String, reading: &Reading) -> Option<MatrixFiles> {
+fn read_files(table: &TomlTable<'_>, name: String, reading: &Reading) -> Option<MatrixFiles> {
     let format = table.optional("format").map(|value| {
         let choices: Vec<(&str, &str)> = MatrixFormat::names().into_iter().map(|name| (name, name)).collect();
         value.choice(&choices).map(str::to_owned)
@@ -78,13 +78,13 @@ fn read_files(table: &Table<'_>, name: String, reading: &Reading) -> Option<Matr
     })
 }
 
-pub(super) fn read_factor(table: &Table<'_>, key: &'static str) -> Option<f64> {
+pub(super) fn read_factor(table: &TomlTable<'_>, key: &'static str) -> Option<f64> {
     table.optional(key).map_or(Some(1.0), |value| value.number(&FACTOR))
 }
 
 /// A file that need not be given.
 pub(super) fn optional_file(
-    table: &Table<'_>,
+    table: &TomlTable<'_>,
     key: &'static str,
     reading: &Reading,
 ) -> Option<Option<InputFile>> {

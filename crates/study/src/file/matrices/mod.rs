@@ -6,13 +6,13 @@ mod entries;
 mod files;
 mod points;
 
-use crate::document::{Reading, Table, quantity};
+use crate::document::{Reading, TomlTable, quantity};
 
 use super::names::Names;
 
 pub(crate) use descriptor::MatrixProblem;
 pub use entries::{
-    DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
+    DirectionEntry, InputFile, MatricesTable, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
     PointPlaceEntry, RowSetEntry,
 };
 
@@ -23,7 +23,7 @@ use points::{read_point, read_rows, read_support};
 /// Memory [GB] that the factors of the matrices may take, unless the study says so.
 const MEMORY_GB: f64 = 4.0;
 
-pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Matrices> {
+pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<MatricesTable> {
     let before = reading.count();
     names.add_supports();
     let components = read_components(table, reading);
@@ -61,7 +61,7 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
             place: PointPlaceEntry::Row { component: 0, row: 1 },
         });
     }
-    let matrices = Matrices {
+    let matrices = MatricesTable {
         components: components?,
         nodes: nodes?,
         lines: lines?.map(Box::new),

@@ -1,6 +1,6 @@
 //! Points, supports and sets of rows.
 
-use crate::document::{Table, Value};
+use crate::document::{TomlTable, Value};
 
 use super::{
     super::names::{Names, read_name},
@@ -12,7 +12,7 @@ use super::{
 const MOST_NODES: u32 = 1_000_000;
 
 pub(super) fn read_point(
-    table: Table<'_>,
+    table: TomlTable<'_>,
     components: &[String],
     names: &mut Names,
 ) -> Option<MatrixPointEntry> {
@@ -41,7 +41,7 @@ pub(super) fn read_point(
     Some(MatrixPointEntry { name: name?, place: place? })
 }
 
-fn read_place(table: &Table<'_>, component: Option<usize>) -> Option<PointPlaceEntry> {
+fn read_place(table: &TomlTable<'_>, component: Option<usize>) -> Option<PointPlaceEntry> {
     if table.has("node") {
         let node = table.required("node").and_then(|value| value.whole(0, u32::MAX));
         let direction = table.required("direction").and_then(|value| read_direction(&value));
@@ -54,7 +54,7 @@ fn read_place(table: &Table<'_>, component: Option<usize>) -> Option<PointPlaceE
     Some(PointPlaceEntry::Row { component: component?, row: row? })
 }
 
-pub(super) fn read_support(table: Table<'_>, names: &mut Names) -> Option<MatrixSupportEntry> {
+pub(super) fn read_support(table: TomlTable<'_>, names: &mut Names) -> Option<MatrixSupportEntry> {
     let name = table.required("name").and_then(|value| {
         let name = value.text()?;
         names.add_support(&value, name).then(|| name.to_owned())
@@ -68,7 +68,7 @@ pub(super) fn read_support(table: Table<'_>, names: &mut Names) -> Option<Matrix
     Some(MatrixSupportEntry { name: name?, rows, direction: direction? })
 }
 
-pub(super) fn read_rows(table: &Table<'_>, required: bool) -> Option<RowSetEntry> {
+pub(super) fn read_rows(table: &TomlTable<'_>, required: bool) -> Option<RowSetEntry> {
     let nodes = table.optional("nodes").map_or(Some(Vec::new()), |value| read_nodes_list(&value));
     let rows = table.optional("rows").map_or(Some(Vec::new()), |value| {
         let rows = value.array_of("rows")?;

@@ -42,8 +42,8 @@ fn tube_with(old: &str, new: &str) -> Result<Study, String> {
     parse(&TUBE.replacen(old, new, 1))
 }
 
-fn beam(study: &Study) -> &Beam {
-    let Structure::Beam(beam) = &study.structure else { panic!("not a beam") };
+fn beam(study: &Study) -> &BeamTable {
+    let StructureTable::Beam(beam) = &study.structure else { panic!("not a beam") };
     beam
 }
 
@@ -59,7 +59,7 @@ fn spans_take_from_the_structure_what_they_do_not_say() {
     assert!((second.profile.section.area_m2 / (pi / 4.0 * 0.012_f64.powi(2)) - 1.0).abs() < 1e-14);
     assert_eq!((first.profile.added_mass_kg_m, second.profile.added_mass_kg_m), (0.35, 0.0));
     assert_eq!(second.profile.youngs_modulus_pa, 2.1e11);
-    assert_eq!((beam.points[0].support, beam.points[1].support), (End::Pinned, End::Free));
+    assert_eq!((beam.points[0].support, beam.points[1].support), (EndSupport::Pinned, EndSupport::Free));
     Model::build(&StudyFile::parse("tube.toml", TUBE.to_owned()).unwrap()).unwrap();
 }
 

@@ -67,7 +67,7 @@ fn forces_have_places_sizes_and_phases_of_their_own() {
     assert_eq!((forces[1].size.constant(), forces[1].phase_rad), (Some(0.002), std::f64::consts::FRAC_PI_2));
     assert_eq!(forces[2].size, ForceSize::Unbalance { mass_kg: 0.005, eccentricity_m: 0.002 });
     assert_eq!(study.force_points().collect::<Vec<_>>(), ["a", "a", "b", "b", "b"]);
-    assert!(matches!(&study.loads[0], Load::ActingForce { order: 2, .. }));
+    assert!(matches!(&study.loads[0], LoadTable::ActingForce { order: 2, .. }));
 }
 
 /// What was a study before is the same study still.
@@ -79,7 +79,7 @@ fn one_force_with_an_amplitude_is_what_it_was() {
     }
     let constant = "[[load]]\nkind = \"force\"\nat = \"a\"\namplitude_n = -2.0\norder = 0\n";
     let study = parse(&format!("{LUMPED}{constant}")).unwrap();
-    assert!(matches!(study.loads[0], Load::Force { amplitude_n: -2.0, order: 0, .. }));
+    assert!(matches!(study.loads[0], LoadTable::Force { amplitude_n: -2.0, order: 0, .. }));
 }
 
 #[test]
@@ -123,9 +123,12 @@ fn acceleration_stands_in_place_of_displacement() {
     assert!(matches!(&harmonic.kind, ExcitationKind::SupportAcceleration { .. }));
     assert_eq!(harmonic.amplitude(), Some(&Amplitude::Constant(3.0)));
     assert_eq!(study.excitation.moving_places(), ["ground"]);
-    assert!(matches!(study.loads[0], Load::SupportMotion { order: 2, .. }));
+    assert!(matches!(study.loads[0], LoadTable::SupportMotion { order: 2, .. }));
     let of_load = with(SHAKEN, "amplitude_m = 1e-3", "amplitude = \"0.2 m/s^2\"").unwrap();
-    assert!(matches!(&of_load.loads[0], Load::DrivenSupport { motion: SupportDrive::Acceleration(_), .. }));
+    assert!(matches!(
+        &of_load.loads[0],
+        LoadTable::DrivenSupport { motion: SupportDrive::Acceleration(_), .. }
+    ));
     assert_refused(
         with(SHAKEN, "= 3.0", "= 3.0\namplitude_m = 1e-3"),
         &["`amplitude_m_s2` is given, and `amplitude_m`, too"],
