@@ -32,8 +32,8 @@
 //! * `kink.rs`: kinks of the force of a closed contact.
 //! * `touching.rs`, `force_bound.rs`: certified search for further contacts while forces act.
 //! * `enclosure.rs`: proof that closed contacts stay closed all through a step.
-//! * `forecast.rs`, `preview.rs`, `polynomial.rs`: how long a contact will last; where a polynomial falls below
-//!   zero.
+//! * `forecast.rs`, `preview.rs`, `polynomial.rs`: how long a contact will last; where a polynomial falls
+//!   below zero.
 //! * `sensitivity.rs`: the fundamental matrix and the frequency column.
 //! * `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs`: the column of a parameter; of the
 //!   damping, which is in every matrix; of a number that the modes depend on.
@@ -46,6 +46,7 @@
 //!   force there.
 //! * `trace.rs`: states at given phases, and every contact with its impulse and the energy it took.
 //! * `tracing.rs`: what each piece of motion adds to that.
+//! * `panels.rs`: a motion in smooth panels, for integrals over it and its extrema.
 
 mod aim;
 mod attempt;
@@ -92,6 +93,7 @@ mod near_miss;
 mod newton;
 mod onset;
 mod output;
+mod panels;
 mod plane;
 mod polynomial;
 mod pressing;
@@ -130,8 +132,9 @@ pub use error::MotionError;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use near_miss::NearMisses;
+pub use panels::{MotionPanel, PANEL_NODES, panel_rule};
 pub use touches::{AtEnd, complete_touches, touches_lacking};
-pub use trace::{ContactPiece, Inside, Jump, Touchdown, Trace};
+pub use trace::{ContactPiece, Inside, Jump, PanelledMotion, Touchdown, Trace};
 
 use block::Blocks;
 use course::Course;
