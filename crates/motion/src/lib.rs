@@ -92,7 +92,7 @@
 //! ```
 //!
 //! # Limits
-//! No friction. While forces act, the end of a hold is looked for on polynomials through sixteen nodes, which
+//! No friction. While forces act, the end of a hold is looked for on polynomials through twelve nodes, which
 //! resolve it to some 1e-9 of its parts, not with the bounds of a flight. Stops that throw one another off
 //! beside such forces leave errors of up to 2e-6 in the sensitivities. A stretch cannot start in a contact
 //! whose law remembers its impact, since a state `[q; q']` does not tell how the contact began; motions and

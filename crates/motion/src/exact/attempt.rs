@@ -75,9 +75,6 @@ impl ExactIntegrator {
             let rate_margin = 8.0 * f64::EPSILON * speeds.fold(0.0, f64::max);
             return self.step.solve_damped(&self.laws, (margin, rate_margin, precision)).ok();
         }
-        if !again && run.preview.at(run.time).is_none() {
-            self.step.improve_guess(&self.laws);
-        }
         self.step.solve(&self.laws, (margin, precision), again && change.abs() < NEARLY_THE_SAME).ok()
     }
 
@@ -137,10 +134,6 @@ impl ExactIntegrator {
             let onset = self.closed_contact(run, element).map(|contact| contact.onset_exponent);
             for k in 0..NODES {
                 let t = self.step.node_time(k);
-                if let Some(displacement) = run.preview.at(run.time + t) {
-                    self.step.displacement.push(displacement);
-                    continue;
-                }
                 let mut guess = jet.value + t * (jet.slope + 0.5 * t * jet.curvature);
                 if let (Grading::Touch, Some(e)) = (self.step.grading(), onset) {
                     guess += mobility * law.force(jet.value + jet.slope * t, 0.0).value * t * t

@@ -1,13 +1,13 @@
 //! Contacts that open for an instant between two presses.
 //!
 //! **Why the polynomials of a step do not tell.** A release is sought on the polynomial through the
-//! penetrations at the nodes. With the bound `T <= sqrt(tolerance)` of `step_error.rs` on the part of the
+//! penetrations at the nodes. With the bound `T <= 2 sqrt(tolerance)` of `step_error.rs` on the part of the
 //! force that its polynomial leaves out, the penetration within a step of the length h may be off by some `T
 //! V h`, at the nodes as well as between them: the square of T holds for the end alone, where what is left
 //! out is orthogonal to all that is smooth. So a valley of the penetration whose bottom is nearer to zero
-//! than twice that,
+//! than
 //!
-//! `b = 2 sqrt(tolerance) V h`,
+//! `b = 2 sqrt(tolerance) V h`
 //!
 //! may be open or closed, whatever the polynomial says; of a pressure `a p + b p' + d` that vanishes the same
 //! is `2 sqrt(tolerance) V (a h + b)`.
@@ -21,9 +21,9 @@
 //! there is located as every release is; otherwise the contact stays closed and the next step starts at the
 //! bottom.
 //!
-//! **What it costs.** A look at sixteen numbers per step where they have no valley, the place of the bottom
-//! of one where they have, and another solution of a step where it is as near as that to zero: of presses of
-//! one contact a part of the order of `sqrt(tolerance)`.
+//! **What it costs.** A look at twelve numbers per step where they have no valley, the place of the bottom of
+//! one where they have, and another solution of a step where it is as near as that to zero: of presses of one
+//! contact a part of the order of `sqrt(tolerance)`.
 
 use super::{
     ExactIntegrator,

@@ -56,13 +56,12 @@ pub(crate) fn look(clearance: Jet, bounds: ClearanceBounds) -> Look {
     // Within the margin and not falling: what the motion does within the margin is not looked at, so that
     // every look gets on.
     let value = value.max(bounds.margin);
-    Look::FreeFor(free_for(Jet { value, ..clearance }, bounds))
-}
-
-/// The longer of both safe steps from a clearance that is not negative.
-pub(crate) fn free_for(clearance: Jet, bounds: ClearanceBounds) -> f64 {
-    let Jet { value, slope, curvature } = clearance;
-    safe_step(value, slope, bounds.second).max(safe_cubic_step(value, slope, curvature, bounds.third))
+    Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(
+        value,
+        slope,
+        curvature,
+        bounds.third,
+    )))
 }
 
 /// What a convex stretch holds.

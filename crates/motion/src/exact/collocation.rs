@@ -17,13 +17,12 @@ use std::sync::OnceLock;
 use faer::{Mat, linalg::solvers::DenseSolveCore};
 
 use super::{
-    lanes::{dot, fixed_dot, vectorised},
+    lanes::{dot, vectorised},
     recurrence::{Recurrence, gauss_legendre},
 };
 
-/// Force nodes in a step, a multiple of four. With sixteen a Hertz contact takes two steps down to the
-/// finest tolerances, with twelve three; that is less work, though a step costs more.
-pub(crate) const NODES: usize = 16;
+/// Force nodes in a step.
+pub(crate) const NODES: usize = 12;
 /// Terms of the power series; with [`REACH`] they reach rounding.
 pub(crate) const TERMS: usize = 50;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.
@@ -110,9 +109,9 @@ pub(crate) struct Rule {
 }
 
 /// Intervals of the table on which extrema in a step are looked for.
-pub(crate) const FINE: usize = 44;
+pub(crate) const FINE: usize = 32;
 /// Its places, and as many behind them as make a multiple of four.
-pub(crate) const PLACES: usize = 48;
+pub(crate) const PLACES: usize = 36;
 
 impl Rule {
     fn new(grading: Grading) -> Self {
@@ -212,7 +211,7 @@ fn products(matrix: &NodeMatrix, values: &[f64; NODES]) -> [f64; NODES] {
         #[inline(always)]
         || {
             let mut products = [0.0; NODES];
-            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = fixed_dot(row, values));
+            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = dot(row, values));
             products
         },
     )

@@ -308,7 +308,6 @@ impl ExactIntegrator {
             Some(Event::Touch(touch)) => self.close(run, touch)?,
             Some(Event::Release(element)) => {
                 run.closed[element] = None;
-                run.preview.clear();
                 run.slack = 1e-7 * self.step.length;
             }
             Some(Event::Part(element)) => {

@@ -122,9 +122,9 @@ impl ForceStep {
                 .factorise(
                     #[inline(always)]
                     |matrix| {
-                        for (j, column) in matrix.iter_mut().enumerate() {
-                            column.iter_mut().enumerate().for_each(|(k, target)| *target = -entry(0, k, j));
-                            column[j] += 1.0;
+                        for (k, row) in matrix.iter_mut().enumerate() {
+                            row.iter_mut().enumerate().for_each(|(j, target)| *target = -entry(0, k, j));
+                            row[k] += 1.0;
                         }
                     },
                 )

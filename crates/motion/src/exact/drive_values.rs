@@ -7,31 +7,12 @@ use faer::c64;
 
 use super::{
     collocation::NODES,
-    drive::{Drive, Jet, Order},
+    drive::{Drive, Jet},
     elementary::{self, TURNING},
     lanes::vectorised,
     output::Output,
     secular::SecularLoad,
 };
-
-/// See [`Drive::equidistant_values`].
-#[derive(Debug)]
-pub(super) struct EquidistantValues {
-    /// Present value of each order, and what it turns by from one to the next.
-    waves: Vec<(c64, c64)>,
-}
-
-impl EquidistantValues {
-    /// The next one.
-    pub fn advance(&mut self) -> f64 {
-        let mut sum = 0.0;
-        for (value, turn) in &mut self.waves {
-            *value *= *turn;
-            sum += value.re;
-        }
-        sum
-    }
-}
 
 impl Drive {
     /// Acceleration of the particular part of output `index` (with the row `output`) and its derivatives at
@@ -82,18 +63,6 @@ impl Drive {
             jet.curvature += p * response.curvature[0] + s * response.curvature[1];
         }
         jet
-    }
-
-    /// Values of the steady part of output `index` at `start + step`, `start + 2 step` and so on, to some
-    /// digits less than all; `None` where a load is resonant.
-    pub fn equidistant_values(&self, index: usize, start: f64, step: f64) -> Option<EquidistantValues> {
-        let of_order = |order: &Order| {
-            let (sin, cos) = elementary::sine_and_cosine(order.order * self.circular_frequency * step);
-            (order.outputs[index].0 * self.rotation(order, start), c64::new(cos, sin))
-        };
-        self.secular
-            .is_empty()
-            .then(|| EquidistantValues { waves: self.orders.iter().map(of_order).collect() })
     }
 
     /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to

@@ -104,11 +104,7 @@ impl ExactIntegrator {
             }
             let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
-            let rounding = match event {
-                Event::Release(element) => run.start[element].margin,
-                other => self.pressure_rounding(run, other),
-            };
-            let undecided = rounding / distance.slope.abs();
+            let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
             if fine && change.abs() <= (accuracy * length).max(undecided) {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }

@@ -8,7 +8,7 @@ use super::{
 /// Parabolas by which the largest value of a polynomial is closed in.
 const PARABOLAS: usize = 6;
 /// Of places where it is as large up to this part, the table of a polynomial does not tell which is the
-/// largest: between two of its entries the value is higher by at most 15 %, where all of fifteen zeros lie
+/// largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros lie
 /// within the step.
 const UNDECIDED: f64 = 0.2;
 

@@ -107,13 +107,9 @@ impl ExactIntegrator {
                 let boundary = if held { Boundary::Lifts } else { touching.boundary };
                 let touching = Touch { boundary, ..touching };
                 let bounds = self.boundary_bounds(elastic, &run.state, touching);
-                let distance = self.distance(jet, touching);
-                let (step, hit) = match look(distance, bounds) {
+                let (step, hit) = match look(self.distance(jet, touching), bounds) {
                     Look::Contact => return (0.0, Some(touching)),
-                    Look::FreeFor(step) => {
-                        let from = (run.state.as_slice(), watched, run.time + horizon);
-                        (step.max(self.free_for_by_slow_modes(from, touching, distance, bounds)), false)
-                    }
+                    Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
                         let convex = convex.min(horizon - time);
                         let ahead = |ahead: f64| self.clearance_ahead(run, time + ahead, (watched, touching));

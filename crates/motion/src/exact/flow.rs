@@ -91,7 +91,6 @@ impl ExactIntegrator {
         run.pressed = None;
         run.slack = 0.0;
         run.release = None;
-        run.preview.clear();
         run.stuck.clear();
         run.lifted = None;
         run.impacts = 0;
@@ -219,7 +218,6 @@ impl ExactIntegrator {
         run.proposal = 0.0;
         run.graded = 0.0;
         run.release = None;
-        run.preview.clear();
         run.slack = 0.0;
         match touch.boundary {
             Boundary::Leaves => run.parted[touch.element] = None,

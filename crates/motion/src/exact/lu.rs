@@ -74,10 +74,7 @@ impl SmallLu {
     }
 }
 
-/// `P A^T = L U` of an N x N matrix: loops of fixed length, which the compiler turns into vectors.
-///
-/// It is the transpose that is factorised since the matrices of steps come column by column; with `A = U^T
-/// L^T P` both substitutions run along rows of the factors.
+/// `P A = L U` of an N x N matrix: loops of fixed length, which the compiler turns into vectors.
 #[derive(Debug, Clone)]
 pub(crate) struct FixedLu<const N: usize> {
     upper: [[f64; N]; N],
@@ -93,7 +90,7 @@ impl<const N: usize> Default for FixedLu<N> {
 }
 
 impl<const N: usize> FixedLu<N> {
-    /// Factorises the matrix that `fill` writes column by column; `None` if it is singular.
+    /// Factorises the matrix that `fill` writes row by row; `None` if it is singular.
     #[must_use]
     #[inline(always)]
     pub fn factorise(&mut self, fill: impl FnOnce(&mut [[f64; N]; N])) -> Option<()> {
@@ -109,12 +106,9 @@ impl<const N: usize> FixedLu<N> {
     #[inline(always)]
     fn eliminate(&mut self) -> Option<()> {
         for k in 0..N {
-            let (mut pivot, mut largest) = (k, self.upper[k][k].abs());
-            for (row, entries) in self.upper.iter().enumerate().skip(k + 1) {
-                if entries[k].abs() > largest {
-                    (pivot, largest) = (row, entries[k].abs());
-                }
-            }
+            let pivot = (k + 1..N).fold(k, |best, row| {
+                if self.upper[row][k].abs() > self.upper[best][k].abs() { row } else { best }
+            });
             self.pivots[k] = pivot;
             if pivot != k {
                 self.upper.swap(k, pivot);
@@ -124,13 +118,12 @@ impl<const N: usize> FixedLu<N> {
             if top[k] == 0.0 || !top[k].is_finite() {
                 return None;
             }
-            let inverse = 1.0 / top[k];
-            self.inverse[k] = inverse;
+            self.inverse[k] = 1.0 / top[k];
             // Entries left of the diagonal are not read again: whole rows are cheaper than exact lengths.
-            for (row, lower) in self.upper[k + 1..].iter_mut().zip(&mut self.lower[k + 1..]) {
-                let factor = row[k] * inverse;
-                lower[k] = factor;
-                row.iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
+            for i in k + 1..N {
+                let factor = self.upper[i][k] * self.inverse[k];
+                self.lower[i][k] = factor;
+                self.upper[i].iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
             }
         }
         Some(())
@@ -138,37 +131,32 @@ impl<const N: usize> FixedLu<N> {
 
     /// Solves in place.
     pub fn solve(&self, right: &mut [f64; N]) {
-        vectorised(
-            #[inline(always)]
-            || {
-                // Here, too, whole rows: of what is open only entries that are not yet known are read.
-                let (mut open, mut known) = (*right, [0.0; N]);
-                let subtract = |from: &mut [f64; N], row: &[f64; N], factor: f64| {
-                    from.iter_mut().zip(row).for_each(|(entry, weight)| *entry -= weight * factor);
-                };
-                for k in 0..N {
-                    known[k] = open[k] * self.inverse[k];
-                    subtract(&mut open, &self.upper[k], known[k]);
-                }
-                for k in (0..N).rev() {
-                    right[k] = known[k];
-                    subtract(&mut known, &self.lower[k], right[k]);
-                }
-            },
-        );
-        self.pivots.iter().enumerate().rev().for_each(|(k, &pivot)| right.swap(k, pivot));
+        self.pivots.iter().enumerate().for_each(|(k, &pivot)| right.swap(k, pivot));
+        for k in 0..N {
+            let known = right[k];
+            for i in k + 1..N {
+                right[i] -= self.lower[i][k] * known;
+            }
+        }
+        for k in (0..N).rev() {
+            let known = right[k] * self.inverse[k];
+            right[k] = known;
+            for i in 0..k {
+                right[i] -= self.upper[i][k] * known;
+            }
+        }
     }
 
     /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row *
     /// columns + column]`).
     pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
-        pulp::Arch::new().dispatch(Substitution { lu: self, right, columns });
-        for (k, &pivot) in self.pivots.iter().enumerate().rev() {
+        for (k, &pivot) in self.pivots.iter().enumerate() {
             if pivot != k {
                 let (upper, lower) = right.split_at_mut(pivot * columns);
                 upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
             }
         }
+        pulp::Arch::new().dispatch(Substitution { lu: self, right, columns });
     }
 }
 
@@ -184,16 +172,15 @@ impl<const N: usize> pulp::WithSimd for Substitution<'_, N> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
         let Self { lu, right, columns } = self;
-        for i in 0..N {
+        for i in 1..N {
             let (known, open) = right.split_at_mut(i * columns);
-            let target = &mut open[..columns];
-            add_to_row(simd, target, known, lu.upper[..i].iter().map(|row| -row[i]));
-            target.iter_mut().for_each(|t| *t *= lu.inverse[i]);
+            add_to_row(simd, &mut open[..columns], known, lu.lower[i].iter().map(|factor| -factor));
         }
-        for i in (0..N - 1).rev() {
+        for i in (0..N).rev() {
             let (open, known) = right.split_at_mut((i + 1) * columns);
             let target = &mut open[i * columns..];
-            add_to_row(simd, target, known, lu.lower[i + 1..].iter().map(|row| -row[i]));
+            add_to_row(simd, target, known, lu.upper[i][i + 1..].iter().map(|factor| -factor));
+            target.iter_mut().for_each(|t| *t *= lu.inverse[i]);
         }
     }
 }
@@ -223,7 +210,7 @@ mod tests {
             std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0)
         });
         let (mut fixed, mut variable) = (FixedLu::default(), SmallLu::default());
-        fixed.factorise(|m| *m = std::array::from_fn(|j| matrix.map(|row| row[j]))).unwrap();
+        fixed.factorise(|m| *m = matrix).unwrap();
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
         let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
         let mut expected = single.to_vec();

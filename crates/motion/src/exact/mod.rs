@@ -9,7 +9,7 @@
 //!   blocks.
 //! * `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs`: the particular solution of the load.
 //! * `output.rs`: rows that read displacements, and bounds on them.
-//! * `clearance.rs`, `flight.rs`, `fast_modes.rs`: certified search for the next contact.
+//! * `clearance.rs`, `flight.rs`: certified search for the next contact.
 //! * `collocation.rs`, `recurrence.rs`: the nodes of a step and its constants.
 //! * `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs`: the matrices of a step.
 //! * `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs`: one step with forces, and its error.
@@ -32,8 +32,7 @@
 //! * `kink.rs`: kinks of the force of a closed contact.
 //! * `touching.rs`, `force_bound.rs`: certified search for further contacts while forces act.
 //! * `enclosure.rs`: proof that closed contacts stay closed all through a step.
-//! * `forecast.rs`, `preview.rs`, `polynomial.rs`: how long a contact will last; where a polynomial falls
-//!   below zero.
+//! * `forecast.rs`, `polynomial.rs`: how long a contact will last; where a polynomial falls below zero.
 //! * `sensitivity.rs`: the fundamental matrix and the frequency column.
 //! * `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs`: the column of a parameter; of the
 //!   damping, which is in every matrix; of a number that the modes depend on.
@@ -71,7 +70,6 @@ mod enclosure;
 mod error;
 mod event;
 mod extremum;
-mod fast_modes;
 mod flight;
 mod flight_maximum;
 mod flow;
@@ -97,7 +95,6 @@ mod panels;
 mod plane;
 mod polynomial;
 mod pressing;
-mod preview;
 mod propagator;
 mod quadrature;
 mod recurrence;

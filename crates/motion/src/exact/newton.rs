@@ -32,7 +32,13 @@ impl ForceStep {
         again: bool,
     ) -> Result<(), NotSolved> {
         let size = self.free.len();
+        self.force.resize(size, 0.0);
+        self.slope.resize(size, 0.0);
+        self.correction.resize(size, 0.0);
         self.evaluate(laws);
+        if !again {
+            self.improve_guess(laws);
+        }
         let (mut previous, mut fresh) = (f64::NAN, !again);
         for _ in 0..MAX_ITERATIONS {
             self.fill_defect();
@@ -72,9 +78,8 @@ impl ForceStep {
     /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer,
     /// where the step is short against the period of the loaded contact: an error of the guess grows with a
     /// power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
-    pub fn improve_guess(&mut self, laws: &[Law]) {
+    fn improve_guess(&mut self, laws: &[Law]) {
         let count = self.active.len();
-        self.evaluate(laws);
         let mut before = f64::INFINITY;
         for _ in 0..MAX_SUBSTITUTIONS {
             let gain = |w: &NodeMatrix, slope: &[f64]| -> f64 {
@@ -107,10 +112,6 @@ impl ForceStep {
     }
 
     fn evaluate(&mut self, laws: &[Law]) {
-        let size = self.free.len();
-        for values in [&mut self.force, &mut self.slope, &mut self.correction] {
-            values.resize(size, 0.0);
-        }
         for (a, &e) in self.active.iter().enumerate() {
             let nodes = a * NODES..(a + 1) * NODES;
             let (force, slope) = (&mut self.force[nodes.clone()], &mut self.slope[nodes.clone()]);
@@ -141,8 +142,10 @@ impl ForceStep {
                 .factorise(
                     #[inline(always)]
                     |matrix| {
-                        for ((into, column), slope) in matrix.iter_mut().zip(convolution).zip(slope) {
-                            *into = column.map(|entry| -entry * slope);
+                        for (j, (column, slope)) in convolution.iter().zip(slope).enumerate() {
+                            for (row, entry) in matrix.iter_mut().zip(column) {
+                                row[j] = -entry * slope;
+                            }
                         }
                         (0..NODES).for_each(|k| matrix[k][k] += 1.0);
                     },

@@ -8,8 +8,8 @@
 //!
 //! **In a force step** the motion is the convolution of the held structure, so x is known at every time, and
 //! the forces follow from the law at the displacements, which are better than the polynomials of the forces.
-//! `lambda_j` is looked at in panels of the step over which no block turns by more than [`RADIANS`]: sixteen
-//! nodes resolve it to some 1e-13 of its parts. From their polynomial follow where it first falls below zero,
+//! `lambda_j` is looked at in panels of the step over which no block turns by more than [`RADIANS`]: twelve
+//! nodes resolve it to some 1e-9 of its parts. From their polynomial follow where it first falls below zero,
 //! its largest value and its integral. So that it tells all, the forces must be resolved, relative to what
 //! the stops press with, also where they move nothing, as on a mass that is held itself: `gamma
 //! tail(F)/(|lambda_j| + |gamma F|)` is one of the errors of a step (`step_error.rs`).
@@ -35,8 +35,6 @@ const RADIANS: f64 = 4.0;
 /// Share of the largest value in a step within which its polynomial does not tell whether a located lift
 /// comes earlier once more.
 const UNDECIDED: f64 = 1e-3;
-/// Share of the largest value in a step below which rounding may put its polynomial.
-const ROUNDED: f64 = 5e-12;
 
 /// What a held stop presses with at the start of a step.
 #[derive(Debug, Clone, Copy)]
@@ -232,7 +230,7 @@ impl ExactIntegrator {
             let panels = self.panels(&run.state, j);
             let values = panels.iter().flat_map(|panel| panel.values);
             let largest = values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
-            let share = if at_end == Some(event) { UNDECIDED } else { ROUNDED };
+            let share = if at_end == Some(event) { UNDECIDED } else { 1e-9 };
             let margin = share * largest + run.pressing[j].margin;
             let place = panels.iter().find_map(|panel| panel.first_below(margin))?;
             Some((event, self.step.grading().map(place).0 * self.step.length))

@@ -1,6 +1,6 @@
 //! Where a run over a stretch stands.
 
-use super::{drive::Jet, event::Event, pressing::Pressing, preview::Preview, sensitivity::Sensitivity};
+use super::{drive::Jet, event::Event, pressing::Pressing, sensitivity::Sensitivity};
 
 /// State of a run; times are counted from the start of the stretch.
 #[derive(Debug, Default)]
@@ -34,8 +34,6 @@ pub(crate) struct Run {
     pub pressing: Vec<Pressing>,
     /// End of a contact that is known to come soon, and about when [s].
     pub release: Option<(Event, f64)>,
-    /// The motion of the contact that closed last, as far as it was looked ahead at; empty where it was not.
-    pub preview: Preview,
     /// Elements that are held on their rigid stops, ascending (`held.rs`).
     pub stuck: Vec<usize>,
     /// Rigid stop that was left last, and until when its clearance is not looked at [s].

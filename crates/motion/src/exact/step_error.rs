@@ -17,7 +17,7 @@
 //! counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without damping (`secular.rs`), and
 //! what an order is in the column by a parameter, have no part in U. The step is accepted if
 //!
-//! `T^2`, `T D^2 <= tolerance` and `T S`, `U <= 10 tolerance`,
+//! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
 //! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
 //! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
@@ -129,12 +129,11 @@ impl ExactIntegrator {
             let ElementStart { jet, velocity, .. } = run.start[element];
             let driven = jet.slope.abs() + jet.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
-            let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
-            let force = of_nodes(&step.force);
+            let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
-            let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
+            let mut dual = impulse * step.length * step.tail(&step.slope[nodes.clone()]).highest;
             if step.damped {
-                dual += impulse * of_nodes(&step.damping).highest;
+                dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
             }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
@@ -208,7 +207,7 @@ impl ExactIntegrator {
     }
 
     pub(super) fn relative_to_bound(&self, errors: Errors) -> f64 {
-        let square = errors.tail.powi(2).max(errors.slow);
+        let square = errors.tail.powi(2).max(errors.slow) / 4.0;
         let linear = errors.tail * errors.fast_share / 10.0;
         (square.max(linear) / self.settings.tolerance).sqrt()
     }
@@ -293,7 +292,7 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
-            for (column, found) in self.step.sensitivity_tails(a, sensitivity).enumerate() {
+            for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let further_column = column >= sensitivity.frequency_column();
                 let velocity = if further_column {
                     let reachable = sensitivity.energy_norm_of(column, &self.blocks.stiffness);

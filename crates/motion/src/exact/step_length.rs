@@ -7,14 +7,12 @@
 //! step to the release is the same seen backwards. One through the middle has a release or a touch beyond
 //! either end only, and bears nearly twice the length.
 //!
-//! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): with sixteen
-//! nodes two halves are enough for sensitivities down to a tolerance of 1e-14
-//! ([`HALF_WITH_SENSITIVITIES`]). Below that, and where fast modes ask for it, a contact takes three steps:
-//! one from the touch that is as much shorter as the tolerance asks for, one through the middle, and one to
-//! the release, for which as much is left as the first step bore. Where the middle one does not reach so far
-//! there are more. When the contact ends is known from a quick motion through it (`preview.rs`), or else from
-//! a forecast, which comes up to a tenth too early as a rule (`forecast.rs`); so the step before the last goes
-//! somewhat farther than it says.
+//! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): two halves
+//! are enough for sensitivities down to a tolerance of 2.5e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a
+//! contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
+//! through the middle, and one to the release, for which as much is left as the first step bore. Where the
+//! middle one does not reach so far there are more. The forecast of the release comes up to a tenth too early
+//! as a rule (`forecast.rs`), so the step before the last goes somewhat farther than it says.
 //!
 //! **Rounding.** A contact that swallows nearly all of its impact is stiff: its damper may be 1e6 times as
 //! strong as what it rests on, and what rounding leaves of the velocity makes errors that do not depend on
@@ -35,9 +33,9 @@ use super::{
 
 /// Error of a graded step over half a stiff Hertz contact, relative to its bound at a tolerance of 1e-9, that
 /// of its sensitivities included.
-const HALF_WITH_SENSITIVITIES: f64 = 0.005;
+const HALF_WITH_SENSITIVITIES: f64 = 0.35;
 /// The same of the state alone.
-const HALF_OF_THE_STATE: f64 = 0.0015;
+const HALF_OF_THE_STATE: f64 = 0.1;
 /// Error up to which half a contact is tried at once.
 const HOPEFUL: f64 = 0.7;
 /// Error that is aimed at otherwise.
@@ -58,18 +56,11 @@ const BACKWARDS: f64 = 0.94;
 impl ExactIntegrator {
     /// The first try: to the release where it is expected within reach, else as far as the last step's error
     /// allows.
-    pub(super) fn first_aim(&mut self, run: &mut Run, touched: Option<usize>, remaining: f64) -> Aim {
+    pub(super) fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
         let known = run.release.filter(|known| known.1 > run.time && self.may_come(run, known.0));
         let forecast = match known {
             Some((event, time)) => Some((event, time - run.time)),
-            None => self.first_forecast(run, touched).map(|(element, time)| {
-                let ending = self.usual_end(element);
-                let seen = if touched == Some(element) { self.preview(run, element, time) } else { None };
-                if let Some(time) = seen {
-                    run.release = Some((ending, run.time + time));
-                }
-                (ending, seen.unwrap_or(time))
-            }),
+            None => self.first_forecast(run, touched).map(|(element, time)| (self.usual_end(element), time)),
         };
         let Some((ending, time)) = forecast else {
             let length = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };

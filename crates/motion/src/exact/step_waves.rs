@@ -19,7 +19,7 @@ use super::{
 };
 
 /// Radians through which a load turns in a step whose nodes still show it: half a wave through 12 nodes is
-/// good to some 1e-10, and through those that there are to more.
+/// good to some 1e-10.
 const SHOWN: f64 = 3.0;
 /// Places for each radian.
 const PLACES_PER_RADIAN: f64 = 2.5;

@@ -96,7 +96,8 @@ impl ExactIntegrator {
             let (impulse, energy_lost) = self.work_of(run, a);
             piece.impulse += impulse.abs();
             piece.energy_lost += energy_lost;
-            piece.peak_force = piece.peak_force.max(self.peak_of(run, a));
+            let force = &self.step.force[a * NODES..(a + 1) * NODES];
+            piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
         }
         if !run.stuck.is_empty() {
             let impulses = self.pressing_impulses(&run.state);
@@ -108,20 +109,6 @@ impl ExactIntegrator {
             }
         }
         self.tracing = Some(tracing);
-    }
-
-    /// Largest force of the a-th active element in the solved step: that of its law where the polynomial of
-    /// the force has its top, since within a step the motion is better known than the force.
-    fn peak_of(&self, run: &Run, a: usize) -> f64 {
-        let (step, grading) = (&self.step, self.step.grading());
-        let (_, place) = grading.rule().extremum(&step.force[a * NODES..(a + 1) * NODES]);
-        let (element, time) = (step.active[a], grading.map(place).0 * step.length);
-        let jet = if step.damped {
-            self.refined_jet(&run.state, element, time)
-        } else {
-            self.jet_in_step(&run.state, element, time)
-        };
-        self.laws[element].pressing_force(jet.value, jet.slope).value.abs()
     }
 
     /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
