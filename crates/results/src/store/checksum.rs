@@ -18,8 +18,9 @@
 //! 4e9 is not.
 //!
 //! Whoever opens the database reads it once from end to end: it has to hold what this version makes and
-//! nothing else (a trigger or a view that someone else has put there would act), its pages whole (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide
-//! some), each checksum that of its row.
+//! nothing else (a trigger or a view that someone else has put there would act), its
+//! pages whole (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide some), each
+//! checksum that of its row.
 
 use crc32fast::Hasher;
 use rusqlite::{
