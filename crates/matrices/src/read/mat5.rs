@@ -144,7 +144,8 @@ fn sparse<R: Read>(
     wrong_count("entries", values.len().min(places.len()), starts.last().map_or(0, |end| *end as usize))?;
     let mut entries = Vec::with_capacity(stored);
     for (column, ends) in starts.windows(2).enumerate() {
-        if ends[0] < 0.0 || ends[1] < ends[0] || ends[1] > stored as f64 {
+        let is_whole = ends.iter().all(|end| end.fract() == 0.0);
+        if !is_whole || ends[0] < 0.0 || ends[1] < ends[0] || ends[1] > stored as f64 {
             let allowed = format!("{} to {stored}", ends[0]);
             let (what, found) = ("the end of a column", ends[1] as i64);
             return Err(MatrixFault::OutOfRange { what, found, allowed });
