@@ -103,3 +103,11 @@ fn damaged_files_end_in_an_answer() {
         }
     }
 }
+
+#[test]
+fn elements_without_a_type_are_refused() {
+    let mut bytes = PLAIN[..128].to_vec();
+    bytes.resize(4096, 0);
+    let message = parse_matrices(&bytes, None).unwrap_err().to_string();
+    assert!(message.contains("the type of an element is 0"), "{message}");
+}

@@ -141,3 +141,10 @@ fn what_is_of_no_format_says_which_there_are() {
     let wrong = parse_matrices(b"hello world\n", Some(MatrixFormat::Triplets)).unwrap_err();
     assert!(wrong.to_string().contains("line 1"), "{wrong}");
 }
+
+#[test]
+fn a_matrix_with_far_more_rows_than_entries_is_refused() {
+    let text = "%%MatrixMarket matrix coordinate real symmetric\n20000000 20000000 1\n1 1 1.0\n";
+    let message = parse_matrices(text.as_bytes(), None).unwrap_err().to_string();
+    assert!(message.contains("at most 64064 with 1 entries"), "{message}");
+}

@@ -1,8 +1,8 @@
 //! Upper limits of what is read and created: a wrong file or number then ends with a message, and does not
 //! exhaust memory or time.
 //!
-//! Every reader of the program opens its file here. The size of a device, a pipe or an archive is not known
-//! beforehand, so no more than the limit is ever read from any of them.
+//! Every reader of the program opens its file here. Devices, pipes and folders are refused: they may have no end, or
+//! keep a reader waiting.
 
 use std::{
     fs::File,
@@ -16,6 +16,12 @@ pub const LARGEST_FILE: u64 = 256 << 20;
 pub const LARGEST_TEXT: u64 = 16 << 20;
 /// Samples of all channels of a record together, also after filling gaps or resampling.
 pub const MAX_SAMPLES: usize = 1 << 25;
+/// Columns of a table of measurements.
+pub const MAX_COLUMNS: usize = 10_000;
+/// Structures within one another in a MATLAB file.
+pub(crate) const MAX_DEPTH: usize = 32;
+/// Bytes of a name in a file of measurements.
+pub(crate) const LONGEST_NAME: usize = 1000;
 /// Largest magnitude of a sample in its unit; the squares of larger ones and their sums are not finite.
 pub const LARGEST_SAMPLE: f64 = 1e60;
 /// Least magnitude of the largest sample of a channel that is not all zero; squares of smaller ones
@@ -29,8 +35,12 @@ pub const SMALLEST_SAMPLE: f64 = 1e-60;
 /// # Errors
 /// The operating system cannot give the file, or it is larger.
 pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    // Opening a pipe would wait for its writer.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file"));
+    }
     let file = File::open(path)?;
-    // The size that a device or a pipe reports has no meaning.
+    // A file may grow while it is read.
     if file.metadata()?.len() > most {
         return Err(too_large(most));
     }
@@ -75,8 +85,8 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_device_without_end_is_refused() {
+    fn a_device_is_refused() {
         let error = read_bytes(Path::new("/dev/zero"), 3 << 20).unwrap_err();
-        assert_eq!(error.to_string(), "it is larger than 3 MiB, the most that is read");
+        assert_eq!(error.to_string(), "it is no regular file");
     }
 }

@@ -197,3 +197,52 @@ fn empty_and_unknown_files_are_refused() {
     let missing = read(Path::new("nowhere.csv"), &RecordOptions::default()).unwrap_err();
     assert!(matches!(missing, SignalError::File { .. }) && missing.to_string().contains("nowhere.csv"));
 }
+
+/// A MATLAB element with its padding.
+fn element(kind: u32, data: &[u8]) -> Vec<u8> {
+    let mut bytes = [kind.to_le_bytes(), (data.len() as u32).to_le_bytes()].concat();
+    bytes.extend(data);
+    bytes.resize(bytes.len().next_multiple_of(8), 0);
+    bytes
+}
+
+/// A MATLAB file with a structure of one field.
+fn structure(name: &[u8], field: &[u8], content: &[u8]) -> Vec<u8> {
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let length = words(&[field.len() as u32 + 1]);
+    let names = [field, &[0]].concat();
+    let parts =
+        [element(6, &words(&[2, 0])), element(5, &words(&[1, 1])), element(1, name), element(5, &length)];
+    element(14, &[parts.concat(), element(1, &names), content.to_vec()].concat())
+}
+
+fn matlab(content: &[u8]) -> Vec<u8> {
+    let mut bytes = b"MATLAB 5.0 MAT-file".to_vec();
+    bytes.resize(124, b' ');
+    bytes.extend(b"\0\x01IM");
+    bytes.extend(content);
+    bytes
+}
+
+#[test]
+fn deep_structures_and_long_names_are_refused() {
+    let mut nested = Vec::new();
+    for _ in 0..200 {
+        nested = structure(b"", b"a", &nested);
+    }
+    assert_eq!(refusal(&matlab(&nested)), ReadError::TooDeep);
+    let long = structure(&[b'n'; 1001], b"a", &element(14, &[]));
+    assert_eq!(refusal(&matlab(&long)), ReadError::LongName { found: 1001 });
+}
+
+#[test]
+fn more_numbers_or_columns_than_are_worked_with_are_refused() {
+    let wide = format!("{0}1\n{0}2\n", "1,".repeat(10_000));
+    assert_eq!(refusal(wide.as_bytes()), ReadError::TooManyColumns { found: 10_001 });
+    let mut array = b"\x93NUMPY\x01\0\x46\0".to_vec();
+    array.extend(
+        format!("{:<70}", "{'descr': '|u1', 'fortran_order': False, 'shape': (33554433,), }").bytes(),
+    );
+    array.resize(array.len() + 33_554_433, 0);
+    assert_eq!(refusal(&array), ReadError::TooManyNumbers);
+}

@@ -30,7 +30,7 @@ const NUMBERS: std::ops::RangeInclusive<u8> = 6..=15;
 /// Flag of an array with imaginary parts.
 const COMPLEX: u32 = 0x0800;
 /// Entries of a matrix at most: what memory takes.
-const MOST_ENTRIES: u64 = 1 << 28;
+const MOST_ENTRIES: u64 = 1 << 25;
 /// Longest name.
 const LONGEST_NAME: u64 = 1000;
 
@@ -63,6 +63,10 @@ pub(crate) fn read<R: Read>(mut source: R) -> Result<Vec<FileMatrix>, PlacedFaul
         let place = FilePlace::Byte(at);
         let mut elements = Elements { source: &mut source, big_endian };
         let Some(tag) = elements.tag().map_err(|fault| fault.at(place))? else { return Ok(matrices) };
+        if tag.kind == 0 {
+            let (what, allowed) = ("the type of an element", "1 to 18".to_owned());
+            return Err(MatrixFault::OutOfRange { what, found: 0, allowed }.at(place));
+        }
         let mut content = (&mut source).take(u64::from(tag.length));
         let found = match tag.kind {
             COMPRESSED => compressed(ZlibDecoder::new(&mut content), big_endian, place),
@@ -140,14 +144,15 @@ fn sparse<R: Read>(
     wrong_count("entries", values.len().min(places.len()), starts.last().map_or(0, |end| *end as usize))?;
     let mut entries = Vec::with_capacity(stored);
     for (column, ends) in starts.windows(2).enumerate() {
-        if ends[0] < 0.0 || ends[1] < ends[0] || ends[1] > stored as f64 {
+        let is_whole = ends.iter().all(|end| end.fract() == 0.0);
+        if !is_whole || ends[0] < 0.0 || ends[1] < ends[0] || ends[1] > stored as f64 {
             let allowed = format!("{} to {stored}", ends[0]);
             let (what, found) = ("the end of a column", ends[1] as i64);
             return Err(MatrixFault::OutOfRange { what, found, allowed });
         }
         for index in ends[0] as usize..ends[1] as usize {
             let (row, value) = (places[index], finite(values[index])?);
-            if row < 0.0 || row >= rows as f64 {
+            if !(row >= 0.0 && row.fract() == 0.0) || row >= rows as f64 {
                 let allowed = format!("0 to {}", rows.saturating_sub(1));
                 return Err(MatrixFault::OutOfRange { what: "a row", found: row as i64, allowed });
             }

@@ -15,8 +15,8 @@ mod triplets;
 mod user_element;
 
 use std::{
-    fs::File,
-    io::{BufReader, Read, Seek},
+    fs::{self, File},
+    io::{self, BufReader, Read, Seek},
     path::Path,
 };
 
@@ -41,7 +41,7 @@ const FIRST: usize = 4096;
 /// [`MatrixError`] with the place in the file.
 pub fn read_matrices(path: &Path, format: Option<MatrixFormat>) -> Result<Vec<FileMatrix>, MatrixError> {
     let read = || {
-        let mut file = File::open(path)?;
+        let mut file = open(path)?;
         let first = first_bytes(&mut file)?;
         file.rewind()?;
         parse(BufReader::with_capacity(1 << 16, file), &first, format)
@@ -64,7 +64,7 @@ fn parse<R: std::io::BufRead>(
     format: Option<MatrixFormat>,
 ) -> Result<Vec<FileMatrix>, PlacedFault> {
     let unknown = || MatrixFault::UnknownFormat { known: MatrixFormat::names() }.at(FilePlace::Whole);
-    match format.or_else(|| MatrixFormat::of(first)).ok_or_else(unknown)? {
+    let matrices = match format.or_else(|| MatrixFormat::of(first)).ok_or_else(unknown)? {
         MatrixFormat::MatrixMarket => matrix_market::read(source).map(|matrix| vec![matrix]),
         MatrixFormat::Triplets => triplets::read(source).map(|matrix| vec![matrix]),
         MatrixFormat::UserElement => user_element::read(source),
@@ -75,7 +75,24 @@ fn parse<R: std::io::BufRead>(
         },
         MatrixFormat::Mat5 => mat5::read(source),
         MatrixFormat::HarwellBoeing => harwell_boeing::read(source).map(|matrix| vec![matrix]),
+    }?;
+    for matrix in &matrices {
+        let most = 64 * (matrix.entries.len() + 1000);
+        if matrix.rows.max(matrix.columns) > most {
+            let (what, found) = ("the number of rows or columns", matrix.rows.max(matrix.columns) as i64);
+            let allowed = format!("at most {most} with {} entries", matrix.entries.len());
+            return Err(MatrixFault::OutOfRange { what, found, allowed }.at(matrix.place));
+        }
     }
+    Ok(matrices)
+}
+
+/// Opens a regular file: a device may have no end, and a pipe may keep a reader waiting.
+fn open(path: &Path) -> io::Result<File> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file"));
+    }
+    File::open(path)
 }
 
 fn first_bytes(file: &mut File) -> Result<Vec<u8>, PlacedFault> {
@@ -128,7 +145,7 @@ fn with<T>(
     read: impl FnOnce(&str, BufReader<File>) -> Result<T, PlacedFault>,
 ) -> Result<T, MatrixError> {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let opened = File::open(path).map_err(PlacedFault::from);
+    let opened = open(path).map_err(PlacedFault::from);
     opened
         .and_then(|file| read(&extension.to_ascii_lowercase(), BufReader::new(file)))
         .map_err(|error| named(path, error))

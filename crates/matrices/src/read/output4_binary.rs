@@ -188,16 +188,16 @@ fn column<R>(records: &Records<R>, matrix: &mut Output4Matrix) -> Result<bool, M
     let (mut at, end) = (3_i64, 3_i64.saturating_add(words.max(0)));
     while at < end {
         let (head, length, row) = if big {
-            (2, records.whole(at as usize)? - 1, records.whole(at as usize + 1)?)
+            (2, records.whole(at as usize)?.saturating_sub(1), records.whole(at as usize + 1)?)
         } else {
             let packed = records.whole(at as usize)?;
             (1, packed / 65536 - 1, packed % 65536)
         };
-        if length < 0 || at + head + length > end {
+        if length < 0 || length > end - at - head {
             let allowed = format!("1 to {}", end - at - head + 1);
             return Err(MatrixFault::OutOfRange {
                 what: "the length of a string",
-                found: length + 1,
+                found: length.saturating_add(1),
                 allowed,
             });
         }

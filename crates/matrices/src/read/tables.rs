@@ -34,6 +34,14 @@ fn dof(text: &str, before: usize) -> Result<RowLabel, MatrixFault> {
     let mut fields = text.splitn(5, ',').map(str::trim);
     let mut field = || fields.next().unwrap_or_default().to_owned();
     let (row, node, direction, kind, name) = (field(), field(), field(), field(), field());
+    let is_hidden = |letter: char| {
+        letter.is_control()
+            || matches!(letter, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}')
+    };
+    if name.contains(is_hidden) {
+        let expected = "a name without control characters";
+        return Err(MatrixFault::Unexpected { expected, found: shown(name.as_bytes()) });
+    }
     let found = whole(row.as_bytes(), "a row")?;
     if found != before as i64 + 1 {
         return Err(MatrixFault::OutOfRange { what: "a row", found, allowed: (before + 1).to_string() });

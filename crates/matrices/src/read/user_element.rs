@@ -172,7 +172,9 @@ impl Substructure {
         if self.matrices.is_empty() {
             return Err(MatrixFault::Truncated { what: "the search for *MATRIX" });
         }
-        let labels = self.labels();
+        let count = self.label_count();
+        let fits = self.matrices.iter().any(|matrix| matrix.rows == count);
+        let labels = if fits { self.labels() } else { Vec::new() };
         let precision = self.digits.precision();
         for matrix in &mut self.matrices {
             if labels.len() == matrix.rows {
@@ -181,6 +183,14 @@ impl Substructure {
             matrix.precision = precision;
         }
         Ok(self.matrices)
+    }
+
+    /// How many labels there are; a short file may declare millions of nodes.
+    fn label_count(&self) -> usize {
+        let ends = self.directions.iter().skip(1).map(|(from, _)| *from).chain([self.declared as i64 + 1]);
+        let counts =
+            self.directions.iter().zip(ends).map(|((from, own), end)| (end - from) as usize * own.len());
+        counts.sum()
     }
 
     fn labels(&self) -> Vec<RowLabel> {

@@ -1,6 +1,6 @@
 //! Why a file of measurements cannot be read.
 
-use crate::limits::LARGEST_FILE;
+use crate::limits::{LARGEST_FILE, LONGEST_NAME, MAX_COLUMNS, MAX_DEPTH, MAX_SAMPLES};
 
 /// Why the content of a file is not a record of the format it appears to have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -36,6 +36,18 @@ pub enum ReadError {
     /// An archive whose unpacked content is too large.
     #[error("it unpacks to more than {} MiB, the most that is read", LARGEST_FILE >> 20)]
     TooLarge,
+    /// More numbers than are worked with.
+    #[error("it has more than {MAX_SAMPLES} numbers, the most that are read")]
+    TooManyNumbers,
+    /// A table that is too wide.
+    #[error("it has {found} columns, at most {MAX_COLUMNS} are read")]
+    TooManyColumns { found: usize },
+    /// Structures within one another.
+    #[error("it has more than {MAX_DEPTH} structures within one another, the most that are read")]
+    TooDeep,
+    /// A name that is too long.
+    #[error("it has a name of {found} bytes, at most {LONGEST_NAME} are read")]
+    LongName { found: usize },
     /// Two sampling rates in one file that contradict each other.
     #[error("the file names two sampling rates, {first} Hz and {second} Hz")]
     TwoRates { first: f64, second: f64 },

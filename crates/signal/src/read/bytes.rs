@@ -1,6 +1,22 @@
 //! Numbers from bytes.
 
-use crate::error::ReadError;
+use crate::{error::ReadError, limits::MAX_SAMPLES};
+
+/// How many more numbers a file may have.
+#[derive(Debug)]
+pub(super) struct NumberRoom(usize);
+
+impl NumberRoom {
+    pub(super) const fn new() -> Self {
+        Self(MAX_SAMPLES)
+    }
+
+    /// Counts numbers before they are made.
+    pub(super) fn take(&mut self, count: usize) -> Result<(), ReadError> {
+        self.0 = self.0.checked_sub(count).ok_or(ReadError::TooManyNumbers)?;
+        Ok(())
+    }
+}
 
 /// Reads bytes from front to end.
 #[derive(Debug, Clone, Copy)]

@@ -9,12 +9,12 @@
 
 use super::{
     arrays::{Array, arrange},
-    bytes::{ByteReader, NumberFormat},
+    bytes::{ByteReader, NumberFormat, NumberRoom},
 };
 use crate::{error::ReadError, raw::RawRecord};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
-    arrange(arrays(bytes, "x")?, Vec::new())
+    arrange(arrays(bytes, "x", &mut NumberRoom::new())?, Vec::new())
 }
 
 /// One entry of an array: a number, or a part of a complex one.
@@ -32,7 +32,9 @@ impl Entry {
 }
 
 /// The array of a file with a given name, or the columns of a table with their own names.
-pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> {
+///
+/// * `room`: numbers that the file may still have.
+pub(super) fn arrays(bytes: &[u8], name: &str, room: &mut NumberRoom) -> Result<Vec<Array>, ReadError> {
     let mut bytes = ByteReader::new(bytes, false);
     let magic = bytes.take(8, "the start of the array")?;
     if !magic.starts_with(b"\x93NUMPY") {
@@ -54,6 +56,8 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
         // Whatever its other side lengths.
         return Ok(Vec::new());
     }
+    let numbers: usize = columns.iter().map(|(_, entry)| if entry.complex { 2 } else { 1 }).sum();
+    room.take((expected / size).saturating_mul(numbers))?;
     let mut offset = 0;
     let mut arrays = Vec::new();
     for (name, entry) in columns {

@@ -10,16 +10,21 @@ use std::io::Read;
 
 use flate2::{Crc, read::DeflateDecoder};
 
-use super::{arrays::arrange, bytes::ByteReader, npy};
+use super::{
+    arrays::arrange,
+    bytes::{ByteReader, NumberRoom},
+    npy,
+};
 use crate::{error::ReadError, finding::RecordFinding, limits::LARGEST_FILE, raw::RawRecord};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut arrays = Vec::new();
     let mut findings = Vec::new();
     let mut room = LARGEST_FILE;
+    let mut numbers = NumberRoom::new();
     for entry in directory(bytes)? {
         match entry.name.strip_suffix(".npy") {
-            Some(name) => match npy::arrays(&entry.content(bytes, &mut room)?, name) {
+            Some(name) => match npy::arrays(&entry.content(bytes, &mut room)?, name, &mut numbers) {
                 Ok(found) => arrays.extend(found),
                 Err(ReadError::Unsupported { what, .. }) => {
                     findings.push(RecordFinding::LeftOut { name: name.to_owned(), reason: what });

@@ -4,7 +4,7 @@
 
 use hound::{SampleFormat, WavReader};
 
-use super::bytes::NumberFormat;
+use super::bytes::{NumberFormat, NumberRoom};
 use crate::{
     error::ReadError,
     raw::{RawChannel, RawRecord, TimeAxis},
@@ -15,6 +15,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         return double.record();
     }
     let mut reader = WavReader::new(bytes).map_err(reason)?;
+    NumberRoom::new().take(reader.len() as usize)?;
     let spec = reader.spec();
     let values: Result<Vec<f64>, hound::Error> = match spec.sample_format {
         SampleFormat::Float => reader.samples::<f32>().map(|sample| sample.map(f64::from)).collect(),
@@ -70,6 +71,7 @@ impl<'a> Double<'a> {
         if !data.len().is_multiple_of(frame) {
             return Err(truncated());
         }
+        NumberRoom::new().take(data.len() / 8)?;
         Ok(record(&NumberFormat::F64.values(data, false), usize::from(self.channels), self.rate))
     }
 }

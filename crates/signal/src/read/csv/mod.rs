@@ -29,7 +29,9 @@ use lines::numbered;
 use crate::{
     error::ReadError,
     finding::RecordFinding,
+    limits::{MAX_COLUMNS, MAX_SAMPLES},
     raw::{RawChannel, RawRecord, TimeAxis, TimeColumn, number_repeated_names},
+    read::bytes::NumberRoom,
     read::time::{compare_rates, rises_evenly, time_column},
 };
 
@@ -44,8 +46,15 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     if !text.contains('\n') {
         text = text.replace('\r', "\n");
     }
+    if text.bytes().filter(|byte| *byte == b'\n').count() > MAX_SAMPLES {
+        return Err(ReadError::TooManyNumbers);
+    }
     let rows: Vec<NumberedLine> = content_lines(&text).collect();
     let (dialect, first, width) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
+    if width > MAX_COLUMNS {
+        return Err(ReadError::TooManyColumns { found: width });
+    }
+    NumberRoom::new().take(width.saturating_mul(rows.len() - first))?;
     let first_line = rows[first].0;
     ensure_no_rows(&rows[..first], dialect, width)?;
     let before: Vec<NumberedLine> =

@@ -10,9 +10,14 @@ mod element;
 
 use super::{
     arrays::{Array, arrange},
-    bytes::ByteReader,
+    bytes::{ByteReader, NumberRoom},
 };
-use crate::{error::ReadError, finding::RecordFinding, limits::LARGEST_FILE, raw::RawRecord};
+use crate::{
+    error::ReadError,
+    finding::RecordFinding,
+    limits::{LARGEST_FILE, LONGEST_NAME, MAX_DEPTH},
+    raw::RawRecord,
+};
 use element::{Element, ElementType, next, numbers};
 
 const STRUCTURE: u32 = 2;
@@ -61,7 +66,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         _ => return Err(ReadError::Malformed { what: "the header names no byte order".to_owned() }),
     };
     let mut rest = ByteReader::new(&bytes[128..], big_endian);
-    let mut content = MatContent::default();
+    let mut content =
+        MatContent { arrays: Vec::new(), findings: Vec::new(), room: NumberRoom::new(), depth: 0 };
     let mut room = LARGEST_FILE;
     while rest.len() >= 8 {
         match next(&mut rest)? {
@@ -77,10 +83,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 }
 
 /// Arrays and findings of a file.
-#[derive(Default)]
 struct MatContent {
     arrays: Vec<Array>,
     findings: Vec<RecordFinding>,
+    room: NumberRoom,
+    /// Structures around the present variable.
+    depth: usize,
 }
 
 impl MatContent {
@@ -95,10 +103,23 @@ impl MatContent {
         let flags = numbers(&next(&mut bytes)?, big_endian)?.first().map_or(0, |flags| *flags as u32);
         let shape: Vec<usize> =
             numbers(&next(&mut bytes)?, big_endian)?.iter().map(|side| *side as usize).collect();
-        let own = String::from_utf8_lossy(next(&mut bytes)?.data).into_owned();
+        let own = next(&mut bytes)?.data;
+        let found = within.len() + own.len();
+        if found > LONGEST_NAME {
+            return Err(ReadError::LongName { found });
+        }
+        let own = String::from_utf8_lossy(own).into_owned();
         let name = format!("{within}{own}");
         match flags & 0xff {
-            STRUCTURE if shape.iter().all(|side| *side == 1) => self.fields(&mut bytes, &name),
+            STRUCTURE if shape.iter().all(|side| *side == 1) => {
+                if self.depth == MAX_DEPTH {
+                    return Err(ReadError::TooDeep);
+                }
+                self.depth += 1;
+                self.fields(&mut bytes, &name)?;
+                self.depth -= 1;
+                Ok(())
+            }
             class if NUMERIC.contains(&class) => self.numeric(&mut bytes, name, shape, flags & COMPLEX != 0),
             class => {
                 // Texts and empty auxiliary variables of MATLAB have no name.
@@ -120,7 +141,10 @@ impl MatContent {
         let big_endian = bytes.is_big_endian();
         let count = shape.iter().fold(1, |count: usize, side| count.saturating_mul(*side));
         let mut part = || {
-            let values = numbers(&next(bytes)?, big_endian)?;
+            let element = next(bytes)?;
+            // Of `n` bytes no more than `n` numbers are made.
+            self.room.take(count.min(element.data.len()))?;
+            let values = numbers(&element, big_endian)?;
             if values.len() == count {
                 return Ok(values);
             }
@@ -142,8 +166,11 @@ impl MatContent {
         let length = numbers(&next(bytes)?, big_endian)?.first().map_or(32, |length| *length as usize).max(1);
         let names = next(bytes)?.data;
         for field in names.chunks(length) {
-            let field = String::from_utf8_lossy(field.split(|byte| *byte == 0).next().unwrap_or_default())
-                .into_owned();
+            let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
+            if field.len() > LONGEST_NAME {
+                return Err(ReadError::LongName { found: field.len() });
+            }
+            let field = String::from_utf8_lossy(field).into_owned();
             self.take(&next(bytes)?, big_endian, &format!("{name}.{field}"))?;
         }
         Ok(())

@@ -24,6 +24,7 @@ use crate::{
     error::ReadError,
     finding::RecordFinding,
     raw::{RawRecord, number_repeated_names},
+    read::bytes::NumberRoom,
 };
 use header::{BinaryLayout, FunctionHeader, HEADER_LINES};
 use lines::DatasetLines;
@@ -45,6 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut file = DatasetLines::new(bytes);
     let mut raw = RawRecord::default();
     let mut functions = 0;
+    let mut room = NumberRoom::new();
     while let Some(line) = file.next() {
         if line.trim() != "-1" {
             continue;
@@ -53,7 +55,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         if kind.trim() == "58" || kind.trim_start().starts_with("58b") || kind.trim_start().starts_with("58B")
         {
             functions += 1;
-            function(&mut file, &kind, functions, &mut raw)?;
+            function(&mut file, &kind, functions, &mut raw, &mut room)?;
         } else {
             file.skip_dataset();
         }
@@ -71,6 +73,7 @@ fn function(
     kind: &str,
     number: usize,
     raw: &mut RawRecord,
+    room: &mut NumberRoom,
 ) -> Result<(), ReadError> {
     let binary = BinaryLayout::of(kind, number)?;
     let lines: Vec<String> = (0..HEADER_LINES).map_while(|_| file.next()).collect();
@@ -78,6 +81,7 @@ fn function(
         return Err(ReadError::Truncated { what: format!("the header of function {number}") });
     }
     let header = FunctionHeader::of(&lines, number)?;
+    room.take(header.points.saturating_mul(header.values_per_point()))?;
     let values = match &binary {
         Some(binary) => {
             let length = header.bytes(binary);
