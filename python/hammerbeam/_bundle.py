@@ -1,7 +1,6 @@
 """Matrices of a study that was built in Python: where they lie, and that results keep them."""
 
 import filecmp
-import os
 import shutil
 import tempfile
 import weakref
@@ -38,7 +37,9 @@ class Bundle:
 
     def local(self, text: str) -> str:
         """A text of a study with the names of these matrices relative to their folder."""
-        return text.replace(str(self.folder) + os.sep, "")
+        for path in self.folder.glob("*.mtx"):
+            text = text.replace(f"'{path}'", f'"{path.name}"')
+        return text
 
     def placed(self, text: str, out: Path) -> NativeStudy:
         """The study of a text, reading copies of the matrices in `structure` of a results or batch folder.
