@@ -113,12 +113,15 @@ def words(name: str, value: Any) -> list[str]:
 
 def numbers(name: str, value: Any) -> list[float]:
     """A frequency or several."""
-    if isinstance(value, SupportsFloat) or isinstance(value, str):
+    is_row = isinstance(value, np.ndarray) and value.ndim > 0
+    if not is_row and isinstance(value, (SupportsFloat, str)):
         return [frequency(name, value)]
     try:
         entries = list(value)
     except TypeError:
         entries = [value]
+    if not entries:
+        raise BadInput(f"{name}: found no number")
     return [frequency(name, entry) for entry in entries]
 
 

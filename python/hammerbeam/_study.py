@@ -2,7 +2,7 @@
 
 import json
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -195,6 +195,8 @@ class Study:
         """
         folder = _check.folder("out", out)
         native = self._placed(folder)
+        if isinstance(start_from, (str, bytes, PathLike)) or not isinstance(start_from, Iterable):
+            raise BadInput(f"start_from: found {start_from!r}, must be a list of folders")
         folders = [str(_check.folder("start_from", one)) for one in start_from]
         asked = (folder, folders, _check.jobs(jobs), bool(figures))
         kept = f"what was computed is kept in {folder}, the same call goes on from there"

@@ -51,9 +51,7 @@ pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<Arra
 /// Attractors of a grid, with the first state of each: `[q; q']` at phase 0. Branches are not known here.
 fn attractor_table(cells: &[u32], attractors: &[Attractor]) -> ArrayTable {
     let shares = fractions(cells, attractors.len());
-    let share = |of: &dyn Fn(&Estimate) -> f64| {
-        ArrayValues::Numbers(shares.iter().skip(1).map(of).collect())
-    };
+    let share = |of: &dyn Fn(&Estimate) -> f64| ArrayValues::Numbers(shares.iter().skip(1).map(of).collect());
     let number = |of: &dyn Fn(&Attractor) -> Option<f64>| {
         ArrayValues::Numbers(attractors.iter().map(|attractor| or_nan(of(attractor))).collect())
     };
