@@ -49,7 +49,9 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     except TypeError:
         raise BadInput(f"{name}: found {value!r}, {must}") from None
     if not low <= found <= high:
-        raise BadInput(f"{name}: {found} is not in {low}..={high}")
+        raise BadInput(
+            f"{name}: {found} is not in {low}..={high}", numbers={"found": found, "low": low, "high": high}
+        )
     return found
 
 
@@ -165,5 +167,5 @@ def _between(name: str, value: Any, ends: tuple[float, float], must: str) -> flo
         raise BadInput(f"{name}: found {value!r}, {must}") from None
     low, high = ends
     if not low <= found <= high:
-        raise BadInput(f"{name}: found {found}, {must}")
+        raise BadInput(f"{name}: found {found}, {must}", numbers={"found": found, "low": low, "high": high})
     return found

@@ -204,6 +204,15 @@ def test_errors_carry_their_numbers(duffing: Study) -> None:
     assert again.numbers == raised.value.numbers and str(again) == str(raised.value)
 
 
+def test_ranges_are_numbers_of_the_error(duffing: Study) -> None:
+    with pytest.raises(BadInput) as raised:
+        duffing.orbits(0.25, 65)
+    assert raised.value.numbers == {"found": 65, "low": 1, "high": 64}
+    with pytest.raises(BadInput) as raised:
+        duffing.orbits(1e11)
+    assert raised.value.numbers == {"found": 1e11, "low": 1e-10, "high": 1e10}
+
+
 def test_a_warning_is_one() -> None:
     tables: dict[str, Any] = {
         **OSCILLATOR,
