@@ -49,7 +49,9 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     except TypeError:
         raise BadInput(f"{name}: found {value!r}, {must}") from None
     if not low <= found <= high:
-        raise BadInput(f"{name}: {found} is not in {low}..={high}")
+        raise BadInput(
+            f"{name}: {found} is not in {low}..={high}", numbers={"found": found, "low": low, "high": high}
+        )
     return found
 
 
@@ -113,12 +115,15 @@ def words(name: str, value: Any) -> list[str]:
 
 def numbers(name: str, value: Any) -> list[float]:
     """A frequency or several."""
-    if isinstance(value, SupportsFloat) or isinstance(value, str):
+    is_row = isinstance(value, np.ndarray) and value.ndim > 0
+    if not is_row and isinstance(value, (SupportsFloat, str)):
         return [frequency(name, value)]
     try:
         entries = list(value)
     except TypeError:
         entries = [value]
+    if not entries:
+        raise BadInput(f"{name}: found no number")
     return [frequency(name, entry) for entry in entries]
 
 
@@ -162,5 +167,5 @@ def _between(name: str, value: Any, ends: tuple[float, float], must: str) -> flo
         raise BadInput(f"{name}: found {value!r}, {must}") from None
     low, high = ends
     if not low <= found <= high:
-        raise BadInput(f"{name}: found {found}, {must}")
+        raise BadInput(f"{name}: found {found}, {must}", numbers={"found": found, "low": low, "high": high})
     return found

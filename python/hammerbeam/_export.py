@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import BadInput
+from ._errors import BadInput, ExportError
 from ._tables import Array, needed
 
 NATIVE = ("csv", "json", "npz")
@@ -22,8 +22,11 @@ def checked(format: Any) -> str:
 
 def write(tables: Mapping[str, Array], format: str, folder: Path, name: str) -> list[Path]:
     """Writes tables in a format; one file each in those that hold one table."""
-    folder.mkdir(parents=True, exist_ok=True)
-    return WRITERS[format](tables, folder, name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        return WRITERS[format](tables, folder, name)
+    except OSError as error:
+        raise ExportError(f"{folder}: {error.strerror or error}") from error
 
 
 def _mat(tables: Mapping[str, Array], folder: Path, name: str) -> list[Path]:

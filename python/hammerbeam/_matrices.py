@@ -1,6 +1,6 @@
 """Structures from arrays: the files of a study of kind "matrices"."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _native
 from ._check import whole
-from ._errors import BadInput
+from ._errors import BadInput, StudyError
 from ._toml import study_text
 
 
@@ -27,9 +27,16 @@ def write_bundle(
 
     Returns the study file.
     """
+    for name in ("M", "K"):
+        if matrices[name] is None:
+            raise BadInput(f"{name}: found None, must be a square matrix")
     entries = {name: _entries(name, matrix) for name, matrix in matrices.items() if matrix is not None}
+    for name, given in entries.items():
+        _refuse_unsymmetric(name, *given)
     size = entries["K"][0]
     named = {str(name): whole(f"points[{name!r}]", row, 0, max(size - 1, 0)) for name, row in _items(points)}
+    if isinstance(fixed, (str, bytes)) or not isinstance(fixed, Iterable):
+        raise BadInput(f"fixed: found {fixed!r}, must be a list of rows")
     held = [whole("fixed", row, 0, max(size - 1, 0)) for row in fixed]
     keys = {"K": "stiffness", "M": "mass", "C": "damping"}
     structure: dict[str, Any] = {"kind": "matrices"}
@@ -41,7 +48,10 @@ def write_bundle(
     if extra is not None:
         structure |= dict(_items(extra))
     text = study_text({**tables, "structure": structure})
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"folder: {folder}: {error.strerror or error}") from error
     for name, (rows, lines, columns, values) in entries.items():
         shape = (rows, rows)
         _native.write_matrix(
@@ -64,7 +74,8 @@ Entries = tuple[int, np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any,
 
 def _entries(name: str, matrix: Any) -> Entries:
     if hasattr(matrix, "tocoo"):
-        sparse = matrix.tocoo()
+        # A copy: entries of one place are summed, and the matrix stays as it was given.
+        sparse = matrix.tocoo(copy=True)
         sparse.sum_duplicates()
         shape, rows, columns, values = sparse.shape, sparse.row, sparse.col, sparse.data
     else:
@@ -87,3 +98,42 @@ def _entries(name: str, matrix: Any) -> Entries:
         np.ascontiguousarray(columns, dtype="<i8"),
         np.ascontiguousarray(values, dtype="<f8"),
     )
+
+
+_SYMMETRIC = 1e-6
+"""Mirrored entries may differ by this part of `sqrt(a_ii a_jj)` and of themselves, as in files of matrices."""
+
+
+def _refuse_unsymmetric(
+    name: str, size: int, rows: np.ndarray[Any, Any], columns: np.ndarray[Any, Any], values: np.ndarray[Any, Any]
+) -> None:
+    """Refuses what the reader of files would take for one triangle of a symmetric matrix: an array has both.
+
+    An entry whose mirrored one is missing stands against 0.
+    """
+    diagonal = np.zeros(size)
+    diagonal[rows[rows == columns]] = np.sqrt(np.abs(values[rows == columns]))
+    places, mirrors = rows * size + columns, columns * size + rows
+    order = np.argsort(places, kind="stable")
+    at = np.minimum(np.searchsorted(places[order], mirrors), max(len(places) - 1, 0))
+    found = places[order][at] == mirrors
+    mirrored = np.where(found, values[order][at], 0.0)
+    with np.errstate(invalid="ignore", over="ignore"):
+        sizes = np.maximum(np.abs(values), np.abs(mirrored))
+        allowed = _SYMMETRIC * np.maximum(diagonal[rows] * diagonal[columns], sizes)
+        faults = np.flatnonzero(np.abs(values - mirrored) > allowed)
+    if len(faults):
+        first = int(faults[0])
+        numbers = {
+            "row": int(rows[first]) + 1,
+            "column": int(columns[first]) + 1,
+            "value": float(values[first]),
+            "mirrored": float(mirrored[first]),
+        }
+        place = f"row {numbers['row']}, column {numbers['column']}"
+        raise StudyError(
+            f"{name}: matrix {name} is not symmetric: {place} is {numbers['value']!r}, "
+            f"and mirrored {numbers['mirrored']!r}",
+            name="NotSymmetric",
+            numbers=numbers,
+        )

@@ -38,12 +38,17 @@ def framed(ax: Any, x: str, y: str) -> Any:
     return ax
 
 
+def checked_quantity(quantity: Any) -> tuple[str, str]:
+    """Column and label of a quantity that can be drawn."""
+    if not isinstance(quantity, str) or quantity not in QUANTITIES:
+        raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
+    return QUANTITIES[quantity]
+
+
 def response(table: Array, quantity: str, ax: Any, title: str) -> Any:
     """Branches over the frequency: a colour for each period, dashes for unstable solutions, marks for
     events."""
-    if quantity not in QUANTITIES:
-        raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
-    column, label = QUANTITIES[quantity]
+    column, label = checked_quantity(quantity)
     ax = framed(axes(ax), "Frequency (Hz)", label)
     known: set[int] = set()
     for number in np.unique(table["branch"]):

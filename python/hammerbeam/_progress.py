@@ -84,8 +84,9 @@ def watched(progress: Progress) -> Iterator[tuple[Report | None, Callable[[str],
         yield progress, _warn
         return
     if progress is None:
-        progress = _in_notebook() or sys.stderr.isatty()
-    if not progress:
+        # Without a console there is no standard error.
+        progress = _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
+    if not progress or (sys.stderr is None and not _in_notebook()):
         yield None, _warn
         return
     shown: _Terminal | _Notebook = _Notebook() if _in_notebook() else _Terminal()

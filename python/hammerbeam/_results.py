@@ -8,7 +8,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import _check, _export, _plot
+from ._errors import BadInput, DrawingError
 from ._native import NativeResults
 from ._orbits import MOST_SAMPLES, Orbits
 from ._progress import Progress, interruptible, watched
@@ -44,7 +47,8 @@ class Results:
     """
 
     def __init__(self, folder: AnyPath, *, report: Mapping[str, Any] | None = None) -> None:
-        self._native = NativeResults.open(_check.folder("folder", folder))
+        # Absolute: the folder stays the same when the working directory changes.
+        self._native = NativeResults.open(_check.folder("folder", folder).absolute())
         self.report = report
 
     @property
@@ -100,7 +104,11 @@ class Results:
         `"grazing"`."""
         frequencies = [] if frequency_hz is None else _check.numbers("frequency_hz", frequency_hz)
         events = [] if event is None else _check.words("event", event)
-        return Orbits(self._native.orbits(_numbers(branch), frequencies, events))
+        if not frequencies and not events:
+            raise BadInput("orbits: which are meant is missing; allowed: frequency_hz, event, or both")
+        if (numbers := _numbers(branch)) is None:
+            numbers = [_NO_BRANCH]
+        return Orbits(self._native.orbits(numbers, frequencies, events))
 
     def frame(self, branch: Branches = None) -> Any:
         """The branches as a data frame of pandas."""
@@ -134,11 +142,21 @@ class Results:
         return [folder / name for name in names]
 
     def svg(self, quantity: str = "displacement") -> str:
-        """The response diagram as drawn by Hammerbeam itself, as SVG."""
+        """The response diagram as drawn by Hammerbeam itself, as SVG.
+
+        * `quantity`: as in `plot`.
+        """
+        _plot.checked_quantity(quantity)
+        drawn = self._svg(quantity)
+        if drawn is None:
+            raise DrawingError(f"there is no diagram of {quantity}: the results have no branches with it")
+        return drawn
+
+    def _svg(self, quantity: str) -> str | None:
         with tempfile.TemporaryDirectory(prefix="hammerbeam-") as folder:
             files = self.draw(folder, kinds="response", formats="svg", progress=False)
             wanted = [path for path in files if path.name == f"response_{quantity}.svg"]
-            return wanted[0].read_text(encoding="utf-8") if wanted else ""
+            return wanted[0].read_text(encoding="utf-8") if wanted else None
 
     def page(self) -> Page:
         """The page, drawn if it is not there yet."""
@@ -167,6 +185,8 @@ class Results:
         """Writes orbits with their motion at all points, states and multipliers, in the formats of
         `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
+        if not isinstance(orbits, Orbits):
+            raise BadInput(f"orbits: found {orbits!r}, must be Orbits, as `orbits` gives them, and not a part")
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
@@ -192,7 +212,8 @@ class Results:
         self.close()
 
     def _table(self, name: str, branch: Branches) -> Array:
-        [packed] = self._native.tables(name, _numbers(branch))
+        numbers = _numbers(branch)
+        [packed] = self._native.tables(name, [_NO_BRANCH] if numbers is None else numbers)
         return array(packed)
 
     def __repr__(self) -> str:
@@ -203,11 +224,18 @@ class Results:
         return f"<Results {self.folder}: {solutions} solutions on {len(branches)} branches>"
 
     def _repr_svg_(self) -> str | None:
-        return None if self.closed else self.svg()
+        return None if self.closed else self._svg("displacement")
 
 
-def _numbers(branch: Branches) -> list[int]:
+_NO_BRANCH = 2**32 - 1
+"""The number of no branch: no numbers at all mean every branch to the extension."""
+
+
+def _numbers(branch: Any) -> list[int] | None:
+    """Numbers of branches; an empty list for all of them, `None` for none of them."""
     if branch is None:
         return []
-    many = branch if isinstance(branch, Sequence) and not isinstance(branch, str) else [branch]
-    return [_check.whole("branch", one, 1, 2**32 - 1) for one in many]
+    if isinstance(branch, np.ndarray) and branch.ndim == 1:
+        branch = list(branch)
+    many = branch if isinstance(branch, Sequence) and not isinstance(branch, (str, bytes)) else [branch]
+    return [_check.whole("branch", one, 1, _NO_BRANCH) for one in many] or None

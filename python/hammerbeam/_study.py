@@ -1,9 +1,8 @@
 """Studies, and what can be asked of them."""
 
 import json
-import shutil
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _check
+from ._bundle import Bundle
 from ._errors import BadInput, Interrupted, NoResult
 from ._matrices import write_bundle
 from ._motions import Basins, Exponents, ForcedTime, Motion, Sweep
@@ -61,7 +61,12 @@ class Study:
     same call goes on from there.
     """
 
-    def __init__(self, native: NativeStudy, bundle: "tempfile.TemporaryDirectory[str] | None" = None) -> None:
+    def __init__(self, native: NativeStudy, bundle: Bundle | None = None) -> None:
+        if not isinstance(native, NativeStudy):
+            raise BadInput(
+                f"found {native!r}; a study is made by Study.read(path), Study.parse(text), "
+                "Study.from_dict(tables) or Study.from_matrices(M, K, ...)"
+            )
         self._native, self._bundle = native, bundle
 
     @classmethod
@@ -114,13 +119,8 @@ class Study:
         matrices = {"K": K, "M": M, "C": C}
         if folder is not None:
             return cls.read(write_bundle(_check.folder("folder", folder), matrices, points, fixed, tables))
-        bundle = tempfile.TemporaryDirectory(prefix="hammerbeam-")
-        try:
-            path = write_bundle(Path(bundle.name), matrices, points, fixed, tables)
-            return cls(NativeStudy.read(path), bundle)
-        except BaseException:
-            bundle.cleanup()
-            raise
+        bundle = Bundle(matrices, points, fixed, tables)
+        return cls(bundle.study(), bundle)
 
     @property
     def text(self) -> str:
@@ -132,7 +132,21 @@ class Study:
 
         * `settings`: values by keys such as `stop.1.gap_m`; a text may have its unit, as in `"2 mm"`.
         """
+        if not isinstance(settings, Mapping):
+            raise BadInput(f"settings: found {settings!r}, must be a dictionary of values by keys")
         return self._native.text_with([_check.setting(key, value) for key, value in settings.items()])
+
+    def with_values(self, settings: Mapping[str, Any]) -> "Study":
+        """The study with other values of its keys, on the same structure.
+
+        * `settings`: as in `text_with`.
+
+        Matrices of `from_matrices` are shared, and kept as long as one of the studies is there.
+        """
+        text = self.text_with(settings)
+        if self._bundle is None:
+            return Study(NativeStudy.parse(self._native.name, text))
+        return Study(self._bundle.study(text), self._bundle)
 
     @property
     def title(self) -> str:
@@ -181,6 +195,8 @@ class Study:
         """
         folder = _check.folder("out", out)
         native = self._placed(folder)
+        if isinstance(start_from, (str, bytes, PathLike)) or not isinstance(start_from, Iterable):
+            raise BadInput(f"start_from: found {start_from!r}, must be a list of folders")
         folders = [str(_check.folder("start_from", one)) for one in start_from]
         asked = (folder, folders, _check.jobs(jobs), bool(figures))
         kept = f"what was computed is kept in {folder}, the same call goes on from there"
@@ -456,11 +472,9 @@ class Study:
     def _placed(self, out: Path | None) -> NativeStudy:
         """The study, with matrices that are somewhere temporary copied to its results, which go on being
         read."""
-        if self._bundle is None or out is None or (out / "results.db").exists():
+        if self._bundle is None or out is None:
             return self._native
-        folder = out / "structure"
-        shutil.copytree(self._bundle.name, folder, dirs_exist_ok=True)
-        return NativeStudy.read(folder / "study.toml")
+        return self._bundle.placed(self.text, out)
 
     def __repr__(self) -> str:
         return f"<Study {self.title or self._native.name!r}, {self.dof} modes>"

@@ -15,7 +15,7 @@ from typing import Any
 import hammerbeam
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, STUDIES
 from hammerbeam import batch
 from hammerbeam.batch import Batch, Local, Parameters, Status, Task
 
@@ -332,3 +332,51 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
     assert running.returncode != 0 and "the same call goes on from there" in said
     assert 4 <= planned.counts().finished < 400
     assert planned.counts().failed == 0
+
+
+def test_what_a_batch_is_not_made_of(tmp_path: Path) -> None:
+    from hammerbeam import BadInput
+
+    file = tmp_path / "file"
+    file.write_text("")
+    table = Parameters.grid({"stop.1.gap_m": [0.1]})
+    study = STUDIES / "duffing.toml"
+    calls: list[Any] = [
+        lambda: Parameters.grid(3),  # type: ignore[arg-type]
+        lambda: Parameters.grid({"a": 3}),  # type: ignore[dict-item]
+        lambda: Parameters.parse(3),  # type: ignore[arg-type]
+        lambda: table.column("b"),
+        lambda: Task.basins(0.2, 5, ("v1", -1, 1)),
+        lambda: Task.simulate(float("nan")),
+        lambda: Task.simulate("fast"),  # type: ignore[arg-type]
+        lambda: Task.simulate(()),  # type: ignore[arg-type]
+        lambda: Batch.plan(tmp_path / "batch", study, [1]),  # type: ignore[arg-type]
+        lambda: Batch.plan(tmp_path / "batch", study, table, "run"),  # type: ignore[arg-type]
+        lambda: Batch.plan(file, study, table),
+        lambda: batch.Dask(None),
+    ]
+    for number, call in enumerate(calls):
+        with pytest.raises(BadInput):
+            pytest.fail(f"call {number} gives {call()!r}")
+
+
+def test_a_task_takes_numbers_of_numpy() -> None:
+
+    task = Task.simulate(np.float32(0.25), periods=np.int64(20), initial=np.zeros(2))
+    plain = {"frequency_hz": 0.25, "periods": 20, "initial": [0.0, 0.0]}
+    assert task.document()["options"] == plain and Task.from_document(task.document()) == task
+
+
+def test_damaged_files_are_named_and_are_not_finished(tmp_path: Path) -> None:
+    from hammerbeam import BadInput
+
+    table = Parameters.grid({"structure.mass.1.mass_kg": [1.0, 2.0]})
+    planned = Batch.plan(tmp_path / "batch", STUDIES / "duffing.toml", table)
+    item = planned.item(1)
+    item.results.mkdir()
+    (item.results / "results.db").write_text("")
+    item.report.write_text('{"numbers": {')
+    assert item.status() is Status.STARTED
+    (tmp_path / "batch/batch.json").write_text("{")
+    with pytest.raises(BadInput, match=r"batch\.json is damaged"):
+        Batch(tmp_path / "batch")

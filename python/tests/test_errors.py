@@ -96,12 +96,55 @@ def test_words_and_exit_codes_are_those_of_the_command(
     assert words in " ".join(told.stderr.split())
 
 
-def test_an_unsymmetric_matrix_is_refused_with_file_and_line() -> None:
-    mass, stiffness = chain(4)
-    stiffness[0, 1] = 7.0
-    with pytest.raises(hammerbeam.StudyError, match="K.mtx") as raised:
-        Study.from_matrices(mass, stiffness, points={"tip": 3}, reduction={"method": "none"})
-    assert "symmetric" in str(raised.value)
+@pytest.mark.parametrize("name", ["M", "K", "C"])
+@pytest.mark.parametrize("keep", [np.triu, np.tril, lambda whole: whole + np.diag([1.0, 0.0, 0.0], 1)])
+@pytest.mark.parametrize("sparse", [False, True])
+def test_an_unsymmetric_matrix_is_refused_with_its_place(
+    name: str, keep: Callable[[np.ndarray], np.ndarray], sparse: bool
+) -> None:
+    _, stiffness = chain(4)
+    given = {"M": stiffness, "K": stiffness, "C": stiffness}
+    given[name] = keep(stiffness)
+    if sparse:
+        scipy_sparse = pytest.importorskip("scipy.sparse")
+        given = {key: scipy_sparse.csr_array(matrix) for key, matrix in given.items()}
+    with pytest.raises(hammerbeam.StudyError, match=f"matrix {name} is not symmetric") as raised:
+        Study.from_matrices(**given, points={"tip": 3}, reduction={"method": "none"})
+    numbers = raised.value.numbers
+    assert raised.value.name == "NotSymmetric" and numbers["value"] != numbers["mirrored"]
+    assert sorted([numbers["row"], numbers["column"]])[1] <= 4
+
+
+def test_rounding_does_not_make_a_matrix_unsymmetric_and_the_matrix_stays_as_it_was() -> None:
+    sparse = pytest.importorskip("scipy.sparse")
+    rows, columns = [0, 0, 0, 1, 1], [0, 0, 1, 0, 1]
+    stiffness = sparse.coo_array(([150.0, 150.0, -100.0, -100.0 * (1 + 1e-12), 100.0], (rows, columns)))
+    study = Study.from_matrices(np.eye(2), stiffness, points={"tip": 1}, reduction={"method": "none"})
+    assert study.dof == 2 and stiffness.nnz == 5
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"K": None}, "K: found None"),
+        ({"M": None}, "M: found None"),
+        ({"fixed": 1}, "must be a list of rows"),
+        ({"fixed": "a"}, "must be a list of rows"),
+        ({"folder": Path(__file__)}, "folder: "),
+    ],
+)
+def test_what_is_given_with_matrices(given: dict[str, Any], words: str) -> None:
+    mass, stiffness = chain(2)
+    arguments = {"M": mass, "K": stiffness, "points": {"tip": 1}, "reduction": {"method": "none"}, **given}
+    with pytest.raises(BadInput, match=words):
+        Study.from_matrices(**arguments)
+
+
+def test_a_study_is_not_made_of_a_file_name() -> None:
+    with pytest.raises(BadInput, match=r"Study\.read"):
+        Study("duffing.toml")  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match="settings"):
+        Study.from_dict(OSCILLATOR).text_with([("stop", 1)])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -159,6 +202,15 @@ def test_errors_carry_their_numbers(duffing: Study) -> None:
     assert raised.value.numbers == {"from_hz": 0.3, "to_hz": 0.2}
     again = pickle.loads(pickle.dumps(raised.value))
     assert again.numbers == raised.value.numbers and str(again) == str(raised.value)
+
+
+def test_ranges_are_numbers_of_the_error(duffing: Study) -> None:
+    with pytest.raises(BadInput) as raised:
+        duffing.orbits(0.25, 65)
+    assert raised.value.numbers == {"found": 65, "low": 1, "high": 64}
+    with pytest.raises(BadInput) as raised:
+        duffing.orbits(1e11)
+    assert raised.value.numbers == {"found": 1e11, "low": 1e-10, "high": 1e10}
 
 
 def test_a_warning_is_one() -> None:

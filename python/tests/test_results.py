@@ -153,3 +153,46 @@ def test_rows_come_into_numpy_without_a_copy() -> None:
     table = array(("branches", fields, len(rows), data))
     assert len(table) == len(rows)
     assert np.shares_memory(table, np.frombuffer(data, dtype=np.uint8))
+
+
+def test_rows_and_numbers_may_be_arrays(results: Results) -> None:
+    assert len(results.orbits(np.array([0.25, 0.3]))) == len(results.orbits([0.25, 0.3]))
+    assert len(results.branches(np.array([1]))) == len(results.branches(1)) > 0
+    assert len(results.branches([])) == 0
+    for call in (lambda: results.orbits(branch=1), lambda: results.orbits([])):
+        with pytest.raises(hammerbeam.BadInput, match="missing|no number"):
+            call()
+
+
+def test_a_folder_stays_the_same_when_the_working_directory_changes(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder.parent)
+    results = Results(folder.name)
+    monkeypatch.chdir(tmp_path)
+    assert len(results.orbits(0.25)) == 3 and results.folder == folder
+
+
+def test_a_diagram_that_is_not_there(duffing: hammerbeam.Study, results: Results, tmp_path: Path) -> None:
+    with pytest.raises(hammerbeam.BadInput, match="no quantity 'bang'"):
+        results.svg("bang")
+    duffing.simulate(0.25, periods=2, out=tmp_path / "motion", progress=False)
+    motions = Results(tmp_path / "motion")
+    assert motions._repr_svg_() is None
+    with pytest.raises(hammerbeam.DrawingError, match="no diagram"):
+        motions.svg("force")
+
+
+@pytest.mark.parametrize("format", ["csv", "json", "npz", "mat", "parquet", "hdf5"])
+def test_an_export_into_a_file_is_refused(results: Results, tmp_path: Path, format: str) -> None:
+    pytest.importorskip({"mat": "scipy", "parquet": "pyarrow", "hdf5": "h5py"}.get(format, "numpy"))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(hammerbeam.ExportError):
+        results.export(format, tmp_path / "file")
+    with pytest.raises(hammerbeam.BadInput, match="orbits"):
+        results.export_orbits(results.orbits(0.25)[:1], format, tmp_path)  # type: ignore[arg-type]
+
+
+def test_folders_to_start_from_are_a_list(duffing: hammerbeam.Study, tmp_path: Path) -> None:
+    with pytest.raises(hammerbeam.BadInput, match="start_from.*list"):
+        duffing.run(tmp_path / "out", start_from="abc", progress=False)

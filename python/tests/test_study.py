@@ -1,8 +1,10 @@
 """Studies and what is asked of them: numbers known in closed form, printed, or asserted by the tests in
 Rust."""
 
+import gc
 import math
 import threading
+import warnings
 from pathlib import Path
 
 import hammerbeam
@@ -94,6 +96,78 @@ def test_a_chain_from_matrices_has_its_eigenfrequencies(sparse: bool, tmp_path: 
     orbit = hammerbeam.Results(results.folder).orbits(0.02)[0]
     assert "tip_force_n" not in (orbit.waveform(8).dtype.names or ())
     assert any(name.endswith("_force_n") for name in orbit.waveform(8).dtype.names or ())
+
+
+def matrices_with_a_stop(stiffness_n_m: float = 100.0) -> Study:
+    """Two masses, the outer one with a stop that it reaches."""
+    return Study.from_matrices(
+        np.diag([2.0, 1.0]),
+        np.array([[300.0, -stiffness_n_m], [-stiffness_n_m, 100.0]]),
+        points={"base": 0, "tip": 1},
+        excitation={"kind": "force", "at": "base", "amplitude_n": 1.0, "frequency_hz": [1.0, 1.2]},
+        damping={"modal_ratio": 0.02},
+        reduction={"method": "none"},
+        search={"frequencies": 2, "starts": 1, "trials": 1},
+        stop=[{"at": "tip", "law": "linear", "stiffness_n_m": 1e4, "gap_m": 0.02, "side": "above"}],
+    )
+
+
+def test_results_of_matrices_are_readable_after_the_same_call_again(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    # What a call leaves that was stopped while it copied the matrices.
+    (out / "structure").mkdir(parents=True)
+    (out / "structure/K.mtx").write_text("%%MatrixMarket")
+    tables = []
+    for _ in range(2):
+        matrices_with_a_stop().run(out, jobs=1, progress=False, figures=False).close()
+        with hammerbeam.Results(out) as results:
+            tables.append(results.branches())
+            assert len(results.orbits(1.1)) > 0
+    np.testing.assert_array_equal(*tables)
+    with pytest.raises(hammerbeam.BadInput, match="belongs to other matrices"):
+        matrices_with_a_stop(90.0).run(out, jobs=1, progress=False, figures=False)
+    with hammerbeam.Results(out) as results:
+        np.testing.assert_array_equal(results.branches(), tables[0])
+
+
+def test_an_interrupted_run_of_matrices_goes_on(tmp_path: Path) -> None:
+    class Enough(Exception):
+        pass
+
+    def stop(part: float | None, words: str) -> None:
+        raise Enough
+
+    out = tmp_path / "out"
+    with pytest.raises(Enough):
+        matrices_with_a_stop().run(out, jobs=1, progress=stop, figures=False)
+    matrices_with_a_stop().run(out, jobs=1, progress=False, figures=False).close()
+    with hammerbeam.Results(out) as results:
+        assert len(results.branches()) > 0 and "K.mtx" in results.study.text
+
+
+def test_a_study_with_other_values_keeps_the_matrices(tmp_path: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        study = matrices_with_a_stop()
+        folder = study._bundle.folder if study._bundle is not None else tmp_path
+        other = study.with_values({"stop.1.gap_m": 0.03})
+        del study
+        gc.collect()
+        assert "gap_m = 0.03" in other.text and other.dof == 2
+        # (300 - 2 w)(100 - w) = 100^2 for the square w of the angular frequency: 50 and 200.
+        expected = np.sqrt([50.0, 200.0]) / (2 * math.pi)
+        np.testing.assert_allclose(other.modes().frequency_hz, expected, rtol=1e-12)
+        other.simulate(1.1, periods=2, out=tmp_path / "out", progress=False)
+        assert (tmp_path / "out/structure/K.mtx").is_file()
+        del other
+        gc.collect()
+        assert not folder.exists()
+
+
+def test_a_study_of_a_file_with_other_values(duffing: Study) -> None:
+    other = duffing.with_values({"structure.mass.1.mass_kg": 4.0})
+    ratio = other.modes().frequency_hz / duffing.modes().frequency_hz
+    np.testing.assert_allclose(ratio, 0.5, rtol=1e-12)
 
 
 def test_a_damping_matrix_counts(tmp_path: Path) -> None:

@@ -22,6 +22,9 @@ const CORRELATED: f64 = 0.45;
 /// Points of a stroboscopic section that are kept.
 const MOST_POINTS: usize = 4096;
 
+/// Values that the 0-1 test takes: its work grows with their square, and a thousand are usual.
+const MOST_TESTED: usize = 10_000;
+
 /// What is asked of exponents.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExponentsRequest {
@@ -301,7 +304,7 @@ impl<'a> Motion<'a> {
             map.check_opens(average.state(), WATCHED_PERIODS)?;
         }
         let Some(spectrum) = average.spectrum() else { return Ok((None, false)) };
-        let series: Vec<f64> = states.iter().map(|state| state[0]).collect();
+        let series: Vec<f64> = states.iter().take(MOST_TESTED).map(|state| state[0]).collect();
         let record = ExponentRecord {
             frequency_hz,
             sections_per_period: parts,

@@ -17,6 +17,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 
+from .. import _check
 from .._errors import BadInput, HammerbeamError
 from ._batch import Batch
 from ._folder import Status, read_json
@@ -42,7 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         place = f"{error.filename}: " if error.filename else ""
         print(f"error: {place}{error.strerror or error}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
+        print(str(error) or "interrupted; what was computed is kept", file=sys.stderr)
         return 130
 
 
@@ -111,6 +113,7 @@ def _slurm(given: argparse.Namespace, rest: Sequence[str]) -> int:
 
 def _items(batch: Batch, which: Sequence[str], jobs: int) -> int:
     """Computes items: 0 if all are finished, else the exit code of the last one that failed."""
+    jobs = _check.whole("--jobs", jobs, 1, _check.MOST_JOBS)
     code = 0
     for number in _numbers(which, len(batch)):
         status = batch.compute(number, jobs)

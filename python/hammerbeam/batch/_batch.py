@@ -51,7 +51,10 @@ class Batch:
         if document.get("version") != _VERSION:
             message = f"{plan} has the version {document.get('version')}, this program reads {_VERSION}"
             raise BadInput(message)
-        self.task = Task.from_document(document["task"])
+        try:
+            self.task = Task.from_document(document["task"])
+        except (KeyError, TypeError) as error:
+            raise BadInput(f"{plan} is damaged: it has no task") from error
         self.parameters = Parameters.read(self.folder / "parameters.csv")
 
     @classmethod
@@ -63,7 +66,13 @@ class Batch:
         Every study is read as the command reads it, so a key or a value that is not allowed raises
         `StudyError` here. A folder that holds the same batch already is opened.
         """
+        if not isinstance(parameters, Parameters):
+            raise BadInput(f"parameters: found {parameters!r}, must be Parameters")
+        if task is not None and not isinstance(task, Task):
+            raise BadInput(f"task: found {task!r}, must be a Task")
         place = _check.folder("folder", folder).absolute()
+        if any(path.is_file() for path in (place, *place.parents)):
+            raise BadInput(f"folder: {place} is a file, or lies in one; must be a folder")
         given = study.placed(place) if isinstance(study, Study) else Study.read(study)
         wanted = Task.run() if task is None else task
         plan = {"version": _VERSION, "task": wanted.document()}
@@ -124,7 +133,7 @@ class Batch:
     def failures(self) -> dict[int, str]:
         """Why items failed, by their numbers."""
         failed = (number for number, status in enumerate(self.statuses(), 1) if status is Status.FAILED)
-        return {number: read_json(self.item(number).failure)["message"] for number in failed}
+        return {number: str(read_json(self.item(number).failure).get("message")) for number in failed}
 
     def run(
         self, engine: Engine | None = None, *, attempts: int = 3, progress: Progress = None

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .._errors import BadInput
+
 ITEMS_A_FOLDER = 100
 """Items that share a folder below `items`: ten thousand of them are a hundred folders of a hundred."""
 
@@ -87,11 +89,22 @@ class ItemFolder:
     def status(self) -> Status:
         """How far it is."""
         database = self.results / "results.db"
-        if self.report.is_file() and database.is_file():
+        if database.is_file() and _is_whole(self.report):
             return Status.FINISHED
         if self.failure.is_file():
             return Status.FAILED
         return Status.STARTED if database.is_file() else Status.MISSING
+
+
+def _is_whole(report: Path) -> bool:
+    """Whether a report is there and ends as it was written; the whole of it is read only when gathered."""
+    try:
+        with report.open("rb") as file:
+            file.seek(0, os.SEEK_END)
+            file.seek(max(file.tell() - 2, 0))
+            return file.read() == b"}\n"
+    except OSError:
+        return False
 
 
 def write_whole(path: Path, text: str) -> None:
@@ -115,5 +128,13 @@ def write_json(path: Path, document: Any) -> None:
 
 
 def read_json(path: Path) -> Any:
-    """Plain data from a file."""
-    return json.loads(path.read_text(encoding="utf-8"))
+    """Plain data from a file, a dictionary; `BadInput` with its name where the file is damaged."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from error
+    except ValueError as error:
+        raise BadInput(f"{path} is damaged: {error}") from error
+    if not isinstance(document, dict):
+        raise BadInput(f"{path} is damaged: it holds no table")
+    return document

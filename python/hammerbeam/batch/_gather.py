@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _check
-from .._errors import BadInput
+from .._errors import BadInput, WriteError
 from .._plot import axes, framed
 from .._results import Results
 from .._tables import Array, frame
@@ -79,8 +79,11 @@ class Gathered:
     def write(self, folder: str | PathLike[str] | None = None) -> list[Path]:
         """Writes `gathered.csv`, and `gathered.svg` with matplotlib, into the batch folder by default."""
         place = self.batch.folder if folder is None else _check.folder("folder", folder)
-        place.mkdir(parents=True, exist_ok=True)
-        write_whole(place / "gathered.csv", self.text())
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            write_whole(place / "gathered.csv", self.text())
+        except OSError as error:
+            raise WriteError(f"{place}: {error.strerror or error}") from error
         files = [place / "gathered.csv"]
         try:
             drawn = self.plot()
@@ -100,7 +103,7 @@ class Gathered:
             if quantity is None
             else quantity
         )
-        if chosen not in self.quantities:
+        if not isinstance(chosen, str) or chosen not in self.quantities:
             raise BadInput(f"there is no quantity {chosen!r}; found: {', '.join(self.quantities) or 'none'}")
         drawn, values = axes(ax), self.table[chosen]
         varied = [key for key in self.batch.parameters.keys if len(set(self.table[key].tolist())) > 1]

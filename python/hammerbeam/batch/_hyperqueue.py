@@ -70,7 +70,12 @@ class HyperQueue:
     def _by_package(self, batch: "Batch", numbers: Sequence[int], logs: Path) -> None:
         package, output = needed("hyperqueue", "hyperqueue"), needed("hyperqueue.output", "hyperqueue")
         resources = needed("hyperqueue.ffi.protocol", "hyperqueue").ResourceRequest(cpus=self.cpus)
-        client = package.Client(self.server_dir) if self.client is None else self.client
+        try:
+            client = package.Client(self.server_dir) if self.client is None else self.client
+        except Exception as error:
+            place = "" if self.server_dir is None else f" in {self.server_dir}"
+            words = str(error).strip().splitlines()
+            raise BadInput(f"there is no HyperQueue server{place}: {words[0] if words else error!r}") from None
         job = package.Job(name=batch.folder.name, max_fails=None)
         for number in numbers:
             job.program(

@@ -44,6 +44,11 @@ class Parameters:
     @classmethod
     def grid(cls, values: Mapping[str, Iterable[Any]]) -> "Parameters":
         """All combinations of values, the last key changing fastest."""
+        if not isinstance(values, Mapping):
+            raise BadInput(f"values: found {values!r}, must be a dictionary of lists by keys")
+        for key, column in values.items():
+            if isinstance(column, (str, bytes)) or not isinstance(column, Iterable):
+                raise BadInput(f"{key}: found {column!r}, must be a list of values")
         return cls(list(values), itertools.product(*(list(column) for column in values.values())))
 
     @classmethod
@@ -79,6 +84,8 @@ class Parameters:
     @classmethod
     def parse(cls, text: str) -> "Parameters":
         """The same from a text."""
+        if not isinstance(text, str):
+            raise BadInput(f"text: found {text!r}, must be a text of comma-separated values")
         lines = [row for row in csv.reader(StringIO(text), skipinitialspace=True) if row]
         if not lines:
             raise BadInput("the table of parameters is empty; its first line has the keys")
@@ -93,6 +100,8 @@ class Parameters:
 
     def column(self, key: str) -> "np.ndarray[Any, np.dtype[Any]]":
         """The values of a key: numbers if all are, else texts."""
+        if key not in self.keys:
+            raise BadInput(f"there is no column {key!r}; allowed: {', '.join(self.keys)}")
         texts = [row[self.keys.index(key)] for row in self.rows]
         try:
             return np.array([float(text) for text in texts])

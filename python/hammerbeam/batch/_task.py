@@ -2,10 +2,13 @@
 
 import inspect
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from .. import _check
 from .._errors import BadInput
@@ -34,6 +37,8 @@ class Task:
             raise BadInput(f"{self.method!r} cannot be computed for many studies")
         _check.whole("parts", self.parts, 1, 100_000)
         allowed = inspect.signature(getattr(Study, self.method)).parameters
+        plain = {name: _plain(name, value) for name, value in self.options.items()}
+        object.__setattr__(self, "options", plain)
         for name in self.options:
             if name in _OWN or name not in allowed:
                 known = ", ".join(other for other in allowed if other not in _OWN)
@@ -64,8 +69,11 @@ class Task:
     @classmethod
     def basins(cls, frequency_hz: float, x: Any, y: Any, *, parts: int = 1, **options: Any) -> "Task":
         """Basins of attraction, also by parts."""
-        axes = {"x": list(x), "y": list(y)}
-        return cls("basins", {"frequency_hz": frequency_hz, **axes, **options}, parts)
+        for name, axis in (("x", x), ("y", y)):
+            if isinstance(axis, str) or not isinstance(axis, Sequence):
+                must = "must be (NAME, LOW, HIGH), as in ('q1', -1e-3, 1e-3)"
+                raise BadInput(f"{name}: found {axis!r}, {must}")
+        return cls("basins", {"frequency_hz": frequency_hz, "x": x, "y": y, **options}, parts)
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> "Task":
@@ -106,3 +114,18 @@ class Task:
         if isinstance(found, Results):
             found.close()
         return dict(found.report)
+
+
+def _plain(name: str, value: Any) -> Any:
+    """An option as plain data, which is kept as JSON: numbers of NumPy as numbers, arrays as lists."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if name == "frequency_hz" and value is not None:
+        return _check.frequency(name, value)
+    if isinstance(value, Mapping):
+        return {str(key): _plain(name, entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(name, entry) for entry in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        raise BadInput(f"{name}: found {value}, must be a finite number")
+    return value

@@ -1,5 +1,7 @@
 //! Motions that need not repeat by columns: in time, settled ones, exponents, basins.
 
+use hammerbeam_attractor::{Attractor, Estimate, fractions};
+
 use super::{ArrayTable, ArrayValues, named, or_nan, or_none};
 use crate::{
     export::grid,
@@ -25,7 +27,7 @@ pub fn motion_tables(store: &Store) -> Result<Vec<ArrayTable>, StoreError> {
 }
 
 /// The tables of a request, with the columns of their CSV files: `samples`, `contacts`, `stroboscopic`;
-/// `sweep`, `sweep_samples`; `spectra`, `exponents`; or `basins`.
+/// `sweep`, `sweep_samples`; `spectra`, `exponents`; or `basins`, `attractors`.
 ///
 /// # Errors
 /// [`StoreError`].
@@ -35,15 +37,41 @@ pub fn request_tables(store: &Store, request: &RequestRecord) -> Result<Vec<Arra
         RequestKind::Sweep | RequestKind::Starts => Ok(settled(&store.settled(request.id)?)),
         RequestKind::Exponents => Ok(exponents(&store.exponents(request.id)?)),
         RequestKind::Basins => {
-            let (cells, _) = store.basins(request.id)?;
+            let (cells, found) = store.basins(request.id)?;
             let grid = grid(request)?;
             let places: Vec<[f64; 2]> = (0..cells.len()).map(|cell| grid.place(cell)).collect();
             let along = |axis: usize| ArrayValues::Numbers(places.iter().map(|place| place[axis]).collect());
             let attractors = ArrayValues::Whole(cells.iter().map(|&cell| cell.into()).collect());
             let columns = named([("x", along(0)), ("y", along(1)), ("attractor", attractors)]);
-            Ok(vec![ArrayTable::new("basins", columns)])
+            Ok(vec![ArrayTable::new("basins", columns), attractor_table(&cells, &found)])
         }
     }
+}
+
+/// Attractors of a grid, with the first state of each: `[q; q']` at phase 0. Branches are not known here.
+fn attractor_table(cells: &[u32], attractors: &[Attractor]) -> ArrayTable {
+    let shares = fractions(cells, attractors.len());
+    let share = |of: &dyn Fn(&Estimate) -> f64| ArrayValues::Numbers(shares.iter().skip(1).map(of).collect());
+    let number = |of: &dyn Fn(&Attractor) -> Option<f64>| {
+        ArrayValues::Numbers(attractors.iter().map(|attractor| or_nan(of(attractor))).collect())
+    };
+    let class = attractors.iter().map(|attractor| attractor.class.name().into());
+    let period = attractors.iter().map(|attractor| or_none(attractor.class.period()));
+    let states: Vec<Vec<f64>> = attractors.iter().map(|attractor| attractor.states[0].clone()).collect();
+    ArrayTable::new(
+        "attractors",
+        named([
+            ("attractor", ArrayValues::Whole((1..).take(attractors.len()).collect())),
+            ("class", ArrayValues::Words(class.collect())),
+            ("period", ArrayValues::Whole(period.collect())),
+            ("fraction", share(&|share| share.value)),
+            ("standard_error", share(&|share| share.half_width)),
+            ("largest_exponent_per_s", number(&|attractor| Some(attractor.largest_exponent?.value))),
+            ("zero_one_k", number(&|attractor| attractor.zero_one)),
+            ("branch", ArrayValues::Whole(vec![-1; attractors.len()])),
+            ("state", ArrayValues::vectors(&states)),
+        ]),
+    )
 }
 
 /// Samples, contacts and the stroboscopic section of a motion in time.
@@ -155,6 +183,7 @@ fn settled(motions: &[SettledMotion]) -> Vec<ArrayTable> {
             ("largest_exponent_per_s", number(&|motion| Some(motion.point.largest_exponent?.value))),
             ("half_width_per_s", number(&|motion| Some(motion.point.largest_exponent?.half_width))),
             ("zero_one_k", number(&|motion| motion.point.zero_one)),
+            ("branch", ArrayValues::Whole(vec![-1; motions.len()])),
         ]),
     );
     let each =

@@ -181,7 +181,9 @@ impl StudyFile {
         for file in matrices.files() {
             let path = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
             // A literal string takes any path but one with a quote.
-            text = text.replace(&format!("\"{}\"", file.written), &format!("'{}'", path.display()));
+            let whole = format!("'{}'", path.display());
+            text = text.replace(&format!("\"{}\"", file.written), &whole);
+            text = text.replace(&format!("'{}'", file.written), &whole);
         }
         text
     }
