@@ -200,11 +200,11 @@ fn measured_points_are_compared_with_an_output() {
         }
     }
     fs::write(workshop.path("points.csv"), table).unwrap();
-    let compare = |output: &str| {
-        let arguments = ["compare", "results", "points.csv", "--output", output, "--out", "held", "--json"];
-        workshop.hammerbeam(&arguments)
+    let compare = |output: &str, more: &[&str]| {
+        let arguments = ["compare", "results", "points.csv", "--output", output, "--out", "held"];
+        workshop.hammerbeam(&[&arguments[..], more].concat())
     };
-    let found = compare("press");
+    let found = compare("press", &["--json"]);
     assert_success(&found);
     let document: Value = serde_json::from_str(&stdout(&found)).unwrap();
     let fit = &document["comparisons"][0];
@@ -212,7 +212,10 @@ fn measured_points_are_compared_with_an_output() {
     let value = |key: &str| fit[key]["value"].as_f64().unwrap();
     assert!((value("frequency_factor") - 1.05).abs() < 1e-3, "{fit}");
     assert!((value("amplitude_factor") - 2.0).abs() < 1e-2, "{fit}");
-    assert_bad_input(&compare("nothing"), &["no output \"nothing\"", "travel, mass, acceleration, press"]);
+    assert_bad_input(
+        &compare("nothing", &[]),
+        &["no output \"nothing\"", "travel, mass, acceleration, press"],
+    );
 }
 
 #[test]

@@ -4,8 +4,8 @@
 //! A flight and a force step are smooth from their start to their end, a force step in the variable `s` of
 //! its grading (`collocation.rs`). A flight is also cut into panels of at most [`PANEL_RADIANS`] of whatever
 //! moves fastest, a mode or a harmonic of the load. With `z = 2` radians from the middle of a panel to its
-//! end the polynomial through [`PANEL_NODES`] Gauss nodes leaves `(z/2)^N/N!` of a wave, 5e-14, and the rule
-//! integrates products of two waves to rounding.
+//! end the polynomial through [`PANEL_NODES`] Gauss nodes leaves at most `(2 z)^N/N!/C(2 N, N)` of a wave,
+//! 3.4e-13 at an end and less inside, and the rule integrates products of two waves to rounding.
 //!
 //! A force step is short enough for the motion, to which its force counts as an integral; the force itself,
 //! and the acceleration with it, may end like `t^1.5` where the step is not graded. There panels are halved

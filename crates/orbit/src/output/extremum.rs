@@ -124,7 +124,9 @@ mod tests {
         panel_rule().map(|(s, _)| of(s))
     }
 
-    /// `cos(4 s - p)`, the fastest wave of a panel: its extremum is 1 inside, else the larger end value.
+    /// `cos(4 s - p)`, the fastest wave of a panel: its extremum is 1 inside, else the larger end value. At
+    /// an end the polynomial is off by `4^16/16!/C(32, 16)` at most, 3.4e-13: the product of the distances to
+    /// the nodes is `1/C(32, 16)` there.
     #[test]
     fn extrema_of_the_fastest_wave_are_the_closed_form_for_every_phase() {
         for phase in (0..628).map(|k| 0.01 * f64::from(k)) {
@@ -136,8 +138,8 @@ mod tests {
             let ends = [(phase).cos(), (4.0 - phase).cos()];
             let high = if passes(0.0) { 1.0 } else { ends[0].max(ends[1]) };
             let low = if passes(std::f64::consts::PI) { -1.0 } else { ends[0].min(ends[1]) };
-            assert!((maximum - high).abs() < 2e-13, "{phase}: {maximum} {high}");
-            assert!((minimum - low).abs() < 2e-13, "{phase}: {minimum} {low}");
+            assert!((maximum - high).abs() < 3.5e-13, "{phase}: {maximum} {high}");
+            assert!((minimum - low).abs() < 3.5e-13, "{phase}: {minimum} {low}");
         }
     }
 
@@ -155,6 +157,7 @@ mod tests {
     fn what_was_larger_before_stays() {
         assert_eq!(extrema(&nodal(|s| s), [-3.0, 5.0]), [-3.0, 5.0]);
         let [minimum, maximum] = extrema(&nodal(|s| s), NONE);
-        assert!(minimum.abs() < 1e-15 && (maximum - 1.0).abs() < 1e-15, "{minimum} {maximum}");
+        // Sums of sixteen terms of order 1, with factors up to 31.
+        assert!(minimum.abs() < 1e-14 && (maximum - 1.0).abs() < 1e-14, "{minimum} {maximum}");
     }
 }
