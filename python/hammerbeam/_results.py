@@ -76,6 +76,10 @@ class Results:
         """One row per solution: `state`, `[q; q']` at `phase_cycles`, and all `multipliers`, complex."""
         return self._table("states", branch)
 
+    def outputs(self, branch: Branches = None) -> Array:
+        """One row per solution and `[[output]]` of the study: extrema, mean, root mean square, harmonics."""
+        return self._table("outputs", branch)
+
     def varied(self) -> dict[str, Array]:
         """`parameter_branches` and `curves`, as far as the study asks for them."""
         return {packed[0]: array(packed) for packed in self._native.tables("varied", [])}
@@ -151,7 +155,8 @@ class Results:
         """
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         if _export.checked(format) in _export.WRITERS:
-            names = ["branches", "events", "ends", *(["states"] if states else []), "varied", "motions"]
+            more = [*(["states"] if states else []), *(["outputs"] if len(self.outputs()) else [])]
+            names = ["branches", "events", "ends", *more, "varied", "motions"]
             tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
             return _export.write(tables, format, folder, "results")
         return [Path(path) for path in self._native.export(format, folder, bool(states))]

@@ -49,6 +49,16 @@ pub struct CompareOptions {
     #[arg(long, value_name = "NAME", requires = "out")]
     pub point: Option<String>,
 
+    /// Compare with an output of the study ([[output]]): measured values of its quantity with its largest
+    /// magnitudes; needs --out, as --point does
+    #[arg(
+        long,
+        value_name = "NAME",
+        requires = "out",
+        conflicts_with_all = ["point", "quantity", "low_pass"]
+    )]
+    pub output: Option<String>,
+
     /// Put the branches behind the low-pass filter of the measurement (Butterworth)
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub low_pass: Option<f64>,

@@ -17,7 +17,7 @@ use crate::common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
-    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
+    PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
     PageSolution, PageStop, PageStructure, ResponseQuantity, SectionPlane,
 };
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
@@ -31,7 +31,9 @@ const RANGE: &str = "frequency_hz = [30.0, 40.0]";
 /// The beam between 30 and 40 Hz, computed, with the number of its branches.
 fn results() -> (Workshop, Value) {
     let beam = crate::common::BEAM.replace("trials = 0", "frequencies = 12\ntrials = 0");
-    let workshop = Workshop::changed(&beam, "frequency_hz = [19.0, 110.0]", RANGE);
+    let output = "\n[[output]]\nname = \"push\"\nstop = \"stop 1\"\nfigures = [\"maximum\", \"mean\"]\n";
+    let study = beam.replacen("frequency_hz = [19.0, 110.0]", RANGE, 1) + output;
+    let workshop = Workshop::with(&study);
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     assert_success(&run);
     let document: Value = serde_json::from_str(&stdout(&run)).unwrap();
@@ -192,6 +194,7 @@ fn odd_pages(workshop: &Workshop) -> Value {
             vec!["measured, periodic", "chaotic motion", "Poincaré section", "50 points at phase 0"],
             "the orbit of",
         ),
+        ("a mesh", of_a_mesh(), 1, vec!["Displacements are drawn", "larger than lengths"], "the orbit of"),
     ];
     let write = |(name, page, branches, says, orbit): (&str, Page, usize, Vec<&str>, &str)| {
         let path = workshop.path(&format!("{}.html", name.replace(' ', "-")));
@@ -199,6 +202,22 @@ fn odd_pages(workshop: &Workshop) -> Value {
         json!({ "name": name, "path": path, "branches": branches, "says": says, "orbit": orbit })
     };
     pages.into_iter().map(write).collect()
+}
+
+/// The page with everything, whose structure is a mesh: a square that two modes bend out of its plane.
+fn of_a_mesh() -> Page {
+    let still = || [vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]];
+    let moving = |first: f64, second: f64| [vec![0.0; 2], vec![0.0; 2], vec![first, second]];
+    let mesh = PageMesh {
+        nodes: vec![[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.1, 0.1, 0.0], [0.0, 0.1, 0.0]],
+        shapes: vec![still(), moving(1.0, 0.0), moving(0.0, 1.0), still()],
+        support_ratios: (0..4).map(|_| [vec![0.0], vec![0.0], vec![1.0]]).collect(),
+        lines: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+        places: vec![Some(1), Some(2)],
+    };
+    let mut page = everything();
+    page.structure.as_mut().unwrap().mesh = Some(mesh);
+    page
 }
 
 /// A branch of that period, which runs straight over all frequencies at a height of its own.
@@ -314,6 +333,7 @@ fn everything() -> Page {
             eigenfrequencies_hz: vec![12.0, 25.0],
             supports: vec!["ground".to_owned()],
             ground: Some(0),
+            mesh: None,
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 12e-3 }],
         chaotic_ranges_hz: vec![(14.0, 16.0), (28.0, 28.0)],

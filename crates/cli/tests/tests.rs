@@ -26,6 +26,7 @@ mod kills;
 mod marginal;
 mod memory;
 mod motions;
+mod outputs;
 mod overlay;
 mod page;
 mod parameters;

@@ -40,6 +40,7 @@ mod linear;
 mod motions;
 mod multipliers;
 pub mod orbit;
+mod outputs;
 mod page;
 mod parameter;
 mod response;
@@ -91,7 +92,7 @@ fn draw_kind(
     match kind {
         FigureKind::Structure => draw_linear(drawn, file, model),
         FigureKind::Response => response::draw(store, file, selection, drawn)?,
-        FigureKind::Vary => varied::draw(store, selection.scale, drawn)?,
+        FigureKind::Vary => varied::draw(store, file, selection.scale, drawn)?,
         FigureKind::Curves => curves::draw(store, drawn)?,
         FigureKind::Multipliers => multipliers::draw(store, drawn)?,
         FigureKind::Orbits => {

@@ -4,12 +4,16 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    DrawnMode, ExcitationDiagram, Figure, FigureError, ModeDiagram, ReducedMode, ReductionDiagram, Style,
+    DrawnMode, ExcitationDiagram, Figure, FigureError, MeshMode, MeshModeDiagram, ModeDiagram, ReducedMode,
+    ReductionDiagram, Style,
 };
-use hammerbeam_structure::{FrequencyError, ModeTables};
+use hammerbeam_structure::{FrequencyError, MeshShape, ModeTables};
 use hammerbeam_study::{
     Model, Study, StudyFile,
-    file::{ActingForce, End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure},
+    file::{
+        ActingForce, End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, StopRest, Structure,
+        SupportDrive,
+    },
 };
 
 use crate::{Album, structure::sketch};
@@ -21,13 +25,33 @@ const ROWS: u32 = 200;
 pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
     let (study, tables) = (&file.study, &model.tables);
     drawn.add("structure", sketch(study, drawn.frequency_unit()));
-    drawn.add("modes", modes(study, model, &drawn.narrow()));
+    let shapes = match &model.mesh {
+        Some(mesh) => mesh_modes(study, model, mesh, &drawn.narrow()),
+        None => modes(study, model, &drawn.narrow()),
+    };
+    drawn.add("modes", shapes);
     if !tables.frequency_errors.is_empty() {
         drawn.add_unless_empty("reduction", reduction(&study.title, tables, &drawn.narrow()));
     }
     if let Some(harmonic) = study.excitation.harmonic() {
         drawn.add("excitation", excitation(&study.title, harmonic, &drawn.narrow()));
     }
+}
+
+/// The mode shapes of a mesh.
+fn mesh_modes(study: &Study, model: &Model, mesh: &MeshShape, style: &Style) -> Result<Figure, FigureError> {
+    let rates = model.system.model().natural_frequencies.iter();
+    let mode = |(number, rate): (usize, &f64)| MeshMode {
+        frequency_hz: rate / TAU,
+        shape: mesh.nodes.iter().map(|node| [0, 1, 2].map(|axis: usize| node.shape[axis][number])).collect(),
+    };
+    let diagram = MeshModeDiagram {
+        title: study.title.clone(),
+        nodes: mesh.nodes.iter().map(|node| node.place).collect(),
+        lines: mesh.lines.clone(),
+        modes: rates.enumerate().map(mode).collect(),
+    };
+    diagram.draw(style)
 }
 
 /// The mode shapes.
@@ -149,8 +173,15 @@ fn excitation(title: &str, excitation: &HarmonicExcitation, style: &Style) -> Re
         }
         ExcitationKind::SupportMotions { supports } => {
             names.extend(supports.iter().map(|support| support.at.join(", ")));
-            let of = |amplitude: f64| frequencies.iter().map(|f| amplitude * rate(*f)).collect();
-            supports.iter().map(|support| of(support.amplitude_m)).collect()
+            let of = |drive: &SupportDrive| match drive {
+                SupportDrive::Displacement(amplitude) => {
+                    frequencies.iter().map(|f| amplitude.at(*f) * rate(*f)).collect()
+                }
+                SupportDrive::Acceleration(amplitude) => {
+                    frequencies.iter().map(|f| amplitude.at(*f)).collect()
+                }
+            };
+            supports.iter().map(|support| of(&support.drive)).collect()
         }
         ExcitationKind::Force { amplitude_n, .. } => {
             vec![frequencies.iter().map(|f| amplitude_n.at(*f)).collect()]

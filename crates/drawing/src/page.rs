@@ -5,6 +5,7 @@ mod gallery;
 mod irregular;
 mod measured;
 mod orbits;
+mod outputs;
 mod shape;
 mod solution;
 mod varied;
@@ -55,6 +56,7 @@ pub fn draw(
     };
     energies(store, (&records, &stored), &model.system.model().natural_frequencies, &mut page.branches)?;
     varied::add(store, &mut page)?;
+    page.outputs = outputs::of_branches(store, file, &page.branches)?;
     let most = page.room_for_orbits();
     page.orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
     if !drawn.is_stopped() {

@@ -1,13 +1,16 @@
 //! Response diagrams over the frequency.
 
 use hammerbeam_figure::{
-    ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
+    OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings,
+    ScaleChoice,
 };
 use hammerbeam_orbit::{BranchEventKind, Stability};
 use hammerbeam_results::{Store, StoreError, row::Row};
 use hammerbeam_study::StudyFile;
 
-use crate::{Album, DrawingError, Drawn, FigureScale, FigureSelection, motions::chaotic_ranges};
+use crate::{
+    Album, DrawingError, Drawn, FigureScale, FigureSelection, motions::chaotic_ranges, outputs::shown_outputs,
+};
 
 /// Quantities of response diagrams, with the words that files have for them.
 const FIGURES: [(&str, ResponseQuantity); 4] = [
@@ -32,6 +35,13 @@ pub fn draw(
         let settings =
             ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
         drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
+    }
+    let branches = store.branches()?;
+    let settings = ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
+    for shown in shown_outputs(store, file)? {
+        let name = format!("response_output_{}", shown.file_name());
+        let figure = shown.draw(store, &branches, &diagram, &settings)?;
+        drawn.add_unless_empty(&name, figure);
     }
     Ok(())
 }
@@ -83,6 +93,7 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, Stor
         frequency_range_hz: Some((low, high)),
         chaotic_ranges_hz: chaotic_ranges(store)?,
         measured: Vec::new(),
+        output: OutputAxis::default(),
     })
 }
 
@@ -95,6 +106,7 @@ pub fn point(row: &Row) -> ResponsePoint {
         acceleration_m_s2: row.maxima.acceleration,
         contact_force_n: row.maxima.contact_force,
         impact_velocity_m_s: row.maxima.impact_velocity,
+        output: f64::NAN,
         stable: row.stability.may_be_stable(),
         marginal: row.stability == Stability::Marginal,
         fold: has(BranchEventKind::Fold),

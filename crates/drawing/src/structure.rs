@@ -61,6 +61,7 @@ fn sketched_beam(beam: &Beam) -> SketchBeam {
         has_spring: point.spring_n_m > 0.0,
         has_damper: point.damper_n_s_m > 0.0,
         has_rotational: point.rotational_spring_n_m_rad > 0.0 || point.rotational_damper_n_m_s_rad > 0.0,
+        support: end(point.support),
     };
     SketchBeam {
         length_m: beam.length_m,

@@ -2,15 +2,23 @@
 
 use hammerbeam_figure::{ResponseCurve, ResponseDiagram};
 use hammerbeam_results::{Store, StoreError, store::PieceRecord};
+use hammerbeam_study::StudyFile;
 
 use crate::{
     Album, DrawingError, FigureScale,
+    outputs::shown_outputs,
     parameter::{axis_label, file_name},
     response::{point, quantities, settings},
 };
 
 /// Draws every `[[vary]]` of the study.
-pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> Result<(), DrawingError> {
+pub fn draw(
+    store: &Store,
+    file: &StudyFile,
+    scale: FigureScale,
+    drawn: &mut impl Album,
+) -> Result<(), DrawingError> {
+    let shown = shown_outputs(store, file)?;
     for piece in
         store.pieces()?.into_iter().filter(|piece| !piece.kind.is_curve() && !piece.branches.is_empty())
     {
@@ -27,6 +35,12 @@ pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> Result
         for (word, quantity) in quantities(&diagram.curves) {
             let name = format!("vary_{}_{}_{word}", piece.place, file_name(&piece.parameter));
             drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale, drawn)));
+        }
+        for shown in &shown {
+            let place = format!("vary_{}_{}", piece.place, file_name(&piece.parameter));
+            let name = format!("{place}_output_{}", shown.file_name());
+            let figure = shown.draw(store, &piece.branches, &diagram, &settings(scale, drawn))?;
+            drawn.add_unless_empty(&name, figure);
         }
     }
     Ok(())

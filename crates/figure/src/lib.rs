@@ -82,6 +82,7 @@ mod layer;
 mod legend;
 mod line;
 mod marks;
+mod mesh_diagram;
 mod mode_diagram;
 mod motion;
 mod motion_section;
@@ -111,6 +112,7 @@ pub use excitation_diagram::ExcitationDiagram;
 pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
 pub use figure::Figure;
 pub use frequency_unit::FrequencyUnit;
+pub use mesh_diagram::{MeshMode, MeshModeDiagram};
 pub use mode_diagram::{DrawnMode, ModeDiagram};
 pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
@@ -118,13 +120,13 @@ pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample};
 pub use page::{
     MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageImpulse,
-    PageLink, PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure, SectionPlane,
+    PageLink, PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageOutput, PageParameter,
+    PagePlace, PageSection, PageSolution, PageStop, PageStructure, SectionPlane,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
-    MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,
-    ResponseSettings,
+    MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,
+    ResponseQuantity, ResponseSettings,
 };
 pub use scale::ScaleChoice;
 pub use structure_diagram::{

@@ -21,7 +21,8 @@ mod orbits;
 mod packed;
 
 pub use content::{
-    Page, PageBranch, PageLink, PageParameter, PagePlace, PageSolution, PageStop, PageStructure,
+    Page, PageBranch, PageLink, PageMesh, PageOutput, PageParameter, PagePlace, PageSolution, PageStop,
+    PageStructure,
 };
 pub use figures::{PageFigure, PageFigures};
 pub use measured::{PageMeasured, PageMeasuredPoint};

@@ -12,8 +12,8 @@ mod quantity;
 mod spread;
 
 pub use data::{
-    MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,
-    ResponseSettings,
+    MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,
+    ResponseQuantity, ResponseSettings,
 };
 
 use crate::{error::FigureError, figure::Figure};

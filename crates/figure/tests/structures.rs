@@ -135,6 +135,23 @@ fn every_end_and_every_kind_of_stop_has_a_symbol_on_the_page() {
 }
 
 #[test]
+fn supports_between_the_ends_have_a_symbol_each_whether_or_not_they_move() {
+    let style = Style::single_column();
+    let mut drawn: Vec<String> = Vec::new();
+    for moving in [&[][..], &["middle"]] {
+        for support in ENDS {
+            let mut diagram = beam(SketchEnd::Pinned, SketchEnd::Pinned, moving, Vec::new());
+            let SketchLayout::Beam(beam) = &mut diagram.layout else { panic!("it is a beam") };
+            beam.points[0].support = support;
+            let figure = diagram.draw(&style).unwrap();
+            assert_on_the_page(&figure);
+            assert!(!drawn.contains(&figure.svg()), "{support:?} looks like another support");
+            drawn.push(figure.svg());
+        }
+    }
+}
+
+#[test]
 fn a_stop_above_and_one_below_are_different_pictures_and_so_are_their_carriers() {
     let style = Style::single_column();
     let svg = |carrier: SketchCarrier, above: bool, has_gap: bool| {

@@ -65,6 +65,11 @@ impl StoredBranches {
         &self.branches
     }
 
+    /// The store they are in.
+    pub(crate) fn store(&self) -> &Store {
+        &self.store
+    }
+
     /// The range of the frequency [Hz] of each branch that is wanted, of those that have a solution.
     pub fn ranges(&self, wanted: impl Fn(&BranchRecord) -> bool) -> Vec<(f64, f64)> {
         let range = |branch: &StoredBranch| {

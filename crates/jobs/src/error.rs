@@ -54,6 +54,9 @@ pub enum JobError {
     /// Measured points cannot be compared.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),
+    /// An output that a results folder does not hold.
+    #[error("the results hold no output \"{name}\"; {}", known_outputs(known))]
+    NoOutput { name: String, known: Vec<String> },
     /// A special point that a results folder does not have.
     #[error("{} has no special point {number}: it has {count}, numbered from 1", results.display())]
     NoSpecialPoint { results: PathBuf, number: u32, count: u32 },
@@ -118,5 +121,13 @@ impl JobError {
             stopped @ (Self::Stopped { .. } | Self::Interrupted { .. } | Self::TablesInterrupted) => stopped,
             other => Self::Stopped { source: Box::new(other), done },
         }
+    }
+}
+
+/// Which outputs there are, in words.
+fn known_outputs(known: &[String]) -> String {
+    match known {
+        [] => "they have none: `hammerbeam run` computes those of [[output]]".to_owned(),
+        _ => format!("they have {}", known.join(", ")),
     }
 }

@@ -13,6 +13,8 @@
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
 //! | [`simulate`], [`sweep`], [`exponents`], [`basins`] | motions in time, settled ones over the frequency, their exponents, where motions from a grid of states lead |
+//! | [`outputs`] | what is read off stored orbits besides their rows |
+//! | `piece_parameter` | the parameter over which a stored piece runs |
 //! | `walk` | one side of a branch or curve in stretches that are committed together, and taken up again |
 //! | `branch` | the same row by row, for whoever follows a branch by hand |
 //! | [`orbits`] | all periodic solutions at one frequency |
@@ -55,7 +57,9 @@ pub mod orbit_history;
 mod orbit_solver;
 mod orbit_waveform;
 pub mod orbits;
+pub mod outputs;
 mod part;
+mod piece_parameter;
 pub mod pool;
 mod prepared;
 mod request;

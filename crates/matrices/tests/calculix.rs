@@ -28,6 +28,7 @@ fn bar() -> Matrices {
         supports: Vec::new(),
         fixed: Vec::new(),
         acceleration: None,
+        lines: Vec::new(),
         memory_limit_bytes: 1 << 30,
     }
 }

@@ -39,6 +39,7 @@ fn modes(components: Vec<MatrixComponent>, cut_off_hz: f64) -> Reduced {
         supports: Vec::new(),
         fixed: Vec::new(),
         acceleration: None,
+        lines: Vec::new(),
         memory_limit_bytes: 1 << 30,
     };
     let reduction = Reduction::Truncation { cut_off_hz };

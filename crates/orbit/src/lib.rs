@@ -40,6 +40,7 @@
 //! - `arrival.rs`: whether a motion has come to a stable orbit that is known
 //! - `curve/`: curves of folds, flips, Neimark-Sacker points and grazing in two parameters
 //! - `free.rs`: free motion of an undamped system: the amplitude is given, the frequency unknown
+//! - `output.rs`, `output/`: extrema, means and harmonics of motions and contact forces over an orbit
 //! - `settings.rs`, `solution.rs`, `event_kind.rs`, `error.rs`: what goes in and what comes out
 //!
 //! # Stability
@@ -111,6 +112,7 @@ mod located;
 mod matching;
 mod neighbour;
 mod noise;
+mod output;
 mod probe;
 mod reach;
 mod recompute;
@@ -147,6 +149,7 @@ pub use linear_contact::linear_contact_ranges;
 pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use matching::{Matcher, mirror_image, states_at_phase};
 pub use neighbour::neighbouring_orbit;
+pub use output::{OrbitSignal, SignalStatistics, TimeDerivative, read_orbit};
 pub use probe::{ProbeStarts, probe};
 pub use reach::reach_orbit;
 pub use recompute::recompute;

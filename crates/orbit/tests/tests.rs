@@ -21,6 +21,7 @@ mod grazing_rows;
 mod impact_at_phase_0;
 mod multipliers;
 mod neimark_sacker;
+mod outputs;
 mod own_images;
 mod pressed_start;
 mod probe;

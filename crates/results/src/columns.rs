@@ -46,6 +46,17 @@ pub enum TableColumn {
     Phase,
     State,
     Multipliers,
+    OutputName,
+    OutputQuantity,
+    OutputUnit,
+    OutputMaximum,
+    OutputMinimum,
+    OutputLargest,
+    OutputPeakToPeak,
+    OutputMean,
+    OutputRootMeanSquare,
+    OutputAmplitudes,
+    OutputPhases,
 }
 
 /// What a row has in a column.
@@ -162,6 +173,27 @@ impl TableColumn {
                 "the state `q1 .. qn v1 .. vn` there; `simulate --initial` takes it where its phase is 0",
             ),
             Self::Multipliers => ("multipliers", "all multipliers, as `re+imi` with blanks between them"),
+            Self::OutputName => ("output", "name of the `[[output]]`"),
+            Self::OutputQuantity => {
+                ("quantity", "what is read: `displacement`, `velocity`, `acceleration` or `force`")
+            }
+            Self::OutputUnit => ("unit", "unit of the numbers from `maximum` to `amplitudes`"),
+            Self::OutputMaximum => ("maximum", "largest value over the orbit"),
+            Self::OutputMinimum => ("minimum", "smallest value over the orbit"),
+            Self::OutputLargest => ("max_abs", "largest absolute value"),
+            Self::OutputPeakToPeak => ("peak_to_peak", "largest value less smallest value"),
+            Self::OutputMean => ("mean", "mean over the orbit"),
+            Self::OutputRootMeanSquare => ("rms", "root of the mean square, the mean included"),
+            Self::OutputAmplitudes => (
+                "amplitudes",
+                "amplitudes of the orders `1/n`, `2/n`, ... of the excitation frequency, n being the period \
+                 multiple",
+            ),
+            Self::OutputPhases => (
+                "phases_rad",
+                "their phases `p`: a harmonic is `amplitude cos(2 pi (j/n) x + p)` at the phase x of the \
+                 excitation in cycles",
+            ),
         }
     }
 }

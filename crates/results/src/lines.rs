@@ -3,14 +3,17 @@
 
 use std::borrow::Cow;
 
-use hammerbeam_orbit::{BranchEventKind, ContactChange, EventStatus, LocatedEvent, Side, Stability};
+use hammerbeam_orbit::{
+    BranchEventKind, ContactChange, EventStatus, LocatedEvent, Side, SignalStatistics, Stability,
+};
+use hammerbeam_study::file::OutputEntry;
 
 use crate::{
     columns::{RowValue, TableColumn},
     end_text::{BranchOver, NOT_FINISHED, sentence},
     export::{TableLines, TableOver},
     row::Row,
-    store::{BranchRecord, PieceRecord, Store, StoreError, solution_key},
+    store::{BranchRecord, PieceRecord, Store, StoreError, StoredOutputs, solution_key},
 };
 
 /// What a line has in a column.
@@ -83,11 +86,12 @@ impl OwnedBranch<'_> {
             TableLines::Events => self.each_event(store, take),
             TableLines::Ends => self.each_end(store, take),
             TableLines::States => self.each_state(store, take),
+            TableLines::Outputs => self.each_output(store, take),
         }
     }
 
     fn line(&self, row: Row) -> Line<'_> {
-        Line { of: self, number: 0, side: Side::Up, row, event: None, point: None }
+        Line { of: self, number: 0, side: Side::Up, row, event: None, point: None, output: None }
     }
 
     fn each_row<E: From<StoreError>>(
@@ -145,6 +149,26 @@ impl OwnedBranch<'_> {
         }
         Ok(())
     }
+
+    /// A line for each output of each row that has its numbers.
+    fn each_output<E: From<StoreError>>(
+        &self,
+        store: &Store,
+        mut take: impl FnMut(&Line<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let outputs = StoredOutputs::of(store)?;
+        let mut next = 0;
+        store.each_placed_row::<E>(self.branch, |placed| {
+            let number = next;
+            next += 1;
+            let key = solution_key(self.branch.start, placed.side, placed.number);
+            let values = outputs.values(key, self.branch.period_multiple)?;
+            for (output, statistics) in outputs.outputs().iter().zip(values.unwrap_or_default()) {
+                take(&Line { number, output: Some((output, statistics)), ..self.line(placed.row) })?;
+            }
+            Ok(())
+        })
+    }
 }
 
 fn point_at(store: &Store, key: i64) -> Result<(Row, Point), StoreError> {
@@ -173,6 +197,7 @@ pub(crate) struct Line<'a> {
     row: Row,
     event: Option<LocatedEvent>,
     point: Option<Point>,
+    output: Option<(&'a OutputEntry, SignalStatistics)>,
 }
 
 impl Line<'_> {
@@ -188,6 +213,7 @@ impl Line<'_> {
             .or_else(|| self.of_branch(column))
             .or_else(|| self.of_point(column))
             .or_else(|| self.of_event(column))
+            .or_else(|| self.of_output(column))
             .unwrap_or(Cell::None)
     }
 
@@ -240,6 +266,26 @@ impl Line<'_> {
             TableColumn::SymmetryBreaking => Some(Cell::Flag(event.breaks_symmetry)),
             _ => None,
         }
+    }
+
+    fn of_output(&self, column: TableColumn) -> Option<Cell> {
+        let (output, statistics) = self.output.as_ref()?;
+        let harmonics =
+            |of: fn(&[f64; 2]) -> f64| Cell::Numbers(statistics.harmonics.iter().map(of).collect());
+        Some(match column {
+            TableColumn::OutputName => Cell::Words(output.name.clone().into()),
+            TableColumn::OutputQuantity => Cell::Words(output.quantity.word().into()),
+            TableColumn::OutputUnit => Cell::Words(output.quantity.unit().into()),
+            TableColumn::OutputMaximum => Cell::Number(statistics.maximum),
+            TableColumn::OutputMinimum => Cell::Number(statistics.minimum),
+            TableColumn::OutputLargest => Cell::Number(statistics.largest()),
+            TableColumn::OutputPeakToPeak => Cell::Number(statistics.peak_to_peak()),
+            TableColumn::OutputMean => Cell::Number(statistics.mean),
+            TableColumn::OutputRootMeanSquare => Cell::Number(statistics.root_mean_square),
+            TableColumn::OutputAmplitudes => harmonics(|[re, im]| re.hypot(*im)),
+            TableColumn::OutputPhases => harmonics(|[re, im]| im.atan2(*re)),
+            _ => return None,
+        })
     }
 }
 

@@ -90,7 +90,7 @@ pub use reduction::Reduction;
 pub use section::Section;
 pub use sparse::{
     Along, Direction, Entry, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport,
-    MatrixSurvey, PointPlace, RowKind, RowLabel, RowSet, SupportRows, SymmetricMatrix,
+    MatrixSurvey, MeshNode, MeshShape, PointPlace, RowKind, RowLabel, RowSet, SupportRows, SymmetricMatrix,
 };
 pub use structure::Structure;
 pub use tables::{FlexibilityError, FrequencyError, ModeTables};

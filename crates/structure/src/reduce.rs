@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use faer::Mat;
 
 use crate::{
-    Damping, FlexibilityError, ModeTables, PointOutput, ReducedModel, Reduction, Structure, StructureError,
-    SupportInput,
+    Damping, FlexibilityError, MeshShape, ModeTables, PointOutput, ReducedModel, Reduction, Structure,
+    StructureError, SupportInput,
     assembly::times,
     error::finite,
     modes::Modes,
@@ -25,6 +25,8 @@ pub struct Reduced {
     pub tables: ModeTables,
     /// The shape of the whole structure: of a beam its nodes, of a lumped structure its masses.
     pub outline: Vec<OutlinePoint>,
+    /// The mesh of a structure of matrices that has lines.
+    pub mesh: Option<MeshShape>,
 }
 
 /// A place of a structure and how it moves, for drawing the structure as a whole: `y = shape . q +
@@ -70,7 +72,7 @@ impl Structure {
         let model = self.modal_form(frequencies, &shapes, &support_shapes, damping)?;
         let mut tables = self.tables(&full, &model, reduction, basis);
         tables.flexibility_errors = self.flexibility_errors(&full, &model, interface);
-        Ok(Reduced { model, tables, outline })
+        Ok(Reduced { model, tables, outline, mesh: None })
     }
 
     fn outline(&self, shapes: &Mat<f64>, support_shapes: &Mat<f64>) -> Vec<OutlinePoint> {

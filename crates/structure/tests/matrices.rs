@@ -25,6 +25,7 @@ fn of_matrices(stiffness: SymmetricMatrix, mass: SymmetricMatrix) -> Matrices {
             precision: 1.2e-16,
         }],
         nodes: BTreeMap::new(),
+        lines: Vec::new(),
         points: Vec::new(),
         supports: Vec::new(),
         fixed: Vec::new(),

@@ -3,7 +3,9 @@
 //! Title, budgets and comments are not part of it; a default that is written out is the same as one that is
 //! not.
 
-use crate::file::Study;
+use std::borrow::Cow;
+
+use crate::file::{Matrices, MatrixPointEntry, Place, Structure, Study};
 
 /// Version of the computed data: counted up when the same study gives other numbers, so that a results folder
 /// is never continued with another program's numbers.
@@ -13,11 +15,32 @@ impl Study {
     /// Everything the solutions depend on, as text: one `path = value` line for each number and word.
     #[must_use]
     pub fn canonical(&self) -> String {
-        let value = serde_json::to_value(self).expect("a study is plain data with text keys");
+        let value =
+            serde_json::to_value(self.without_idle_points()).expect("a study is plain data with text keys");
         let mut lines = Vec::new();
         flatten("", &value, &mut lines);
         lines.sort_unstable();
         lines.join("\n")
+    }
+
+    /// The study without the points of a structure of matrices at which nothing acts and nothing is observed
+    /// but outputs: they change neither modes nor motions.
+    fn without_idle_points(&self) -> Cow<'_, Self> {
+        let Structure::Matrices(matrices) = &self.structure else { return Cow::Borrowed(self) };
+        let mut used: Vec<&str> = self.force_points().chain([self.response.point.as_str()]).collect();
+        for stop in &self.stops {
+            match &stop.place {
+                Place::At { point, .. } => used.push(point),
+                Place::Between { first, second } => used.extend([first.as_str(), second]),
+            }
+        }
+        let is_used = |point: &MatrixPointEntry| used.contains(&point.name.as_str());
+        if matrices.points.iter().all(is_used) {
+            return Cow::Borrowed(self);
+        }
+        let points = matrices.points.iter().filter(|point| is_used(point)).cloned().collect();
+        let structure = Structure::Matrices(Matrices { points, ..matrices.clone() });
+        Cow::Owned(Self { structure, ..self.clone() })
     }
 
     /// 128-bit fingerprint of [`Study::canonical`], as 32 hexadecimal digits.

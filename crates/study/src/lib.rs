@@ -45,6 +45,6 @@ pub use identity::DATA_VERSION;
 pub use model::matrix_study;
 pub use model::{
     Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
-    UndampedMode,
+    UndampedMode, output_signals,
 };
 pub use setting::{Setting, SettingError};

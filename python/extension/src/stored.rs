@@ -46,6 +46,7 @@ fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<Arra
         "events" => branch_array(store, TableLines::Events, branches)?,
         "ends" => branch_array(store, TableLines::Ends, branches)?,
         "states" => branch_array(store, TableLines::States, branches)?,
+        "outputs" => branch_array(store, TableLines::Outputs, branches)?,
         "varied" => piece_arrays(store, &[TableLines::Rows])?,
         "motions" => motion_tables(store)?,
         _ => return Ok(None),

@@ -234,8 +234,15 @@ fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
         }
         ExcitationKind::SupportMotions { supports } => {
             let motion = |support: &MovingSupport| {
-                let (at, amplitude) = (support.at.join(", "), digits(support.amplitude_m));
-                format!("{at} by {amplitude} m at {} rad", digits(support.phase_rad))
+                let (at, phase) = (support.at.join(", "), digits(support.phase_rad));
+                match &support.drive {
+                    SupportDrive::Displacement(amplitude) => {
+                        format!("{at} by {} m at {phase} rad", digits(amplitude.largest()))
+                    }
+                    SupportDrive::Acceleration(amplitude) => {
+                        format!("{at} with {} m/s^2 at {phase} rad", digits(amplitude.largest()))
+                    }
+                }
             };
             let motions: Vec<String> = supports.iter().map(motion).collect();
             format!("support motion, {}", motions.join("; "))

@@ -52,7 +52,8 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
 fn csv(store: &Store, folder: &Path, with_states: bool) -> Result<Written, Failure> {
     let exported = export_csv(store, folder)?;
     let mut files = vec![exported.path, exported.events_path, exported.ends_path];
-    files.extend(exported.varied_paths.into_iter().chain(exported.motion_paths));
+    files.extend(exported.varied_paths.into_iter().chain(exported.output_paths));
+    files.extend(exported.motion_paths);
     if with_states {
         files.extend(export_states(store, folder)?);
     }

@@ -85,6 +85,7 @@ fn import_files(options: &ImportOptions, output: Output) -> Result<(), Failure> 
         supports: Vec::new(),
         fixed: Vec::new(),
         acceleration: None,
+        lines: Vec::new(),
         memory_limit_bytes: (1e9 * options.memory_gb) as u64,
     };
     let survey = matrices.survey(FREQUENCIES).map_err(|error| Failure::BadInput(error.to_string()))?;

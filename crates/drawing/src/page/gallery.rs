@@ -16,7 +16,7 @@ pub fn figures(
     gallery.heading = "Structure and excitation";
     draw_linear(&mut gallery, file, model);
     gallery.heading = "Branches over another parameter";
-    varied::draw(store, FigureScale::Automatic, &mut gallery)?;
+    varied::draw(store, file, FigureScale::Automatic, &mut gallery)?;
     gallery.heading = "Curves of bifurcations in two parameters";
     curves::draw(store, &mut gallery)?;
     gallery.heading = "Sweeps";

@@ -1,10 +1,11 @@
 //! The structure as a page draws it.
 
-use hammerbeam_figure::{PageLink, PagePlace, PageStop, PageStructure};
+use hammerbeam_figure::{PageLink, PageMesh, PagePlace, PageStop, PageStructure};
 use hammerbeam_motion::LocalElement;
+use hammerbeam_structure::MeshShape;
 use hammerbeam_study::{
-    Model, StudyFile,
-    file::{FixedTo, Place, Structure},
+    Model, Study, StudyFile,
+    file::{FixedTo, MatrixPointEntry, Place, PointPlaceEntry, Structure},
 };
 
 /// Places, stops and springs of a study.
@@ -46,6 +47,28 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         eigenfrequencies_hz: frequencies.map(|rate| rate / std::f64::consts::TAU).collect(),
         supports: study.excitation.supports().iter().map(|places| places.join(", ")).collect(),
         ground: study.excitation.support_at("ground").map(|support| support as u32),
+        mesh: model.mesh.as_ref().map(|shape| mesh(study, shape)),
+    }
+}
+
+/// The mesh with the nodes of the points of the study.
+fn mesh(study: &Study, shape: &MeshShape) -> PageMesh {
+    let node_of = |point: &MatrixPointEntry| match point.place {
+        PointPlaceEntry::Node { node, .. } => {
+            shape.nodes.iter().position(|known| known.number == i64::from(node)).map(|place| place as u32)
+        }
+        _ => None,
+    };
+    let places = match &study.structure {
+        Structure::Matrices(matrices) => matrices.points.iter().map(node_of).collect(),
+        _ => Vec::new(),
+    };
+    PageMesh {
+        nodes: shape.nodes.iter().map(|node| node.place).collect(),
+        shapes: shape.nodes.iter().map(|node| node.shape.clone()).collect(),
+        support_ratios: shape.nodes.iter().map(|node| node.support_ratios.clone()).collect(),
+        lines: shape.lines.clone(),
+        places,
     }
 }
 

@@ -185,9 +185,14 @@ fn excitation_words(study: &Study, unit: FrequencyUnit) -> String {
         }
         ExcitationKind::SupportMotions { supports } => {
             let motion = |(index, support): (usize, &MovingSupport)| {
-                let (amplitude, phase) = (number(1e3 * support.amplitude_m), number(support.phase_rad));
-                let at = support.at.join(", ");
-                format!("u{} of {at}, {amplitude} mm at {phase} rad", index + 1)
+                let amplitude = match &support.drive {
+                    SupportDrive::Displacement(amplitude) => {
+                        format!("{} mm", number(1e3 * amplitude.largest()))
+                    }
+                    SupportDrive::Acceleration(amplitude) => format!("{} m/s²", number(amplitude.largest())),
+                };
+                let (at, phase) = (support.at.join(", "), number(support.phase_rad));
+                format!("u{} of {at}, {amplitude} at {phase} rad", index + 1)
             };
             let motions: Vec<String> = supports.iter().enumerate().map(motion).collect();
             format!("motions of the supports, {}", motions.join("; "))

@@ -4,6 +4,7 @@ import type { Structure } from "./data";
 import { button, choice, element, panel } from "./dom";
 import { drawBeam } from "./draw_beam";
 import { drawMasses } from "./draw_masses";
+import { drawMesh } from "./draw_mesh";
 import { digits } from "./format";
 import { layoutOf } from "./mass_layout";
 import { largestDisplacement, poseAt } from "./motion";
@@ -115,7 +116,9 @@ export class Animation {
         this.slider.value = String(this.instant / this.orbit.period);
         const pose = poseAt(this.structure, this.orbit, this.instant);
         const largest = this.largest || 1;
-        if (this.structure.beam) {
+        if (this.structure.mesh !== null) {
+            this.enlarged = drawMesh(sketch, this.structure, this.structure.mesh, pose, largest);
+        } else if (this.structure.beam) {
             this.enlarged = drawBeam(sketch, this.structure, pose, (0.36 * HEIGHT) / largest);
         } else {
             this.isNamed = drawMasses(
@@ -135,7 +138,8 @@ export class Animation {
 
     /** The name of the mass at a distance from the left (CSS pixels), which may be cut in the drawing. */
     private nameAt(left: number): string {
-        const places = this.structure?.beam === false ? this.structure.places : [];
+        const isMasses = this.structure?.beam === false && this.structure.mesh === null;
+        const places = isMasses ? (this.structure?.places ?? []) : [];
         const { rest, spacing } = layoutOf(places.length, this.canvas.clientWidth);
         return places.find((_, k) => Math.abs((rest[k] ?? NaN) - left) <= spacing / 2)?.name ?? "";
     }

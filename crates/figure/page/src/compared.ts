@@ -49,10 +49,10 @@ async function readPage(text: string): Promise<{ meta: Meta; solutions: Solution
     const page = new DOMParser().parseFromString(text, "text/html");
     const part = (id: string): string => page.getElementById(id)?.textContent ?? "";
     const meta = JSON.parse(part("meta") || "null") as Meta | null;
-    if (meta === null || !Array.isArray(meta.parameters)) {
+    if (meta === null || !Array.isArray(meta.parameters) || !Array.isArray(meta.outputs)) {
         throw new Error("it is no page of this version of Hammerbeam; draw it anew with hammerbeam figure");
     }
-    const solutions = readSolutions(meta.branches, await inflated(part("solutions")));
+    const solutions = readSolutions(meta, await inflated(part("solutions")));
     // Those over another parameter come last, and have no place here.
     return { meta: { ...meta, branches: meta.branches.filter(({ over }) => over === 0) }, solutions };
 }
@@ -112,10 +112,11 @@ function readTable(text: string, own: Meta): { meta: Meta; solutions: Solutions 
         multiplierIm: single("leading_multiplier_im"),
         energy: single("energy_j"),
         contacts: Uint32Array.from(numbers("contacts")),
+        outputs: [],
         flags,
         branch,
     };
-    return { meta: { ...own, title: "", branches, parameters: [] }, solutions };
+    return { meta: { ...own, title: "", branches, parameters: [], outputs: [] }, solutions };
 }
 
 /**

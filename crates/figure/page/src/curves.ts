@@ -4,7 +4,7 @@
 import type { Measured, Meta, Quantity, Solutions } from "./data";
 import type { Range } from "./frame";
 import type { State } from "./state";
-import { measureOf, type Axis } from "./units";
+import { isOutput, measureOf, outputOf, type Axis, type OutputAxis } from "./units";
 
 /** The quantities that a vertical axis always has, where they are not zero throughout. */
 const VERTICAL: readonly Axis[] = [
@@ -81,7 +81,9 @@ export class Curves {
             case "energy":
                 return scaled(energy);
             default:
-                return scaled(maxima[axis]);
+                return scaled(
+                    isOutput(axis) ? (this.solutions.outputs[outputOf(axis)] ?? []) : maxima[axis],
+                );
         }
     }
 
@@ -122,8 +124,11 @@ export class Curves {
             "acceleration",
             ...measured.map(({ quantity }): Quantity => quantity),
         ];
-        return VERTICAL.filter(
-            (axis) => always.includes(axis) || this.values(axis, 0).some((value) => value > 0),
+        const outputs = this.solutions.outputs.map((_, k): OutputAxis => `output-${k + 1}`);
+        return [...VERTICAL, ...outputs].filter(
+            (axis) =>
+                always.includes(axis) ||
+                this.values(axis, 0).some((value) => (isOutput(axis) ? value === value : value > 0)),
         );
     }
 
@@ -170,8 +175,11 @@ export class Curves {
         return [low + margin >= 0 && low + margin < 0.3 * high ? 0 : low, high];
     }
 
-    /** Whether values span so much that a logarithmic axis is the better one. */
+    /** Whether values are positive and span so much that a logarithmic axis is the better one. */
     spansMuch(quantity: Axis, over = 0): boolean {
+        if (isOutput(quantity) && this.values(quantity, over).some((value) => value <= 0)) {
+            return false;
+        }
         const extent = this.extent(this.levels({ quantity, log: true, over }), new Set());
         return extent !== null && extent[1] - extent[0] > Math.log10(40);
     }

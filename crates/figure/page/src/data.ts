@@ -37,6 +37,13 @@ export interface Parameter {
     frequency: number;
 }
 
+/** A number that was read off each solution. */
+export interface Output {
+    title: string;
+    /** Its SI unit without prefix. */
+    unit: string;
+}
+
 export interface Place {
     name: string;
     at: number;
@@ -55,6 +62,17 @@ export interface Stop {
     levels: { level: number; above: boolean }[];
 }
 
+/** A mesh in space. */
+export interface Mesh {
+    nodes: [number, number, number][];
+    /** Displacement of each node along x, y and z in each mode, and per unit displacement of each support. */
+    shapes: [number[], number[], number[]][];
+    support: [number[], number[], number[]][];
+    lines: [number, number][];
+    /** The node of each place of the structure. */
+    places: (number | null)[];
+}
+
 export interface Structure {
     beam: boolean;
     places: Place[];
@@ -65,6 +83,8 @@ export interface Structure {
     supports: string[];
     /** Number of the support that moves the ground. */
     ground: number | null;
+    /** The mesh that is drawn, where it is known. */
+    mesh: Mesh | null;
 }
 
 export type MotionKind = "periodic" | "quasi-periodic" | "chaotic" | "doubtful";
@@ -125,6 +145,7 @@ export interface Meta {
     notice: string;
     branches: Branch[];
     parameters: Parameter[];
+    outputs: Output[];
     /** Name of the results folder, for commands. */
     folder: string;
     /** Solutions whose orbits are carried, and the lengths of their records in bytes. */
@@ -167,6 +188,8 @@ export interface Solutions {
     /** Mechanical energy of the structure at phase 0 (J); NaN where it is not known. */
     energy: Float32Array;
     contacts: Uint32Array;
+    /** Those of `Meta.outputs`, in their order; NaN where there is none. */
+    outputs: Float32Array[];
     flags: Uint32Array;
     /** Place of the branch of each solution in the list of branches. */
     branch: Uint16Array;
@@ -186,7 +209,10 @@ export function solutionText(): string {
 }
 
 /** Solutions from their columns (see columns.rs of the figure crate). */
-export function readSolutions(branches: readonly Branch[], bytes: Uint8Array<ArrayBuffer>): Solutions {
+export function readSolutions(
+    { branches, outputs: named }: Pick<Meta, "branches" | "outputs">,
+    bytes: Uint8Array<ArrayBuffer>,
+): Solutions {
     const count = branches.reduce((sum, branch) => sum + branch.count, 0);
     const others = branches.reduce((sum, branch) => sum + (branch.over > 0 ? branch.count : 0), 0);
     const columns = new Unpacker(bytes);
@@ -198,6 +224,7 @@ export function readSolutions(branches: readonly Branch[], bytes: Uint8Array<Arr
     const maxima = { displacement: single(), acceleration: single(), force: single(), velocity: single() };
     const [multiplierRe, multiplierIm, energy] = [single(), single(), single()];
     const [contacts, flags] = [columns.whole(count, 2), columns.whole(count, 2)];
+    const outputs = named.map(single);
     const branch = new Uint16Array(count);
     branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
     return {
@@ -209,6 +236,7 @@ export function readSolutions(branches: readonly Branch[], bytes: Uint8Array<Arr
         multiplierIm,
         energy,
         contacts,
+        outputs,
         flags,
         branch,
     };

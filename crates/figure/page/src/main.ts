@@ -31,7 +31,7 @@ import { inflated } from "./unpack";
 /** Makes the page from what it carries. */
 async function start(): Promise<void> {
     const meta = readMeta();
-    const solutions = readSolutions(meta.branches, await inflated(solutionText()));
+    const solutions = readSolutions(meta, await inflated(solutionText()));
     chooseUnits(meta, solutions);
     const curves = new Curves(meta, solutions);
     const quantities = curves.present(meta.measured);

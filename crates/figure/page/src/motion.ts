@@ -6,6 +6,8 @@ import type { Orbit } from "./orbit";
 export interface Pose {
     /** Displacement of each place (m). */
     places: number[];
+    /** Displacement of each node of the mesh (m). */
+    mesh: [number, number, number][];
     /** Displacement of each support that moves (m). */
     supports: number[];
     /** Whether a force of each local element acts in this step, or an impulse did just before. */
@@ -41,19 +43,24 @@ export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pos
     const share = instant / orbit.period;
     const modes = orbit.modes.map((values) => smooth(values, share * values.length));
     const supports = supportsOf(orbit, structure.supports.length).map((values) => smooth(values, instant * values.length));
-    const places = structure.places.map((place) =>
+    const moved = (shape: number[], ratios: number[]): number =>
         modes.reduce(
-            (sum, value, mode) => sum + value * (place.shape[mode] ?? 0),
-            supports.reduce((sum, value, k) => sum + value * (place.support[k] ?? 0), 0),
-        ),
-    );
+            (sum, value, mode) => sum + value * (shape[mode] ?? 0),
+            supports.reduce((sum, value, k) => sum + value * (ratios[k] ?? 0), 0),
+        );
+    const places = structure.places.map((place) => moved(place.shape, place.support));
+    const mesh = (structure.mesh?.shapes ?? []).map((shape, node): [number, number, number] => {
+        const ratios = structure.mesh?.support[node] ?? [[], [], []];
+        return [moved(shape[0], ratios[0]), moved(shape[1], ratios[1]), moved(shape[2], ratios[2])];
+    });
     const force = (values: Float64Array): number => {
         const step = 2 * Math.min(values.length / 2 - 1, Math.floor((share * values.length) / 2));
         return Math.max(Math.abs(values[step] ?? 0), Math.abs(values[step + 1] ?? 0));
     };
     const isStruck = (element: number): boolean =>
         orbit.impulses.some((impulse) => impulse.element === element && (instant - impulse.cycles + orbit.period) % orbit.period < SEEN);
-    return { places, supports, pressed: orbit.forces.map((values, k) => force(values) > 0 || isStruck(k)) };
+    const pressed = orbit.forces.map((values, k) => force(values) > 0 || isStruck(k));
+    return { places, mesh, supports, pressed };
 }
 
 /** Largest displacement of any place, or of a support (m). */
@@ -61,7 +68,11 @@ export function largestDisplacement(structure: Structure, orbit: Orbit): number 
     const steps = orbit.modes[0]?.length ?? 0;
     let largest = 0;
     for (let step = 0; step < steps; step++) {
-        const { places, supports } = poseAt(structure, orbit, (step * orbit.period) / steps);
+        const { places, supports } = poseAt(
+            { ...structure, mesh: null },
+            orbit,
+            (step * orbit.period) / steps,
+        );
         largest = Math.max(largest, ...supports.map(Math.abs), ...places.map(Math.abs));
     }
     return largest;

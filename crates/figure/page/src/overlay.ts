@@ -4,7 +4,7 @@ import { isOverFrequency } from "./chaos";
 import type { Measured, MeasuredPoint, Meta, Motion } from "./data";
 import { digits, hertz, periodName, shortHertz } from "./format";
 import type { DotLayer, State } from "./state";
-import { MEASURES } from "./units";
+import { MEASURES, measureOf } from "./units";
 
 /** A point over the branches. */
 export interface Dot {
@@ -23,7 +23,7 @@ export function dotsOf(meta: Meta, state: State): Dot[] {
     if (!isOverFrequency(state) || quantity === "parameter") {
         return [];
     }
-    const { factor } = MEASURES[quantity];
+    const { factor } = measureOf(meta, quantity, 0);
     const dots: Dot[] = [];
     const add = (
         layer: Dot["layer"],
@@ -54,8 +54,8 @@ export function dotsOf(meta: Meta, state: State): Dot[] {
 }
 
 /** The numbers of a point in words. */
-export function dotText(dot: Dot, { quantity }: State): [string, string][] {
-    const { factor, unit, name } = MEASURES[quantity === "parameter" ? "frequency" : quantity];
+export function dotText(meta: Meta, dot: Dot, { quantity }: State): [string, string][] {
+    const { factor, unit, name } = measureOf(meta, quantity, 0);
     if ("motion" in dot.of) {
         return [
             ["Motion of a sweep", dot.of.motion.kind],

@@ -33,7 +33,7 @@ function rowsOf(meta: Meta, solutions: Solutions, state: State, picked: Picked):
         return numbersOf(meta, solutions, picked.solution).filter(([name]) => WANTED.includes(name));
     }
     if ("dot" in picked) {
-        return dotText(picked.dot, state);
+        return dotText(meta, picked.dot, state);
     }
     const section = meta.sections[nearestSection(meta, picked.frequency, picked.range)];
     const opens =

@@ -6,7 +6,10 @@ import type { Meta, Quantity, Solutions } from "./data";
  * What an axis of the response diagram can show. `parameter` is that along which branches were followed:
  * mostly the frequency.
  */
-export type Axis = "parameter" | Quantity | "multiplier" | "contacts" | "energy";
+export type Axis = "parameter" | Quantity | "multiplier" | "contacts" | "energy" | OutputAxis;
+
+/** One of `Meta.outputs`, by its number from 1. */
+export type OutputAxis = `output-${number}`;
 
 export interface Measure {
     /** In a list. */
@@ -40,6 +43,22 @@ export const MEASURES: Record<Quantity | "multiplier" | "contacts" | "energy" | 
     energy: { name: "energy", title: "Energy of the structure at phase 0", unit: "J", factor: 1 },
     frequency: { name: "frequency", title: "Excitation frequency", unit: "Hz", factor: 1 },
 };
+
+/** The outputs of this page, in their order. */
+export const OUTPUTS: Measure[] = [];
+
+/** Whether an axis shows an output. */
+export function isOutput(axis: Axis): axis is OutputAxis {
+    return axis.startsWith("output-");
+}
+
+/** The place of an output in the lists of outputs. */
+export function outputOf(axis: OutputAxis): number {
+    return Number(axis.slice("output-".length)) - 1;
+}
+
+/** Units that nobody reads in thousands. */
+const WITHOUT_KILO: readonly string[] = ["m", "m/s", "m/s²", "rad"];
 
 /**
  * The prefix of a unit that suits values up to a largest one: the largest prefix at which that is not small.
@@ -83,6 +102,15 @@ export function chooseUnits(meta: Meta, solutions: Solutions): void {
     if (displacement > 0) {
         set("displacement", prefixFor(displacement), "m");
     }
+    OUTPUTS.splice(
+        0,
+        OUTPUTS.length,
+        ...meta.outputs.map(({ title, unit }, k) => {
+            const most = largestOf(solutions.outputs[k] ?? []);
+            const [prefix, size] = prefixFor(WITHOUT_KILO.includes(unit) ? Math.min(most, 999) : most);
+            return { name: title, title, unit: `${prefix}${unit}`, factor: 1 / size };
+        }),
+    );
     set("force", prefixFor(largest("force")), "N");
     set("energy", prefixFor(largestOf(solutions.energy)), "J");
     // Nobody reads km/s² or km/s.
@@ -110,5 +138,8 @@ export function parameterMeasure(meta: Meta, over: number): Measure {
 }
 
 export function measureOf(meta: Meta, axis: Axis, over: number): Measure {
-    return axis === "parameter" ? parameterMeasure(meta, over) : MEASURES[axis];
+    if (axis === "parameter") {
+        return parameterMeasure(meta, over);
+    }
+    return isOutput(axis) ? (OUTPUTS[outputOf(axis)] ?? MEASURES.displacement) : MEASURES[axis];
 }

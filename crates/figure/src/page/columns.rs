@@ -3,15 +3,15 @@
 //! Over the solutions of all branches end to end, packed as `packed.rs` describes: `frequency` as f64; the
 //! parameter as f64, of branches over another parameter than the frequency alone, which come last;
 //! displacement, acceleration, force, impact velocity, the leading multiplier (two columns) and the energy as
-//! f32; contacts and flags as u16.
+//! f32; contacts and flags as u16; then each output as f32.
 
 use super::{
-    content::{PageBranch, PageSolution},
+    content::{PageBranch, PageOutput, PageSolution},
     packed::Packer,
 };
 
-/// The columns of all branches.
-pub(super) fn pack(branches: &[PageBranch]) -> Vec<u8> {
+/// The columns of all branches and of outputs over them.
+pub(super) fn pack(branches: &[PageBranch], outputs: &[PageOutput]) -> Vec<u8> {
     let solutions = || branches.iter().flat_map(|branch| &branch.solutions);
     let mut packer = Packer::default();
     packer.double(solutions().map(|solution| solution.frequency_hz));
@@ -31,6 +31,9 @@ pub(super) fn pack(branches: &[PageBranch]) -> Vec<u8> {
     }
     packer.whole(solutions().map(|solution| u64::from(solution.contacts.min(u32::from(u16::MAX)))), 2);
     packer.whole(solutions().map(flags), 2);
+    for output in outputs {
+        packer.single(output.values.iter().copied());
+    }
     packer.finish()
 }
 
@@ -68,7 +71,8 @@ mod tests {
         };
         let over =
             |over: u32, count| PageBranch { over, solutions: vec![solution; count], ..PageBranch::default() };
-        let mut columns = Unpacker::new(&pack(&[over(0, 2), over(1, 1)]));
+        let output = PageOutput { values: vec![0.5, -0.25, 1.0], ..PageOutput::default() };
+        let mut columns = Unpacker::new(&pack(&[over(0, 2), over(1, 1)], &[output]));
         assert_eq!(columns.double(3), [30.000_000_1; 3]);
         assert_eq!(columns.double(1), [0.25]);
         let single: Vec<Vec<f32>> = (0..7).map(|_| columns.single(3)).collect();
@@ -78,6 +82,7 @@ mod tests {
         );
         assert_eq!(columns.whole(3, 2), [u64::from(u16::MAX); 3]);
         assert_eq!(columns.whole(3, 2), [0b110_0001; 3]);
+        assert_eq!(columns.single(3), [0.5, -0.25, 1.0]);
         assert!(columns.is_at_the_end());
     }
 }

@@ -25,6 +25,8 @@ pub struct Page {
     pub branches: Vec<PageBranch>,
     /// The other parameters over which there are branches.
     pub parameters: Vec<PageParameter>,
+    /// Numbers that were read off the solutions besides.
+    pub outputs: Vec<PageOutput>,
     /// Orbits of some of their solutions.
     pub orbits: OrbitRecords,
     /// Multipliers of all solutions, or of none.
@@ -52,6 +54,17 @@ pub struct PageParameter {
     pub unit: String,
     /// The excitation frequency of its branches (Hz).
     pub frequency_hz: f64,
+}
+
+/// A number that was read off each solution.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageOutput {
+    /// What it is.
+    pub title: String,
+    /// Its SI unit without prefix.
+    pub unit: String,
+    /// The values, over the solutions of all branches end to end; NaN where there is none.
+    pub values: Vec<f64>,
 }
 
 /// A branch.
@@ -125,6 +138,23 @@ pub struct PageStructure {
     pub supports: Vec<String>,
     /// The support that moves the ground, if one does.
     pub ground: Option<u32>,
+    /// The mesh that is drawn in place of the places, if it is known.
+    pub mesh: Option<PageMesh>,
+}
+
+/// A mesh in space.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageMesh {
+    /// Places of its nodes (m).
+    pub nodes: Vec<[f64; 3]>,
+    /// Displacement of each node along x, y and z in each mode (kg^-1/2).
+    pub shapes: Vec<[Vec<f64>; 3]>,
+    /// The same per unit displacement of each support that moves.
+    pub support_ratios: Vec<[Vec<f64>; 3]>,
+    /// Numbers of nodes that lines join, from 0.
+    pub lines: Vec<[usize; 2]>,
+    /// The node of each place of the structure, if it is at one.
+    pub places: Vec<Option<u32>>,
 }
 
 /// A place of a structure.

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{
     columns,
-    content::{Page, PageParameter, PageStop, PageStructure},
+    content::{Page, PageMesh, PageOutput, PageParameter, PageStop, PageStructure},
     measured, motions,
 };
 use crate::{base64, style};
@@ -17,7 +17,7 @@ const LICENCE: &str = include_str!("../../page/dist/LICENCE-uPlot.txt");
 pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let meta = in_script(&meta(page).to_string());
-    let solutions = base64::encode(&columns::pack(&page.branches));
+    let solutions = base64::encode(&columns::pack(&page.branches, &page.outputs));
     let multipliers = base64::encode(&page.multipliers.bytes());
     let orbits = base64::encode(&page.orbits.bytes());
     let figures = in_script(&page.figures.documents().to_string());
@@ -68,6 +68,7 @@ fn meta(page: &Page) -> Value {
         "notice": page.notice,
         "branches": branches,
         "parameters": page.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "outputs": page.outputs.iter().map(output).collect::<Vec<_>>(),
         "folder": page.folder_name,
         "orbits": {
             "solutions": page.orbits.solutions(),
@@ -82,6 +83,10 @@ fn meta(page: &Page) -> Value {
         "figures": page.figures.list(),
         "look": { "light": style::page_colours(false), "dark": style::page_colours(true) },
     })
+}
+
+fn output(output: &PageOutput) -> Value {
+    json!({ "title": output.title, "unit": output.unit })
 }
 
 fn parameter(parameter: &PageParameter) -> Value {
@@ -101,6 +106,17 @@ fn structure(structure: &PageStructure) -> Value {
         "eigenfrequencies": structure.eigenfrequencies_hz,
         "supports": structure.supports,
         "ground": structure.ground,
+        "mesh": structure.mesh.as_ref().map(mesh),
+    })
+}
+
+fn mesh(mesh: &PageMesh) -> Value {
+    json!({
+        "nodes": mesh.nodes,
+        "shapes": mesh.shapes,
+        "support": mesh.support_ratios,
+        "lines": mesh.lines,
+        "places": mesh.places,
     })
 }
 

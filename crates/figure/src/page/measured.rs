@@ -60,6 +60,7 @@ fn quantity(quantity: ResponseQuantity) -> &'static str {
         ResponseQuantity::Acceleration => "acceleration",
         ResponseQuantity::ContactForce => "force",
         ResponseQuantity::ImpactVelocity => "velocity",
+        ResponseQuantity::Output => "output",
     }
 }
 

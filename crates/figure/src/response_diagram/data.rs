@@ -22,6 +22,17 @@ pub struct ResponseDiagram {
     pub chaotic_ranges_hz: Vec<(f64, f64)>,
     /// Measured points, in the foreground.
     pub measured: Vec<MeasuredMark>,
+    /// What [`ResponseQuantity::Output`] shows.
+    pub output: OutputAxis,
+}
+
+/// A number that was read off the solutions besides their maxima.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OutputAxis {
+    /// What it is.
+    pub title: String,
+    /// Its SI unit without prefix.
+    pub unit: String,
 }
 
 /// A measured point.
@@ -91,6 +102,8 @@ pub struct ResponsePoint {
     pub contact_force_n: f64,
     /// Largest speed with which a contact is reached (m/s).
     pub impact_velocity_m_s: f64,
+    /// The number of [`ResponseDiagram::output`], in its unit.
+    pub output: f64,
     /// Whether no multiplier is known to lie outside the unit circle; at an event the neighbours determine
     /// the line.
     pub stable: bool,
@@ -119,6 +132,8 @@ pub enum ResponseQuantity {
     ContactForce,
     /// Largest speed with which a contact is reached.
     ImpactVelocity,
+    /// The number of [`ResponseDiagram::output`].
+    Output,
 }
 
 /// How the diagram is drawn.
@@ -126,7 +141,7 @@ pub enum ResponseQuantity {
 pub struct ResponseSettings {
     /// Sizes on paper.
     pub style: Style,
-    /// Scale of the axis of displacements.
+    /// Scale of the axis of displacements and of outputs.
     pub displacement_scale: ScaleChoice,
     /// Scale of the axis of accelerations.
     pub acceleration_scale: ScaleChoice,
@@ -144,6 +159,7 @@ impl ResponseQuantity {
             Self::Acceleration => "maximum acceleration",
             Self::ContactForce => "largest contact force",
             Self::ImpactVelocity => "largest impact velocity",
+            Self::Output => "output",
         }
     }
 }

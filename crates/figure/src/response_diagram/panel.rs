@@ -170,7 +170,7 @@ impl ResponsePanel {
 
 fn scale_choice(quantity: ResponseQuantity, settings: &ResponseSettings) -> ScaleChoice {
     match quantity {
-        ResponseQuantity::Displacement => settings.displacement_scale,
+        ResponseQuantity::Displacement | ResponseQuantity::Output => settings.displacement_scale,
         ResponseQuantity::Acceleration => settings.acceleration_scale,
         ResponseQuantity::ContactForce | ResponseQuantity::ImpactVelocity => settings.contact_scale,
     }

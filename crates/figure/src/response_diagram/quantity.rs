@@ -8,6 +8,8 @@ use crate::{axis_unit::AxisUnit, scale::ScaleKind, text::Text};
 pub(super) struct PanelQuantity {
     pub(super) quantity: ResponseQuantity,
     unit: AxisUnit,
+    /// What an output is.
+    title: String,
 }
 
 impl PanelQuantity {
@@ -25,9 +27,11 @@ impl PanelQuantity {
             ResponseQuantity::Acceleration => ("m/s²", 1.0, 1.0),
             ResponseQuantity::ContactForce => ("N", f64::INFINITY, 1.0),
             ResponseQuantity::ImpactVelocity => ("m/s", 1.0, 1.0),
+            ResponseQuantity::Output => of_output(&diagram.output.unit),
         };
         let largest = if largest > 0.0 { largest } else { none };
-        Self { quantity, unit: AxisUnit::suiting(largest, base, most) }
+        let unit = AxisUnit::suiting(largest, base, most);
+        Self { quantity, unit, title: diagram.output.title.clone() }
     }
 
     /// The quantity in words.
@@ -57,7 +61,17 @@ impl PanelQuantity {
             }
             ResponseQuantity::ContactForce => Text::upright(format!("Largest contact force ({symbol})")),
             ResponseQuantity::ImpactVelocity => Text::upright(format!("Largest impact velocity ({symbol})")),
+            ResponseQuantity::Output => Text::upright(format!("{} ({symbol})", self.title)),
         }
+    }
+}
+
+/// Unit of an output, the largest prefix that it takes, and the largest value where all are zero.
+fn of_output(unit: &str) -> (&str, f64, f64) {
+    match unit {
+        "N" => (unit, f64::INFINITY, 1.0),
+        "m" => (unit, 1.0, 1e-3),
+        _ => (unit, 1.0, 1.0),
     }
 }
 
@@ -67,6 +81,7 @@ fn si(quantity: ResponseQuantity, point: &ResponsePoint) -> f64 {
         ResponseQuantity::Acceleration => point.acceleration_m_s2,
         ResponseQuantity::ContactForce => point.contact_force_n,
         ResponseQuantity::ImpactVelocity => point.impact_velocity_m_s,
+        ResponseQuantity::Output => point.output,
     }
 }
 
@@ -74,6 +89,8 @@ fn measured(quantity: ResponseQuantity, mark: &MeasuredMark) -> f64 {
     match quantity {
         ResponseQuantity::Displacement => mark.displacement_m.unwrap_or(f64::NAN),
         ResponseQuantity::Acceleration => mark.acceleration_m_s2.unwrap_or(f64::NAN),
-        ResponseQuantity::ContactForce | ResponseQuantity::ImpactVelocity => f64::NAN,
+        ResponseQuantity::ContactForce | ResponseQuantity::ImpactVelocity | ResponseQuantity::Output => {
+            f64::NAN
+        }
     }
 }

@@ -92,6 +92,7 @@ impl BeamLayout<'_> {
             damper(svg, at(x, self.floor), at(x, self.middle + HALF));
             ground(svg, x);
         }
+        self.draw_support(svg, point);
         if point.has_rotational {
             turn(svg, at(x, self.middle), MASS + 3.0);
         }

@@ -49,8 +49,8 @@ pub struct SketchBeam {
     pub points: Vec<SketchPoint>,
 }
 
-/// Support of an end of a beam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Support of an end or a point of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SketchEnd {
     /// No displacement, no rotation.
     Clamped,
@@ -59,6 +59,7 @@ pub enum SketchEnd {
     /// Transverse displacement only.
     Sliding,
     /// No support.
+    #[default]
     Free,
 }
 
@@ -77,6 +78,8 @@ pub struct SketchPoint {
     pub has_damper: bool,
     /// Whether a rotational spring or damper joins it to the ground.
     pub has_rotational: bool,
+    /// How it is held between the ends.
+    pub support: SketchEnd,
 }
 
 /// Masses on a line, from left to right.

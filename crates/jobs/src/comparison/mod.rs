@@ -48,6 +48,7 @@
 //! | `judge.rs` | what becomes of each point |
 //! | `overlay/` | a measured history laid over orbits |
 //! | `measured.rs`, `records.rs` | tables of points, and records that are reduced to points |
+//! | `output.rs` | points over an output of the study |
 //! | `whole.rs`, `tables.rs`, `document.rs` | all quantities of a results folder, their tables, their document |
 
 mod curve;
@@ -59,6 +60,7 @@ mod judge;
 mod measured;
 mod measured_error;
 mod observed;
+mod output;
 mod overlay;
 mod records;
 mod shift;
@@ -78,6 +80,7 @@ pub use measured::{MeasuredPoints, read_measured};
 pub use measured_error::MeasuredError;
 pub(crate) use observed::thinned;
 pub use observed::{Observation, ObservationError, curves};
+pub use output::compare_output;
 pub use overlay::{
     Alike, LaidWaveform, Overlay, OverlayAdvice, OverlayError, OverlayNote, OverlaySettings, Sought,
     nothing_alike, overlay,

@@ -15,6 +15,7 @@ use super::RunOutcome;
 use crate::{
     MirrorImage,
     check::{in_contact_documents, undamped_documents},
+    outputs::OutputPass,
 };
 
 /// What came of a run.
@@ -32,6 +33,8 @@ pub struct RunReport {
     pub varied: Vec<PieceSummary>,
     /// Searches, flips and branch points at which branches were looked for.
     pub searches: Vec<JobRecord>,
+    /// What was read off stored orbits.
+    pub outputs: OutputPass,
     /// Modes without damping,
     pub undamped_modes: Vec<UndampedMode>,
     /// and those without damping while stops are closed.
@@ -77,6 +80,11 @@ impl Serialize for RunReport {
             message: &'a str,
         }
         #[derive(Serialize)]
+        struct OutputsDocument {
+            computed: u64,
+            failed: u64,
+        }
+        #[derive(Serialize)]
         struct Document<'a> {
             unfinished: usize,
             failed: Vec<Failed<'a>>,
@@ -85,6 +93,7 @@ impl Serialize for RunReport {
             solutions: u64,
             branches: &'a [BranchReport],
             varied: Vec<PieceDocument<'a>>,
+            outputs: OutputsDocument,
             undamped_in_contact: serde_json::Value,
             undamped_modes: serde_json::Value,
             figures: &'a [String],
@@ -99,6 +108,10 @@ impl Serialize for RunReport {
             solutions: self.solutions(),
             branches: &self.branches,
             varied: self.varied.iter().map(PieceDocument::from).collect(),
+            outputs: OutputsDocument {
+                computed: self.outputs.solutions - self.outputs.failed,
+                failed: self.outputs.failed,
+            },
             undamped_in_contact: in_contact_documents(&self.undamped_in_contact),
             undamped_modes: undamped_documents(&self.undamped_modes),
             figures: &self.figures,

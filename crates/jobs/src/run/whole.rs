@@ -12,6 +12,7 @@ use hammerbeam_results::{
 use super::{Plan, RunOutcome, RunReport, run};
 use crate::{
     JobError, MirrorImage, Observer, OrbitSolver, PreparedStudy, StoredBranches,
+    outputs::{OutputPass, compute_outputs},
     run::report::BranchReport,
     settled::settled_states,
     special_point::{NearPoint, near_point},
@@ -84,12 +85,17 @@ pub fn run_study(
         Ok(RunOutcome::Done) => varied::run(&mut store, model, &file.study, request.threads, observer),
         _ => Ok(VariedOutcome::Done),
     };
-    observer.finishing();
     let outcome = match (outcome?, varied?) {
         (_, VariedOutcome::Interrupted) => RunOutcome::Interrupted,
         (outcome, VariedOutcome::Done) => outcome,
     };
-    let report = report(study, &store, outcome)?;
+    let outputs = match outcome {
+        RunOutcome::Interrupted => OutputPass::default(),
+        _ => compute_outputs(&mut store, study, request.threads, observer)?,
+    };
+    observer.finishing();
+    let outcome = if outputs.is_interrupted { RunOutcome::Interrupted } else { outcome };
+    let report = RunReport { outputs, ..report(study, &store, outcome)? };
     Ok(WholeRun { store, report })
 }
 
@@ -141,6 +147,7 @@ fn report(study: &PreparedStudy, store: &Store, outcome: RunOutcome) -> Result<R
         branches: branches.collect::<Result<_, JobError>>()?,
         varied: summarise_pieces(store)?,
         searches: store.jobs()?,
+        outputs: OutputPass::default(),
         undamped_modes: model.undamped_modes(),
         undamped_in_contact: model.undamped_in_contact(),
         figures: Vec::new(),

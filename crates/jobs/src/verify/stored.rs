@@ -13,7 +13,7 @@ use hammerbeam_results::{
 use hammerbeam_study::{Model, StudyParameter, file::CurveOf};
 
 use super::report::VerifiedPlace;
-use crate::PreparedStudy;
+use crate::{PreparedStudy, piece_parameter::piece_parameter};
 
 /// The branches of a folder.
 pub(super) struct StoredRows<'a> {
@@ -103,13 +103,7 @@ impl<'a> StoredRows<'a> {
 
 impl VariedPiece {
     fn of(record: &PieceRecord, study: &PreparedStudy) -> Self {
-        let asked = &study.file.study;
-        let varied = asked.varies.iter().map(|vary| &vary.parameter);
-        let mut varied = varied.chain(asked.curves.iter().map(|curve| &curve.parameter));
-        let parameter = match varied.find(|varied| varied.name == record.parameter) {
-            Some(varied) => study.model.parameter(asked, varied),
-            None => Err(format!("the study does not vary {} any more", record.parameter)),
-        };
+        let parameter = piece_parameter(record, study);
         Self { place: record.place, kind: record.kind, parameter }
     }
 

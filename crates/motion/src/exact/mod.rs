@@ -34,6 +34,7 @@
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 //! | `tracing.rs` | what each piece of motion adds to that |
+//! | `panels.rs` | a motion in smooth panels, for integrals over it and its extrema |
 
 mod aim;
 mod attempt;
@@ -79,6 +80,7 @@ mod near_miss;
 mod newton;
 mod onset;
 mod output;
+mod panels;
 mod plane;
 mod polynomial;
 mod pressing;
@@ -116,8 +118,9 @@ pub use error::MotionError;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use near_miss::NearMisses;
+pub use panels::{MotionPanel, PANEL_NODES, panel_rule};
 pub use touches::{AtEnd, complete_touches, touches_lacking};
-pub use trace::{ContactPiece, Inside, Jump, Touchdown, Trace};
+pub use trace::{ContactPiece, Inside, Jump, PanelledMotion, Touchdown, Trace};
 
 use block::Blocks;
 use course::Course;

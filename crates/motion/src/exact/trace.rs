@@ -12,7 +12,13 @@
 //! whole contact; what comes out is the error of the steps. The largest force is that of its polynomial,
 //! which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
-use super::{ExactIntegrator, MotionError, run::Run};
+use std::f64::consts::TAU;
+
+use super::{
+    ExactIntegrator, MotionError,
+    panels::{MotionPanel, MotionSpan},
+    run::Run,
+};
 use crate::Stretch;
 
 /// Begin of a contact.
@@ -84,6 +90,15 @@ pub struct Trace {
     pub inside: Vec<Inside>,
 }
 
+/// A stretch of motion in smooth panels, with its contacts.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PanelledMotion {
+    /// The panels, one after the other.
+    pub panels: Vec<MotionPanel>,
+    /// Contacts in the order in which they closed, impacts on rigid stops among them.
+    pub contacts: Vec<ContactPiece>,
+}
+
 /// A state within a contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inside {
@@ -102,6 +117,8 @@ pub(super) struct Tracing {
     times: Vec<f64>,
     /// States that each step within a contact has at least.
     in_a_step: usize,
+    /// Panels of the motion, where they are asked for, with the rate of what moves fastest [1/s].
+    panels: Option<(Vec<MotionPanel>, f64)>,
     pub(super) trace: Trace,
     /// Index of the open piece of each element.
     pub(super) open: Vec<Option<usize>>,
@@ -122,8 +139,11 @@ impl Tracing {
     /// Notes states in a step.
     ///
     /// * `at`: state and forces at a time.
-    pub(super) fn note(&mut self, (start, length): (f64, f64), at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) {
-        let (given, inside) = self.due(start, length);
+    pub(super) fn note(&mut self, span: MotionSpan, at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) {
+        if let Some((panels, fastest)) = &mut self.panels {
+            panels.extend(span.panels(*fastest, &at));
+        }
+        let (given, inside) = self.due(span.start, span.length);
         for time in given {
             let (state, forces) = at(time);
             self.trace.samples.push(state);
@@ -195,8 +215,32 @@ impl ExactIntegrator {
         in_a_step: usize,
     ) -> Result<Trace, MotionError> {
         let times = phases.iter().map(|phase| (phase - stretch.start) / stretch.frequency_hz).collect();
-        let open = vec![None; self.laws.len()];
-        let mut tracing = Tracing { times, in_a_step, trace: Trace::default(), open };
+        let tracing = Tracing { times, in_a_step, ..Tracing::default() };
+        Ok(self.written_down(stretch, state, tracing)?.trace)
+    }
+
+    /// The motion over a stretch from `state` in smooth panels.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn panelled(&mut self, stretch: &Stretch, state: &[f64]) -> Result<PanelledMotion, MotionError> {
+        let order = self.system.orders().iter().max().map_or(0.0, |order| f64::from(*order));
+        let driven = TAU * order * stretch.frequency_hz;
+        let fastest = self.blocks.rates().into_iter().fold(driven, f64::max);
+        let tracing = Tracing { panels: Some((Vec::new(), fastest)), ..Tracing::default() };
+        let Tracing { trace, panels, .. } = self.written_down(stretch, state, tracing)?;
+        let (panels, _) = panels.unwrap_or_default();
+        Ok(PanelledMotion { panels, contacts: trace.contacts })
+    }
+
+    /// Goes over a stretch and writes down what is asked for.
+    fn written_down(
+        &mut self,
+        stretch: &Stretch,
+        state: &[f64],
+        mut tracing: Tracing,
+    ) -> Result<Tracing, MotionError> {
+        tracing.open = vec![None; self.laws.len()];
         let mut run = self.begin(stretch, state, false)?;
         for element in 0..self.laws.len() {
             if let Some(contact) = run.closed[element] {
@@ -219,6 +263,7 @@ impl ExactIntegrator {
         self.run = run;
         result?;
         self.remember_end(stretch, &end);
-        Ok(Trace { state: end, ..tracing.trace })
+        tracing.trace.state = end;
+        Ok(tracing)
     }
 }

@@ -2,9 +2,10 @@
 
 use super::{
     ExactIntegrator,
-    collocation::NODES,
+    collocation::{Grading, NODES},
     flight::Touch,
     flight_maximum::Flown,
+    panels::MotionSpan,
     run::Run,
     trace::{Jump, Touchdown, Tracing},
 };
@@ -14,7 +15,8 @@ impl ExactIntegrator {
     pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        tracing.note((run.time, duration), |time| {
+        let span = MotionSpan { start: run.time, length: duration, grading: Grading::Smooth };
+        tracing.note(span, |time| {
             let mut state = self.flight_start.clone();
             self.blocks.carry(&mut state, (time - run.time).max(0.0));
             let pressing = self.pressing_forces(run, &state, time);
@@ -81,7 +83,8 @@ impl ExactIntegrator {
     pub(super) fn trace_step(&mut self, run: &Run) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        tracing.note((run.time, self.step.length), |time| {
+        let (length, grading) = (self.step.length, self.step.grading());
+        tracing.note(MotionSpan { start: run.time, length, grading }, |time| {
             let mut state = run.state.clone();
             self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
             let forces = self.forces_of(run, &state, time);

@@ -86,10 +86,13 @@ impl ColumnBuilder {
             | C::Status
             | C::ContactChange
             | C::End
-            | C::Message => Entries::Words(vec![]),
+            | C::Message
+            | C::OutputName
+            | C::OutputQuantity
+            | C::OutputUnit => Entries::Words(vec![]),
             C::SymmetryBreaking => Entries::Flags(vec![]),
             C::Stable => Entries::Stability(vec![]),
-            C::Direction | C::State => Entries::Vectors(vec![]),
+            C::Direction | C::State | C::OutputAmplitudes | C::OutputPhases => Entries::Vectors(vec![]),
             C::Multipliers => Entries::Complex(vec![]),
             _ => Entries::Numbers(vec![]),
         };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{ArrayTable, branch_array, motion_tables, piece_arrays, write_json, write_npz, write_table};
 use crate::{
     export::{ExportError, TableLines, export_csv, export_states},
-    store::{Store, StoreError},
+    store::{Store, StoreError, StoredOutputs},
 };
 
 /// Format of exported tables.
@@ -44,6 +44,7 @@ pub fn all_tables(store: &Store, with_states: bool) -> Result<Vec<ArrayTable>, S
     let snapshot = store.snapshot()?;
     let mut lines = vec![TableLines::Rows, TableLines::Events, TableLines::Ends];
     lines.extend(with_states.then_some(TableLines::States));
+    lines.extend((!StoredOutputs::of(store)?.outputs().is_empty()).then_some(TableLines::Outputs));
     let mut tables = Vec::new();
     for lines in &lines {
         tables.extend(branch_array(store, *lines, &[])?);
@@ -71,7 +72,8 @@ pub fn export_all(
     }
     let exported = export_csv(store, folder)?;
     let mut files = vec![exported.path, exported.events_path, exported.ends_path];
-    files.extend(exported.varied_paths.into_iter().chain(exported.motion_paths));
+    files.extend(exported.varied_paths.into_iter().chain(exported.output_paths));
+    files.extend(exported.motion_paths);
     if with_states {
         files.extend(export_states(store, folder)?);
     }

@@ -25,6 +25,8 @@ pub enum TableLines {
     Ends,
     /// Each row, with its state and all multipliers.
     States,
+    /// Each output of each row.
+    Outputs,
 }
 
 /// A table of branches or curves.
@@ -147,6 +149,45 @@ const PARAMETER_STATES: [TableColumn; 10] = [
     C::Multipliers,
 ];
 
+const OUTPUTS: [TableColumn; 15] = [
+    C::Branch,
+    C::PeriodMultiple,
+    C::RowNumber,
+    C::Frequency,
+    C::OutputName,
+    C::OutputQuantity,
+    C::OutputUnit,
+    C::OutputMaximum,
+    C::OutputMinimum,
+    C::OutputLargest,
+    C::OutputPeakToPeak,
+    C::OutputMean,
+    C::OutputRootMeanSquare,
+    C::OutputAmplitudes,
+    C::OutputPhases,
+];
+
+const PARAMETER_OUTPUTS: [TableColumn; 18] = [
+    C::Piece,
+    C::Branch,
+    C::PeriodMultiple,
+    C::ParameterName,
+    C::RowNumber,
+    C::Parameter,
+    C::Frequency,
+    C::OutputName,
+    C::OutputQuantity,
+    C::OutputUnit,
+    C::OutputMaximum,
+    C::OutputMinimum,
+    C::OutputLargest,
+    C::OutputPeakToPeak,
+    C::OutputMean,
+    C::OutputRootMeanSquare,
+    C::OutputAmplitudes,
+    C::OutputPhases,
+];
+
 impl BranchTable {
     /// All of them, in the order in which they are written.
     pub const ALL: &'static [Self] = &[
@@ -161,6 +202,9 @@ impl BranchTable {
         Self::new("states", TableOver::Frequency, TableLines::States, &STATES),
         Self::new("parameter_states", TableOver::Parameters, TableLines::States, &PARAMETER_STATES),
         Self::new("curve_states", TableOver::Curves, TableLines::States, &PARAMETER_STATES),
+        Self::new("outputs", TableOver::Frequency, TableLines::Outputs, &OUTPUTS),
+        Self::new("parameter_outputs", TableOver::Parameters, TableLines::Outputs, &PARAMETER_OUTPUTS),
+        Self::new("curve_outputs", TableOver::Curves, TableLines::Outputs, &PARAMETER_OUTPUTS),
     ];
 
     const fn new(

@@ -7,18 +7,18 @@ use std::{
 };
 
 use super::{
-    branch_table::{BranchTable, TableOver},
+    branch_table::{BranchTable, TableLines, TableOver},
     error::ExportError,
     table::{quoted, write_whole},
 };
 use crate::{
     columns::TableColumn,
     lines::{Branches, Cell},
-    store::Store,
+    store::{Store, StoredOutputs},
     whole_file::WriteError,
 };
 
-/// Writes a table into a folder; tables of pieces only if there is something in them.
+/// Writes a table into a folder; tables of pieces and of outputs only if there are such.
 ///
 /// # Returns
 /// The file, if there is one, and the number of its lines without the header.
@@ -30,7 +30,11 @@ pub(super) fn write_branches(
 ) -> Result<Option<(PathBuf, u64)>, ExportError> {
     let path = folder.join(format!("{}.csv", table.name));
     let branches = all.over(table.over);
-    if branches.is_empty() && table.over != TableOver::Frequency {
+    let is_left_out = match table.lines {
+        TableLines::Outputs => StoredOutputs::of(store)?.outputs().is_empty(),
+        _ => false,
+    };
+    if is_left_out || branches.is_empty() && table.over != TableOver::Frequency {
         // A table of an earlier export would be taken for this one's.
         let _ = fs::remove_file(&path);
         return Ok(None);

@@ -45,12 +45,14 @@ pub struct Exported {
     /// `parameter_branches.csv`, `parameter_events.csv` and `parameter_ends.csv`, `curves.csv` and
     /// `curve_ends.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
+    /// `outputs.csv`, `parameter_outputs.csv` and `curve_outputs.csv`, where the study has outputs.
+    pub output_paths: Vec<PathBuf>,
     /// Tables of motions, sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,
 }
 
-/// Writes the tables of branches, events and ends, over the frequency and, where the study asks for them,
-/// over other parameters and along curves, and those of motions, into a folder.
+/// Writes the tables of branches, events, ends and outputs, over the frequency and, where the study asks for
+/// them, over other parameters and along curves, and those of motions, into a folder.
 ///
 /// Numbers are the shortest that read back to the same double. The files appear complete or not at all.
 ///
@@ -65,12 +67,14 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
         events_path: folder.join("events.csv"),
         ends_path: folder.join("ends.csv"),
         varied_paths: Vec::new(),
+        output_paths: Vec::new(),
         motion_paths: Vec::new(),
     };
     for table in BranchTable::ALL.iter().filter(|table| table.lines != TableLines::States) {
         let Some((path, lines)) = write_branches(&branches, store, folder, table)? else { continue };
         match (table.over, table.lines) {
             (TableOver::Frequency, TableLines::Rows) => exported.rows = lines,
+            (_, TableLines::Outputs) => exported.output_paths.push(path),
             (TableOver::Frequency, _) => {}
             _ => exported.varied_paths.push(path),
         }

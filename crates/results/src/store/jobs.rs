@@ -6,6 +6,7 @@ use rusqlite::{Connection, Row as SqlRow, Transaction, params};
 use super::{
     StoreError,
     keys::{MOST_STARTS, OF_PIECES, first_key, walk_id},
+    outputs::forget_outputs,
 };
 
 /// What a job is.
@@ -176,6 +177,7 @@ pub fn take_back_to(transaction: Transaction<'_>, start: u32) -> Result<(), Stor
     let keys = [first_key(later), first_key(end)];
     transaction.execute("DELETE FROM event WHERE solution >= ?1 AND solution < ?2", keys)?;
     transaction.execute("DELETE FROM solution WHERE id >= ?1 AND id < ?2", keys)?;
+    forget_outputs(&transaction, keys)?;
     transaction.execute("DELETE FROM journal WHERE walk >= ?1 AND walk < ?2", [later, end])?;
     transaction.execute("DELETE FROM walk WHERE id >= ?1 AND id < ?2", [later, end])?;
     transaction.execute("DELETE FROM start WHERE id > ?1 AND id < ?2", [start, OF_PIECES])?;

@@ -12,7 +12,7 @@ use super::{StoreError, checksum};
 use crate::columns::TableColumn;
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 10;
+pub const SCHEMA_VERSION: u32 = 11;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -78,6 +78,10 @@ CREATE TABLE event (
     direction BLOB NOT NULL,
     contact_changes BLOB NOT NULL,
     breaks_symmetry INTEGER NOT NULL
+);
+CREATE TABLE output_value (
+    solution INTEGER PRIMARY KEY,
+    numbers BLOB NOT NULL
 );
 ";
 
@@ -294,7 +298,8 @@ pub(super) fn create_tables(connection: &Connection) -> Result<(), StoreError> {
     Ok(checksum::create(connection, &[TABLES, &solutions, TABLES_OF_MOTIONS].concat())?)
 }
 
-fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreError> {
+/// Notes something about the study.
+pub(super) fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreError> {
     let changed = "INSERT INTO about (key, value) VALUES (?1, ?2)
         ON CONFLICT (key) DO UPDATE SET value = excluded.value WHERE value <> excluded.value";
     connection.execute(changed, params![key, value])?;

@@ -7,6 +7,7 @@ use super::{
     StoreError, blob,
     event::insert_event,
     keys::{first_key, walk_id},
+    outputs::forget_outputs,
     stability,
     values::{END_COLUMNS, values_of_end, values_of_row},
 };
@@ -82,6 +83,7 @@ pub(super) fn forget_walked(
     let (first, last) = (first_key(walk) + i64::from(solutions), first_key(walk + 1));
     transaction.execute("DELETE FROM event WHERE solution >= ?1 AND solution < ?2", [first, last])?;
     transaction.execute("DELETE FROM solution WHERE id >= ?1 AND id < ?2", [first, last])?;
+    forget_outputs(transaction, [first, last])?;
     transaction.execute("DELETE FROM journal WHERE walk = ?1", [walk])?;
     Ok(())
 }

@@ -50,7 +50,10 @@ impl FreeInterfaceReduction<'_> {
     pub fn modes(&self, loads: &[(String, Weights)]) -> Result<ReducedModes, StructureError> {
         let Self { prepared, full, statics, cut_off_hz, inertia } = *self;
         let (free, all) = (prepared.assembled.free, prepared.assembled.map.columns());
-        if free == all || !cut_off_hz.is_finite() {
+        // A base that takes along everything that holds the structure joins no coordinate: it cannot be let
+        // go.
+        let is_base = |column: usize| !(0..free).any(|row| prepared.assembled.is_coupled(row, column));
+        if (free..all).all(is_base) || !cut_off_hz.is_finite() {
             ensure_elastic(&prepared.supported, full, cut_off_hz)?;
             let basis = Basis::new(&prepared.supported, full, statics, &loads_over(loads, free), inertia);
             let (frequencies, shapes) = basis.modes(&[])?;

@@ -28,6 +28,7 @@ mod label;
 mod lanczos;
 mod map;
 mod matrix;
+mod mesh;
 mod modal_form;
 mod model;
 mod pencil_modes;
@@ -42,6 +43,7 @@ mod vectors;
 
 pub use label::{Direction, RowKind, RowLabel};
 pub use matrix::{Entry, SymmetricMatrix};
+pub use mesh::{MeshNode, MeshShape};
 pub use model::{
     Along, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport, PointPlace, RowSet,
     SupportRows,

@@ -113,7 +113,7 @@ impl Assembled {
     }
 
     /// Whether stiffness, mass or damping joins two coordinates.
-    fn is_coupled(&self, row: usize, column: usize) -> bool {
+    pub(super) fn is_coupled(&self, row: usize, column: usize) -> bool {
         let joins = |matrix: &SymmetricMatrix| {
             matrix.column(row.min(column)).any(|(place, _)| place == row.max(column))
         };

@@ -99,6 +99,8 @@ pub struct Matrices {
     pub components: Vec<MatrixComponent>,
     /// Places of nodes [m], as far as they are known.
     pub nodes: BTreeMap<i64, [f64; 3]>,
+    /// Pairs of nodes that lines join, for drawing.
+    pub lines: Vec<[i64; 2]>,
     /// Named points.
     pub points: Vec<MatrixPoint>,
     /// Supports.

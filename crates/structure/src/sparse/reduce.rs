@@ -75,7 +75,8 @@ impl Matrices {
         let outline = outline.collect();
         let mut report = prepared.assembled.report.clone();
         report::complete(&mut report, self, &prepared.assembled, &prepared.supported, &full)?;
-        Ok((Reduced { model, tables, outline }, report))
+        let mesh = self.mesh(&prepared, moving, (&shapes, &of_supports))?;
+        Ok((Reduced { model, tables, outline, mesh }, report))
     }
 }
 

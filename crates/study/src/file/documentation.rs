@@ -47,7 +47,7 @@ fn every_key_is_documented() {
     for table in ["continuation", "search", "figures"] {
         keys.extend(known_keys(&format!("{BEAM}\n[{table}]\nwrong_key = 1\n")));
     }
-    for table in ["vary", "curve"] {
+    for table in ["vary", "curve", "output"] {
         keys.extend(known_keys(&format!("{BEAM}\n[[{table}]]\nwrong_key = 1\n")));
     }
     keys.extend(known_keys(&format!("{BEAM}\n[[figures.orbit]]\nwrong_key = 1\n")));

@@ -242,7 +242,11 @@ fn check_magnitude(table: &Table<'_>, kind: &ExcitationKind, structure: &Structu
     let (key, amplitude) = match kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m.largest()),
         ExcitationKind::SupportMotions { supports } => {
-            ("support", supports.iter().map(|support| support.amplitude_m).fold(0.0, f64::max))
+            let moved = supports.iter().map(|support| match &support.drive {
+                SupportDrive::Displacement(amplitude) => amplitude.largest(),
+                SupportDrive::Acceleration(_) => 0.0,
+            });
+            ("support", moved.fold(0.0, f64::max))
         }
         ExcitationKind::SupportAcceleration { .. }
         | ExcitationKind::Force { .. }

@@ -23,6 +23,8 @@ mod load;
 mod lumped;
 mod matrices;
 mod names;
+mod output;
+mod output_value;
 mod parameter;
 mod read_formula;
 mod read_stop_law;
@@ -56,6 +58,8 @@ pub use matrices::{
     DirectionEntry, InputFile, Matrices, MatrixEntry, MatrixFiles, MatrixPointEntry, MatrixSupportEntry,
     PointPlaceEntry, RowSetEntry,
 };
+pub use output::{OutputEntry, OutputPlace, OutputSource};
+pub use output_value::{OutputQuantity, OutputValue};
 pub use parameter::{DampingKey, ParameterKind, VariedParameter};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;

@@ -17,9 +17,10 @@ use crate::{
 };
 
 use super::{
-    Continuation, Curve, Damping, Excitation, Figures, HarmonicExcitation, Load, Reduction, Response, Rig,
-    Search, Stop, Structure, VariedParameter, Vary, continuation, damping, excitation, figures, load,
-    names::Names, parameter::Variable, reduction, response, rig, search, stop, structure, vary,
+    Continuation, Curve, Damping, Excitation, Figures, HarmonicExcitation, Load, OutputEntry, Reduction,
+    Response, Rig, Search, Stop, Structure, VariedParameter, Vary, continuation, damping, excitation,
+    figures, load, names::Names, output, parameter::Variable, reduction, response, rig, search, stop,
+    structure, vary,
 };
 
 /// Everything a study says.
@@ -52,6 +53,9 @@ pub struct Study {
     /// Curves of bifurcations; no part of the identity.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+    /// What is read off the orbits besides; no part of the identity, since it is computed from them.
+    #[serde(skip)]
+    pub outputs: Vec<OutputEntry>,
     /// What the figures show besides; no part of the identity.
     #[serde(skip)]
     pub figures: Figures,
@@ -225,6 +229,9 @@ fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) 
         stops: stops.as_deref(),
     };
     let varied = if pieces { vary::read(root, reading, variable) } else { Some(vary::passed_over(root)) };
+    let referred =
+        output::Referred { names: &names, excitation: excitation.as_ref(), stops: stops.as_deref() };
+    let outputs = output::read(root, reading, &referred);
     let figures = figures::read(root, reading);
     let rig = rig::read(root, excitation.as_ref());
     let varied = varied?;
@@ -241,6 +248,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) 
         continuation: continuation?,
         varies: varied.0,
         curves: varied.1,
+        outputs: outputs?,
         figures: figures?,
         rig: rig?,
     })

@@ -11,8 +11,9 @@ use super::{Amplitude, amplitude, names::Names};
 pub struct MovingSupport {
     /// Where: places that move as one.
     pub at: Vec<String>,
-    /// Amplitude [m].
-    pub amplitude_m: f64,
+    /// Its displacement or its acceleration, the same at every frequency.
+    #[serde(flatten)]
+    pub drive: SupportDrive,
     /// Phase [rad].
     pub phase_rad: f64,
 }
@@ -101,22 +102,23 @@ fn read_each(table: &Table<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
 
 fn read_support(entry: Table<'_>, names: &Names) -> Option<MovingSupport> {
     let at = entry.required("at").and_then(|value| read_places(&value, names));
-    let amplitude = entry.required("amplitude_m").and_then(|value| read_amplitude(&value));
+    refuse_tables(&entry);
+    let drive = read_motion(&entry, &quantity::AMPLITUDE, &quantity::ACCELERATION);
     let phase = entry.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
     entry.finish();
-    Some(MovingSupport { at: at?, amplitude_m: amplitude?, phase_rad: phase? })
+    Some(MovingSupport { at: at?, drive: drive?, phase_rad: phase? })
 }
 
-/// A number: a table over the frequency is a factor of the whole excitation.
-fn read_amplitude(value: &Value<'_>) -> Option<f64> {
-    const AMPLITUDE: &Quantity = &quantity::AMPLITUDE;
-    if value.is_list() {
-        let message = "`amplitude_m` of a support that moves differently is a table over the frequency";
-        let help = "allowed: a number; tables are for supports that all move alike, with `at = [...]`";
-        value.problem(message.into(), vec![help.to_owned()]);
-        return None;
+/// A table over the frequency is a factor of the whole excitation.
+fn refuse_tables(entry: &Table<'_>) {
+    for key in ["amplitude_m", "amplitude_m_s2"] {
+        if let Some(value) = entry.optional(key).filter(Value::is_list) {
+            let message =
+                format!("`{key}` of a support that moves differently is a table over the frequency");
+            let help = "allowed: a number; tables are for supports that all move alike, with `at = [...]`";
+            value.problem(message, vec![help.to_owned()]);
+        }
     }
-    value.number(AMPLITUDE)
 }
 
 fn read_places(value: &Value<'_>, names: &Names) -> Option<Vec<String>> {
@@ -222,6 +224,29 @@ mod tests {
         assert_refused("[response]", &format!("{nameless}[response]"), &["`at` is missing"]);
         let other = load.replace("right", "middle");
         assert_refused("[response]", &format!("{other}[response]"), &["middle", "left, right"]);
+    }
+
+    /// `u = -a/(2 pi f)^2 cos(2 pi f t + p)` has the acceleration `a cos(2 pi f t + p)`.
+    #[test]
+    fn a_support_may_be_given_by_its_acceleration() {
+        let file = tube_with("amplitude = \"0.2 mm\"", "amplitude_m_s2 = 7.0").unwrap();
+        let model = Model::build(&file).unwrap();
+        for f in [20.0_f64, 55.0] {
+            let w = std::f64::consts::TAU * f;
+            // Three quarters of a period and a phase of 90 degrees make a whole one.
+            let right = model.system.support_motions(f, 0.75)[1];
+            assert!((right[0] * w * w + 7.0).abs() < 1e-12 && (right[2] - 7.0).abs() < 1e-12, "{right:?}");
+        }
+        let both = "amplitude_m_s2 = 7.0, amplitude = \"0.2 mm\"";
+        assert_refused(
+            "amplitude = \"0.2 mm\"",
+            both,
+            &["`amplitude_m_s2` is given, and `amplitude_m`, too"],
+        );
+        let table = "amplitude_m_s2 = [[10.0, 1.0], [90.0, 2.0]]";
+        assert_refused("amplitude = \"0.2 mm\"", table, &["`amplitude_m_s2` of a support", "all move alike"]);
+        let load = "[[load]]\nkind = \"support-motion\"\nat = \"right\"\namplitude_m_s2 = 1.0\norder = 3\n";
+        Model::build(&tube_with("[response]", &format!("{load}[response]")).unwrap()).unwrap();
     }
 
     #[test]

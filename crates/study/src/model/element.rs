@@ -58,14 +58,17 @@ impl Relative {
     }
 }
 
-/// The local elements of all stops.
+/// The elements of a stop by their numbers, each with the sign of its force in that on the stop.
+pub(super) type ElementsOfStop = Vec<(usize, f64)>;
+
+/// The local elements of all stops, and which of them are of each stop.
 pub(super) fn elements(
     file: &StudyFile,
     model: &ReducedModel,
     load: &Load,
-) -> Result<Vec<LocalElement>, StudyError> {
+) -> Result<(Vec<LocalElement>, Vec<ElementsOfStop>), StudyError> {
     let rest = rest(load, model);
-    let mut elements = Vec::new();
+    let (mut elements, mut of_stops) = (Vec::new(), Vec::new());
     for stop in &file.study.stops {
         let key = format!("stop[{}]", stop.entry.number());
         let relative = Relative::of(&stop.place, model);
@@ -78,9 +81,12 @@ pub(super) fn elements(
             (GapMeasured::AtRest, Err(mode)) => return Err(no_rest(file, &key, *mode)),
         };
         let made = of_stop(stop, relative, rest);
-        elements.extend(made.map_err(|error| file.fault(&key, error.to_string(), Vec::new()))?);
+        let made = made.map_err(|error| file.fault(&key, error.to_string(), Vec::new()))?;
+        let (made, signs): (Vec<LocalElement>, Vec<f64>) = made.into_iter().unzip();
+        of_stops.push((elements.len()..).zip(signs).collect());
+        elements.extend(made);
     }
-    Ok(elements)
+    Ok((elements, of_stops))
 }
 
 fn immovable(file: &StudyFile, key: &str) -> StudyError {
@@ -96,8 +102,9 @@ fn no_rest(file: &StudyFile, key: &str, mode: usize) -> StudyError {
     file.fault(&format!("{key}.gap_measured"), message, vec!["allowed: gap_measured = \"undeformed\"".into()])
 }
 
-/// The elements of a stop: one as a rule, several where its law says so.
-fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalElement>, LawError> {
+/// The elements of a stop, one as a rule, several where its law says so; each with the sign of its force in
+/// that on the stop.
+fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<(LocalElement, f64)>, LawError> {
     let (law, values) = (&stop.law, LawValues(stop.law.values()));
     let (relative, parts) = match (law.rest(), law.description().sides) {
         (StopRest::OneSided { approach, side }, LawSides::One { build, .. }) => {
@@ -117,7 +124,9 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalEle
     };
     let element = |part: LawPart| {
         let turned = if part.is_turned { Side::Below } else { Side::Above };
-        relative.clone().towards(turned).element(&format!("{}{}", stop.name, part.suffix), part.law)
+        let name = format!("{}{}", stop.name, part.suffix);
+        let sign = if part.is_turned { -1.0 } else { 1.0 };
+        (relative.clone().towards(turned).element(&name, part.law), sign)
     };
     Ok(parts.into_iter().map(element).collect())
 }

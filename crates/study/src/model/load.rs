@@ -4,8 +4,8 @@ use hammerbeam_motion::{FrequencyFactor, Harmonic, HarmonicForce, Load, SupportH
 use hammerbeam_structure::ReducedModel;
 
 use crate::file::{
-    self, ActingForce, Amplitude, ExcitationKind, ForcePlace, ForceSize, HarmonicExcitation, MovingSupport,
-    Study, StudyError, StudyFile, SupportDrive,
+    self, ActingForce, Amplitude, ExcitationKind, ForcePlace, ForceSize, HarmonicExcitation, Study,
+    StudyError, StudyFile, SupportDrive,
 };
 
 /// Refuses forces on points that cannot move.
@@ -91,7 +91,9 @@ impl Drive {
                 self.accelerate(0, amplitude_m_s2, (order, phase));
             }
             ExcitationKind::SupportMotions { supports } => {
-                self.kept.support.extend(each_in_its_way(supports, order));
+                for (support, moving) in supports.iter().enumerate() {
+                    self.drive_support(support, &moving.drive, (order, moving.phase_rad));
+                }
             }
             ExcitationKind::Force { at, amplitude_n } => {
                 let shape = shape(model, at);
@@ -120,16 +122,9 @@ impl Drive {
                 });
             }
             file::Load::ActingForce { force, order } => self.act(force, (*order, force.phase_rad), model),
-            file::Load::DrivenSupport { support, motion, order, phase_rad } => match motion {
-                SupportDrive::Displacement(amplitude) => {
-                    self.push(amplitude, FrequencyFactor::default(), |amplitude| {
-                        support_motion(*support, Harmonic { order: *order, amplitude, phase: *phase_rad })
-                    });
-                }
-                SupportDrive::Acceleration(amplitude) => {
-                    self.accelerate(*support, amplitude, (*order, *phase_rad));
-                }
-            },
+            file::Load::DrivenSupport { support, motion, order, phase_rad } => {
+                self.drive_support(*support, motion, (*order, *phase_rad));
+            }
             file::Load::SupportMotion { support, amplitude_m, order, phase_rad } => {
                 let harmonic = Harmonic { order: *order, amplitude: *amplitude_m, phase: *phase_rad };
                 self.kept.support.push(SupportHarmonic { support: *support, harmonic });
@@ -156,6 +151,18 @@ impl Drive {
         }
     }
 
+    /// A support whose displacement or acceleration is prescribed.
+    fn drive_support(&mut self, support: usize, drive: &SupportDrive, (order, phase): (u32, f64)) {
+        match drive {
+            SupportDrive::Displacement(amplitude) => {
+                self.push(amplitude, FrequencyFactor::default(), |amplitude| {
+                    support_motion(support, Harmonic { order, amplitude, phase })
+                });
+            }
+            SupportDrive::Acceleration(amplitude) => self.accelerate(support, amplitude, (order, phase)),
+        }
+    }
+
     /// A support whose acceleration is `a cos(m W t + p)`: its displacement is `-a/(m W)^2` times that.
     fn accelerate(&mut self, support: usize, amplitude: &Amplitude, (order, phase): (u32, f64)) {
         let part = -1.0 / f64::from(order).powi(2);
@@ -171,14 +178,6 @@ fn support_motion(support: usize, harmonic: Harmonic) -> Load {
 
 fn force(shape: Vec<f64>, harmonic: Harmonic) -> Load {
     Load { support: Vec::new(), forces: vec![HarmonicForce { shape, harmonic }] }
-}
-
-/// The motions of supports that move differently.
-fn each_in_its_way(supports: &[MovingSupport], order: u32) -> impl Iterator<Item = SupportHarmonic> {
-    supports.iter().enumerate().map(move |(support, of)| {
-        let harmonic = Harmonic { order, amplitude: of.amplitude_m, phase: of.phase_rad };
-        SupportHarmonic { support, harmonic }
-    })
 }
 
 fn shape(model: &ReducedModel, name: &str) -> Vec<f64> {

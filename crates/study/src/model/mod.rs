@@ -8,6 +8,7 @@ mod export;
 mod fault;
 mod initial;
 mod load;
+mod outputs;
 mod parameter;
 mod reference;
 mod structure;
@@ -18,11 +19,12 @@ use std::sync::Arc;
 
 use hammerbeam_motion::{Family, Member, Parameter, ParameterError, PointMotion, System};
 use hammerbeam_orbit::Response;
-use hammerbeam_structure::{MatrixReport, ModeTables, OutlinePoint, ReducedModel};
+use hammerbeam_structure::{MatrixReport, MeshShape, ModeTables, OutlinePoint, ReducedModel};
 
 pub use drift::Drift;
 pub use export::matrix_study;
 pub use initial::{PointStart, PointStartError, PointStartKind};
+pub use outputs::output_signals;
 pub use parameter::StudyParameter;
 pub use undamped::UndampedMode;
 pub use undamped_in_contact::UndampedInContact;
@@ -51,6 +53,8 @@ pub struct Model {
     pub tables: ModeTables,
     /// The shape of the whole structure.
     pub outline: Vec<OutlinePoint>,
+    /// The mesh of a structure of matrices that has lines.
+    pub mesh: Option<MeshShape>,
     /// What was found in the matrices of the structure, if it has such.
     pub matrices: Option<MatrixReport>,
     /// Constants of the damping that vary: parts 1, 2, ... of the damping of the system.
@@ -58,6 +62,8 @@ pub struct Model {
     /// Other numbers that vary: the families of the system.
     number_keys: Vec<String>,
     families: Vec<Arc<StudyFamily>>,
+    /// The elements of each stop of the study.
+    elements_of_stops: Vec<element::ElementsOfStop>,
 }
 
 impl Model {
@@ -85,7 +91,7 @@ impl Model {
         let reference = (!numbers.is_empty()).then(|| Arc::new(Reference::new(study, &reduced)));
         load::check(file, &reduced.model)?;
         let drive = load::Drive::of(study, &reduced.model);
-        let elements = element::elements(file, &reduced.model, &drive.kept)?;
+        let (elements, elements_of_stops) = element::elements(file, &reduced.model, &drive.kept)?;
         let response = response_point(study, &reduced.model);
         let system = drive
             .driven
@@ -109,9 +115,20 @@ impl Model {
             system = system.with_family(Arc::clone(&family) as _, value, size);
             families.push(family);
         }
-        let (tables, outline) = (reduced.tables, reduced.outline);
+        let (tables, outline, mesh) = (reduced.tables, reduced.outline, reduced.mesh);
         let number_keys = numbers.into_iter().map(|(key, _)| key).collect();
-        let model = Self { system, response, tables, outline, matrices, damping_keys, number_keys, families };
+        let model = Self {
+            system,
+            response,
+            tables,
+            outline,
+            mesh,
+            matrices,
+            damping_keys,
+            number_keys,
+            families,
+            elements_of_stops,
+        };
         model.check_varied(file)?;
         Ok(model)
     }

@@ -8,8 +8,8 @@ use hammerbeam_drawing::{DrawSettings, draw_compared, draw_into};
 use hammerbeam_jobs::{
     PreparedStudy,
     comparison::{
-        CompareReport, Filter, FitSettings, Fixed, MeasuredPoints, compare_results, read_measured,
-        write_amplitudes, write_compared,
+        CompareReport, Filter, FitSettings, Fixed, MeasuredPoints, compare_output, compare_results,
+        read_measured, write_amplitudes, write_compared,
     },
 };
 use hammerbeam_results::{Store, whole_file::subfolder};
@@ -34,11 +34,19 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let study = PreparedStudy { file, model };
     let folder = folder(options)?;
     let measured = read_measured(&options.measured, options.reference.as_deref())?;
-    let quantities = quantities(options, &measured)?;
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
     let settings = settings(options, &measured.points);
-    let of = (&measured, quantities.as_slice());
-    let compared = compare_results((&study, &point), &options.results, of, filter, &settings)?;
+    let compared = match &options.output {
+        Some(output) => {
+            vec![compare_output((&study.file, output), &options.results, &measured, &settings)?]
+        }
+        None => {
+            let quantities = quantities(options, &measured)?;
+            let of = (&measured, quantities.as_slice());
+            compare_results((&study, &point), &options.results, of, filter, &settings)?
+        }
+    };
+    let point = options.output.clone().unwrap_or(point);
     let mut report = CompareReport {
         results: options.results.clone(),
         point,

@@ -9,6 +9,7 @@ use hammerbeam_drawing::{DrawSettings, FigureSelection, draw, draw_into};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
     MirrorImage, PreparedStudy,
+    outputs::OutputPass,
     pool::threads,
     run::{
         BranchReport, RunOutcome, RunReport, RunRequest, WholeRun, end_of_side, peak_stability, run_study,
@@ -169,6 +170,16 @@ impl Summary {
             .join("\n")
     }
 
+    /// What was read off stored orbits, if something was.
+    fn outputs_text(&self) -> Option<String> {
+        let OutputPass { solutions, failed, .. } = self.report.outputs;
+        let lost = match failed {
+            0 => String::new(),
+            _ => format!("; the motion of {failed} could not be computed again, they have none"),
+        };
+        (solutions > 0).then(|| format!("\noutputs read off {} solutions{lost}", solutions - failed))
+    }
+
     pub fn text(&self) -> String {
         let mut lines = vec![format!(
             "{} solutions on {} branch(es) in {}, after {:.1} s",
@@ -179,6 +190,7 @@ impl Summary {
         )];
         lines.extend(self.report.branches.iter().map(|branch| self.branch_text(branch)));
         lines.extend(self.report.varied.iter().map(piece_text));
+        lines.extend(self.outputs_text());
         lines.extend(self.marginal_text());
         lines.extend(self.failed_text());
         if self.report.left() > 0 {

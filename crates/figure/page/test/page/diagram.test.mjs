@@ -35,6 +35,21 @@ test("the page has the words of printed figures", options, async () => {
     assert.ok((await labels(tab)).titles[1].startsWith("Displacement max |y|"));
 });
 
+test("axes show outputs, upright, across and in a link", options, async () => {
+    const tab = await open(pages.run);
+    await choose(tab, "Show", "output-1");
+    await drawn(tab);
+    assert.match((await labels(tab)).titles[1], /^push, maximum force \(k?N\)$/);
+    await choose(tab, "Over", "output-2");
+    await drawn(tab);
+    assert.match((await labels(tab)).titles[0], /^push, mean force \(k?N\)$/);
+    const hash = await tab.value(`location.hash`);
+    assert.ok(hash.includes("show=output-1") && hash.includes("over=output-2"), hash);
+    const again = await open(pages.run, hash);
+    assert.deepEqual((await labels(again)).titles, (await labels(tab)).titles);
+    assert.deepEqual([...tab.complaints, ...again.complaints], []);
+});
+
 test("marks keep their distance, those of stable solutions before all others, and more of them appear in a zoom", options, async () => {
     const tab = await open(pages.run);
     const apart = (found) => {

@@ -3,7 +3,7 @@
 use super::place::{BASE, BeamLayout, END_HALF, HALF};
 use crate::{
     sketch::{Behind, arrow, at, block, disc, line, variable, wall},
-    structure_diagram::data::{SketchCarrier, SketchEnd, SketchStop},
+    structure_diagram::data::{SketchCarrier, SketchEnd, SketchPoint, SketchStop},
     style::PAPER,
     svg::{Anchor, SvgWriter},
 };
@@ -70,6 +70,40 @@ impl BeamLayout<'_> {
         let near = if above { self.ceiling } else { self.floor };
         block(svg, at(from, near), at(to, if above { near - BASE } else { near + BASE }));
         true
+    }
+
+    /// The support of a point between the ends: a triangle that it turns on, walls on both sides that it is
+    /// clamped between, or rollers that it slides between.
+    pub(super) fn draw_support(&self, svg: &mut SvgWriter, point: &SketchPoint) {
+        let (x, moves) = (self.across(point.at_m), self.diagram.moves(&point.name));
+        let (above, below) = (self.middle - HALF, self.middle + HALF);
+        match point.support {
+            SketchEnd::Free => {}
+            SketchEnd::Pinned => {
+                let foot = below + 7.0;
+                line(svg, &[at(x, below), at(x - 4.0, foot), at(x + 4.0, foot), at(x, below)]);
+                if !moves {
+                    wall(svg, at(x - 6.0, foot), at(x + 6.0, foot), Behind::Below);
+                }
+            }
+            SketchEnd::Clamped => {
+                wall(svg, at(x - 6.0, above), at(x + 6.0, above), Behind::Above);
+                if !moves {
+                    wall(svg, at(x - 6.0, below), at(x + 6.0, below), Behind::Below);
+                }
+            }
+            SketchEnd::Sliding => {
+                let half = 0.5 * END_HALF;
+                for (side, behind) in [(-1.0, Behind::Left), (1.0, Behind::Right)] {
+                    for y in [self.middle - half, self.middle + half] {
+                        disc(svg, at(x + side * 2.0, y), 2.0, PAPER);
+                    }
+                    let out = x + side * 4.0;
+                    wall(svg, at(out, self.middle - END_HALF), at(out, self.middle + END_HALF), behind);
+                }
+                line(svg, &[at(x, self.middle - END_HALF), at(x, self.middle + END_HALF)]);
+            }
+        }
     }
 
     pub(super) fn draw_end(&self, svg: &mut SvgWriter, end: SketchEnd, is_left: bool) {

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use hammerbeam_matrices::{ComponentFiles, MatrixFile, MatrixFormat, Nodes, read_component, read_nodes};
+use hammerbeam_matrices::{
+    ComponentFiles, MatrixFile, MatrixFormat, Nodes, read_component, read_lines, read_nodes,
+};
 use hammerbeam_structure::{
     self as linear, Along, Direction, MatrixComponent, MatrixPoint, MatrixSupport, PointPlace, RowSet,
     SupportRows,
@@ -32,7 +34,7 @@ impl Matrices {
                 .map(|entry| &entry.file)
                 .chain(&files.dofs)
         });
-        entries.chain(&self.nodes)
+        entries.chain(&self.nodes).chain(self.lines.as_deref())
     }
 
     /// The matrices in the terms of the structure crate.
@@ -49,10 +51,15 @@ impl Matrices {
                 nodes.map_err(|error| MatrixProblem { key: "nodes", message: error.to_string() })?
             }
         };
+        let lines = self.lines.as_ref().map_or(Ok(Vec::new()), |file| {
+            let lines = read_lines(&file.path);
+            lines.map_err(|error| MatrixProblem { key: "lines", message: error.to_string() })
+        });
         let factor = self.length_factor;
         Ok(linear::Matrices {
             components: components?,
             nodes: nodes.into_iter().map(|(node, place)| (node, place.map(|part| factor * part))).collect(),
+            lines: lines?,
             points: self.points.iter().map(MatrixPointEntry::descriptor).collect(),
             supports: self.supports.iter().map(MatrixSupportEntry::descriptor).collect(),
             fixed: self.fixed.iter().map(RowSetEntry::descriptor).collect(),

@@ -11,6 +11,9 @@ pub struct Matrices {
     pub components: Vec<MatrixFiles>,
     /// Where nodes are.
     pub nodes: Option<InputFile>,
+    /// Which nodes lines join, for drawing; no part of the identity.
+    #[serde(skip)]
+    pub lines: Option<Box<InputFile>>,
     /// Factor that brings their places to metres.
     pub length_factor: f64,
     /// Named points.

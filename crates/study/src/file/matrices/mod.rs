@@ -29,6 +29,11 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
     let components = read_components(table, reading);
     let known: Vec<String> = components.iter().flatten().map(|component| component.name.clone()).collect();
     let nodes = optional_file(table, "nodes", reading);
+    let lines = optional_file(table, "lines", reading);
+    if let (Some(Some(_)), Some(None)) = (&lines, &nodes) {
+        let help = vec!["allowed: with `nodes`, which says where the nodes are".to_owned()];
+        table.problem("lines", "`lines` is given without `nodes`".to_owned(), help);
+    }
     let length_factor = read_factor(table, "length_factor");
     let points: Vec<Option<MatrixPointEntry>> =
         table.tables("point").into_iter().map(|point| read_point(point, &known, names)).collect();
@@ -59,6 +64,7 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
     let matrices = Matrices {
         components: components?,
         nodes: nodes?,
+        lines: lines?.map(Box::new),
         length_factor: length_factor?,
         points,
         supports: supports.into_iter().collect::<Option<_>>()?,
