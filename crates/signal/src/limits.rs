@@ -1,8 +1,8 @@
 //! Upper limits of what is read and created: a wrong file or number then ends with a message, and does not
 //! exhaust memory or time.
 //!
-//! Every reader of the program opens its file here. Devices, pipes and folders are refused: they may have no end, or
-//! keep a reader waiting.
+//! Readers of studies and measurements open their files here; `hammerbeam-matrices` keeps the same rule for
+//! matrices. Devices, pipes and folders are refused: they may have no end, or keep a reader waiting.
 
 use std::{
     fs::File,

@@ -58,7 +58,7 @@ pub fn parse_matrices(bytes: &[u8], format: Option<MatrixFormat>) -> Result<Vec<
     parse(bytes, first, format).map_err(|error| named(Path::new(""), error))
 }
 
-fn parse<R: std::io::BufRead>(
+fn parse<R: io::BufRead>(
     source: R,
     first: &[u8],
     format: Option<MatrixFormat>,

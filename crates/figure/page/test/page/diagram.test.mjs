@@ -43,8 +43,9 @@ test("axes show outputs, upright, across and in a link", options, async () => {
     await choose(tab, "Over", "output-2");
     await drawn(tab);
     assert.match((await labels(tab)).titles[0], /^push, mean force \(k?N\)$/);
+    // The address follows a moment later.
+    await tab.until(`location.hash.includes("show=output-1") && location.hash.includes("over=output-2")`);
     const hash = await tab.value(`location.hash`);
-    assert.ok(hash.includes("show=output-1") && hash.includes("over=output-2"), hash);
     const again = await open(pages.run, hash);
     assert.deepEqual((await labels(again)).titles, (await labels(tab)).titles);
     assert.deepEqual([...tab.complaints, ...again.complaints], []);
