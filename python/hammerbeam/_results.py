@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ._study import Study
 
 AnyPath = str | PathLike[str]
-Branches = int | Sequence[int] | None
+Branches = int | Sequence[int] | Array | None
 """Numbers of branches; `None` for all."""
 
 
@@ -95,7 +95,7 @@ class Results:
 
     def orbits(
         self,
-        frequency_hz: float | Sequence[float] | None = None,
+        frequency_hz: float | Sequence[float] | Array | None = None,
         *,
         branch: Branches = None,
         event: str | Sequence[str] | None = None,

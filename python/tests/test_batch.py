@@ -362,7 +362,7 @@ def test_what_a_batch_is_not_made_of(tmp_path: Path) -> None:
 
 def test_a_task_takes_numbers_of_numpy() -> None:
 
-    task = Task.simulate(np.float32(0.25), periods=np.int64(20), initial=np.zeros(2))
+    task = Task.simulate(float(np.float32(0.25)), periods=np.int64(20), initial=np.zeros(2))
     plain = {"frequency_hz": 0.25, "periods": 20, "initial": [0.0, 0.0]}
     assert task.document()["options"] == plain and Task.from_document(task.document()) == task
 

@@ -103,7 +103,7 @@ def test_an_unsymmetric_matrix_is_refused_with_its_place(
     name: str, keep: Callable[[np.ndarray], np.ndarray], sparse: bool
 ) -> None:
     _, stiffness = chain(4)
-    given = {"M": stiffness, "K": stiffness, "C": stiffness}
+    given: dict[str, Any] = {"M": stiffness, "K": stiffness, "C": stiffness}
     given[name] = keep(stiffness)
     if sparse:
         scipy_sparse = pytest.importorskip("scipy.sparse")

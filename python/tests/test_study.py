@@ -123,7 +123,8 @@ def test_results_of_matrices_are_readable_after_the_same_call_again(tmp_path: Pa
         with hammerbeam.Results(out) as results:
             tables.append(results.branches())
             assert len(results.orbits(1.1)) > 0
-    np.testing.assert_array_equal(*tables)
+    first, second = tables
+    np.testing.assert_array_equal(first, second)
     with pytest.raises(hammerbeam.BadInput, match="belongs to other matrices"):
         matrices_with_a_stop(90.0).run(out, jobs=1, progress=False, figures=False)
     with hammerbeam.Results(out) as results:

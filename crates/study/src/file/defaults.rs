@@ -11,7 +11,7 @@ const BESIDE_MATRICES: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/tutorials/calculix/study.toml");
 
 /// Defaults that are words on the page, since they depend on the rest of the study.
-const IN_WORDS: [&str; 4] = ["name", "fixed_to", "point", "signals"];
+const IN_WORDS: [&str; 6] = ["name", "fixed_to", "point", "name", "quantity", "signals"];
 
 /// A row of a table with a column of defaults: the heading above, key and default.
 struct Documented {
@@ -97,6 +97,7 @@ impl Documented {
                 (stop(law), "name = \"other\"")
             }
             "`[response]`" => (BEAM.to_owned(), "[response]"),
+            "`[[output]]`" => (with("[[output]]\nname = \"seen\"\nat = \"tip\""), "name = \"seen\""),
             "`[search]`" => (with("[search]"), "[search]"),
             "`[continuation]`" => (with("[continuation]"), "[continuation]"),
             "`[[vary]]`" => {
@@ -140,8 +141,20 @@ fn defaults_of_the_page_are_those_of_the_readers() {
         let expected = read(&study).unwrap_or_else(|| panic!("the study for {place} is refused:\n{study}"));
         let written = with(&default).unwrap_or_else(|| panic!("{place} = {default} is refused"));
         assert!(written == expected, "{default} is not the default of {place}");
-        let others =
-            ["1", "2", "1e-9", "77", "0.002", "7", "false", "\"pinned\"", "\"at-rest\"", "[2]", "[900.0]"];
+        let others = [
+            "1",
+            "2",
+            "1e-9",
+            "77",
+            "0.002",
+            "7",
+            "false",
+            "\"pinned\"",
+            "\"at-rest\"",
+            "[2]",
+            "[900.0]",
+            "[\"rms\"]",
+        ];
         let changes = |other: &&str| with(other).is_some_and(|study| study != expected);
         assert!(others.iter().any(changes), "nothing changes {place}");
         literal += 1;
