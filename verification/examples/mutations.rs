@@ -2,7 +2,7 @@
 //! `mutations [SECONDS] [SEED] [READER]`.
 //!
 //! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit
-//! code 1. Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
+//! code 1; so it does if reading has taken more than 1 GiB of memory. Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
 #![allow(clippy::print_stdout, reason = "the counts are what it is for")]
 
 use std::{
@@ -16,7 +16,7 @@ use std::{
 
 use hammerbeam_verification::{
     attractors::Random,
-    mutations::{Outcome, PATIENCE, Reader, corpus, mutated, outcome},
+    mutations::{MOST_MEMORY, Outcome, PATIENCE, Reader, corpus, mutated, outcome, peak_memory},
     results::{BoxedError, Results},
 };
 
@@ -89,8 +89,13 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
         }
     }
     let slowest = slowest.as_secs_f64();
-    println!("{}: {taken} taken, {refused} refused, {failed} failed, slowest {slowest:.2} s", reader.name());
-    Ok(failed)
+    let counts = format!("{taken} taken, {refused} refused, {failed} failed, slowest {slowest:.2} s");
+    let Some(peak) = peak_memory() else {
+        println!("{}: {counts}", reader.name());
+        return Ok(failed);
+    };
+    println!("{}: {counts}, at most {} MiB so far", reader.name(), peak >> 20);
+    Ok(failed + usize::from(peak > MOST_MEMORY))
 }
 
 /// The outcome of an input, on a thread of its own: one that never ends is slow, too, and ends the program.

@@ -12,13 +12,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_matrices::parse_matrices;
+use hammerbeam_jobs::update::UpdateData;
+use hammerbeam_matrices::{parse_matrices, read_labels, read_lines, read_nodes};
 use hammerbeam_results::{Store, StoreError, export_csv, summary::summarise};
 use hammerbeam_signal::{RecordOptions, points, read};
 use hammerbeam_study::StudyFile;
 
 use crate::attractors::Random;
 
+/// Most memory that reading may take, of all inputs together [bytes].
+pub const MOST_MEMORY: u64 = 1 << 30;
 /// Longest time that a reader may take.
 pub const PATIENCE: Duration = Duration::from_secs(2);
 /// Files beyond that are no use: they are read slowly for their length alone.
@@ -35,13 +38,18 @@ pub enum Reader {
     Points,
     /// Matrices of a finite element program, in any format.
     Matrices,
+    /// Labels of rows, places of nodes and lines of a mesh, in any format.
+    Tables,
+    /// Measurements to which a model is fitted.
+    Update,
     /// A results database.
     Results,
 }
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Study, Self::Signal, Self::Points, Self::Matrices, Self::Results];
+    pub const ALL: [Self; 7] =
+        [Self::Study, Self::Signal, Self::Points, Self::Matrices, Self::Tables, Self::Update, Self::Results];
 
     /// Name, also of its folder in the corpus.
     #[must_use]
@@ -51,6 +59,8 @@ impl Reader {
             Self::Signal => "signal",
             Self::Points => "points",
             Self::Matrices => "matrices",
+            Self::Tables => "tables",
+            Self::Update => "update",
             Self::Results => "results",
         }
     }
@@ -66,9 +76,31 @@ impl Reader {
             }
             Self::Points => points::parse(bytes).is_ok(),
             Self::Matrices => parse_matrices(bytes, None).is_ok(),
+            Self::Tables => tables(folder, bytes).is_ok_and(|taken| taken),
+            Self::Update => {
+                let study = StudyFile::parse("study", FITTED.to_owned());
+                let text = String::from_utf8(bytes.to_vec());
+                study.is_ok_and(|study| {
+                    text.is_ok_and(|text| UpdateData::parse("input", text, &study).is_ok())
+                })
+            }
             Self::Results => everything_stored(folder, bytes).is_ok(),
         }
     }
+}
+
+/// The study whose model is fitted.
+const FITTED: &str = include_str!("../../studies/beam-with-stop.toml");
+
+/// Whether any reader of tables takes the bytes: the ending of a name says which one it is.
+fn tables(folder: &Path, bytes: &[u8]) -> std::io::Result<bool> {
+    let mut taken = false;
+    for ending in ["csv", "dof", "inp", "pch"] {
+        let path = folder.join(format!("table.{ending}"));
+        fs::write(&path, bytes)?;
+        taken |= read_labels(&path).is_ok() | read_nodes(&path).is_ok() | read_lines(&path).is_ok();
+    }
+    Ok(taken)
 }
 
 /// Everything that a results database has to say.
@@ -150,6 +182,14 @@ impl Clock {
     }
 }
 
+/// The most memory that this program has had so far [bytes], where Linux tells it.
+#[must_use]
+pub fn peak_memory() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().trim_end_matches("kB").trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
+}
+
 /// The files that a reader's mutations begin with, in the order of their names.
 ///
 /// * `root`: of the repository.
@@ -161,7 +201,9 @@ pub fn corpus(reader: Reader, root: &Path) -> std::io::Result<Vec<Vec<u8>>> {
     let folders: &[&str] = match reader {
         Reader::Study => &["studies", "verification/studies", &own],
         Reader::Signal => &["crates/signal/tests/fixtures", &own],
-        Reader::Matrices => &["crates/matrices/tests/fixtures", &own],
+        Reader::Matrices => &["crates/matrices/tests/fixtures", "crates/matrices/tests/data", &own],
+        Reader::Tables => &["crates/matrices/tests/fixtures", &own],
+        Reader::Update => &["studies/measurements", &own],
         Reader::Points | Reader::Results => &[&own],
     };
     let mut paths: Vec<PathBuf> = Vec::new();

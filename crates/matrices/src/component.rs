@@ -1,6 +1,9 @@
 //! Stiffness, mass and damping of one component, from its files.
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use hammerbeam_structure::{MatrixComponent, RowLabel, SymmetricMatrix};
 
@@ -168,7 +171,10 @@ fn fitted(matrix: SymmetricMatrix, file: &FileMatrix, labels: &[RowLabel], rows:
     let own = &file.labels;
     let relabelled = !own.is_empty() && own != labels;
     let place: Vec<Option<usize>> = if relabelled {
-        own.iter().map(|label| labels.iter().position(|known| known == label)).collect()
+        // Of labels that stand there twice the first is meant.
+        let places: BTreeMap<&RowLabel, usize> =
+            (0..labels.len()).rev().map(|place| (&labels[place], place)).collect();
+        own.iter().map(|label| places.get(label).copied()).collect()
     } else {
         (0..matrix.size()).map(|row| (row < rows).then_some(row)).collect()
     };

@@ -57,7 +57,7 @@ pub enum MatrixFault {
     UnknownFormat { known: Vec<&'static str> },
     /// Nothing of the name that was asked for.
     #[error("there is no matrix {name}, the file has \
-    {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    {}", if known.is_empty() { "none".to_owned() } else { listed(known) })]
     NoSuchMatrix { name: String, known: Vec<String> },
     /// Rows and columns differ in number.
     #[error("matrix {name} has {rows} rows and {columns} columns, must be square")]
@@ -92,6 +92,14 @@ pub struct MatrixError {
 pub(crate) struct PlacedFault {
     pub place: FilePlace,
     pub fault: MatrixFault,
+}
+
+/// The first names of many.
+fn listed(names: &[String]) -> String {
+    const MOST: usize = 20;
+    let more = names.len().saturating_sub(MOST);
+    let more = (more > 0).then(|| format!("and {more} more"));
+    names.iter().take(MOST).cloned().chain(more).collect::<Vec<_>>().join(", ")
 }
 
 impl MatrixFault {

@@ -148,3 +148,10 @@ fn a_matrix_with_far_more_rows_than_entries_is_refused() {
     let message = parse_matrices(text.as_bytes(), None).unwrap_err().to_string();
     assert!(message.contains("at most 64064 with 1 entries"), "{message}");
 }
+
+/// Each matrix of a punch file takes labels of all rows of the file.
+#[test]
+fn very_many_matrices_in_a_file_are_refused() {
+    let headers: String = (0..1001).map(|k| format!("DMIG    M{k:<7}       0       6       1\n")).collect();
+    refused(&headers, &["the number of matrices is 1001", "1000 in a file"]);
+}

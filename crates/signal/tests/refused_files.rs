@@ -246,3 +246,25 @@ fn more_numbers_or_columns_than_are_worked_with_are_refused() {
     array.resize(array.len() + 33_554_433, 0);
     assert_eq!(refusal(&array), ReadError::TooManyNumbers);
 }
+
+/// Times whose differences are no numbers, and steps whose rate is none.
+#[test]
+fn times_that_cannot_be_counted_with_are_refused() {
+    for (times, part) in [
+        (["-1e308", "0", "1e308"], "a time is -1e308 s"),
+        (["0", "5e-324", "1e-323"], "the step between samples is 5e-324 s"),
+    ] {
+        let rows: String = times.iter().map(|time| format!("{time},1.0\n")).collect();
+        let raw = parse(format!("time [s],a [m]\n{rows}").as_bytes()).unwrap();
+        let message = raw.validate(&RecordOptions::default()).unwrap_err().to_string();
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+/// Functions of a universal file are columns as those of a table are.
+#[test]
+fn a_universal_file_of_very_many_functions_is_refused() {
+    let text = String::from_utf8(fixture("double.uff")).unwrap();
+    let many = text.repeat(10_001 / text.matches("    58\n").count().max(1) + 1);
+    assert!(matches!(refusal(many.as_bytes()), ReadError::TooManyColumns { .. }));
+}

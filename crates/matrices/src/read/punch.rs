@@ -25,6 +25,11 @@ use crate::{
     matrix::FileMatrix,
 };
 
+/// Matrices of a file: each takes the labels of all its rows.
+const MOST_MATRICES: usize = 1000;
+/// Labels of all rows of all matrices of a file.
+const MOST_LABELS: usize = 10_000_000;
+
 /// A point and its component.
 type Freedom = (i64, i64);
 
@@ -47,7 +52,7 @@ pub(crate) fn read<R: BufRead>(source: R) -> Result<Vec<FileMatrix>, PlacedFault
     if matrices.is_empty() {
         return Err(MatrixFault::Truncated { what: "the search for a DMIG card" }.at(lines.end()));
     }
-    Ok(numbered(matrices))
+    numbered(matrices)
 }
 
 fn take(matrices: &mut Vec<Dmig>, card: &Card) -> Result<(), MatrixFault> {
@@ -63,6 +68,9 @@ fn take(matrices: &mut Vec<Dmig>, card: &Card) -> Result<(), MatrixFault> {
         }
         if !(1..=4).contains(&kind) {
             return allowed("the type of a matrix", kind, "1 to 4");
+        }
+        if matrices.len() == MOST_MATRICES {
+            return allowed("the number of matrices", MOST_MATRICES as i64 + 1, "1000 in a file");
         }
         matrices.push(Dmig {
             name,
@@ -106,11 +114,17 @@ fn column(matrix: &mut Dmig, card: &Card) -> Result<(), MatrixFault> {
     Ok(())
 }
 
-fn numbered(matrices: Vec<Dmig>) -> Vec<FileMatrix> {
+fn numbered(matrices: Vec<Dmig>) -> Result<Vec<FileMatrix>, PlacedFault> {
     let square = || matrices.iter().filter(|matrix| matrix.square && !matrix.complex);
     let freedoms: BTreeSet<Freedom> =
         square().flat_map(|matrix| &matrix.entries).flat_map(|&(row, column, _)| [row, column]).collect();
     let rows: BTreeMap<Freedom, u32> = freedoms.iter().copied().zip(0..).collect();
+    let (all, place) = (square().count() * rows.len(), matrices[0].place);
+    if all > MOST_LABELS {
+        let allowed = format!("at most {MOST_LABELS}");
+        let what = "the number of rows of all matrices";
+        return Err(MatrixFault::OutOfRange { what, found: all as i64, allowed }.at(place));
+    }
     let label = |&(point, component): &Freedom| match component {
         0 => RowLabel::modal(point),
         _ => RowLabel::physical(point, Direction::numbered(component)),
@@ -131,5 +145,5 @@ fn numbered(matrices: Vec<Dmig>) -> Vec<FileMatrix> {
         labels: labels.clone(),
         place: dmig.place,
     };
-    square().map(matrix).collect()
+    Ok(square().map(matrix).collect())
 }

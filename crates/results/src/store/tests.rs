@@ -348,6 +348,18 @@ fn a_folder_with_more_than_tables_is_refused() {
     }
 }
 
+/// A pipe without a writer would be waited for.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_no_database() {
+    let folder = tempdir().unwrap();
+    let made = std::process::Command::new("mkfifo").arg(folder.path().join(DATABASE)).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    assert!(matches!(Store::open(folder.path()), Err(StoreError::NoResults { .. })));
+    let error = Store::open_for_run(folder.path(), &study(STUDY)).unwrap_err();
+    assert!(error.to_string().contains("it is no file"), "{error}");
+}
+
 /// Numbers that nothing has, in rows whose checksums fit: someone else has written them.
 #[test]
 fn impossible_numbers_are_refused_where_they_are_read() {

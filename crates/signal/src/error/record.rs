@@ -20,8 +20,11 @@ pub enum RecordError {
     #[error("the file does not say the sampling rate")]
     NoSamplingRate,
     /// An invalid step or rate.
-    #[error("the step between samples is {step_s} s, must be a finite number more than 0")]
+    #[error("the step between samples is {step_s:e} s, allowed: 1e-60 to 1e60 s")]
     Step { step_s: f64 },
+    /// A time that is too large to be counted with.
+    #[error("a time is {time_s:e} s, allowed: -1e60 to 1e60 s")]
+    TooFar { time_s: f64 },
     /// Channels were sampled at different times.
     #[error("the channels were not sampled together: {groups}")]
     DifferentSampling { groups: String },

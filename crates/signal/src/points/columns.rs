@@ -32,6 +32,9 @@ const EXCITATION: &[&str] = &["excitation", "table", "shaker", "support", "drive
 const QUANTITIES: &[(&str, &str)] =
     &[("freq", "Hz"), ("disp", "mm"), ("vel", "m/s"), ("acc", "m/s^2"), ("force", "N")];
 
+/// Titles that a message names.
+const MOST_SHOWN: usize = 20;
+
 /// Roles of the columns of a table.
 pub(super) fn roles(
     titles: &[String],
@@ -42,7 +45,12 @@ pub(super) fn roles(
         let reason = "it is neither a frequency, a maximum, an excitation, a kind nor a period".to_owned();
         findings.push(RecordFinding::LeftOut { name: column.title.clone(), reason });
     }
-    let all = || titles.iter().map(|title| format!("\"{title}\"")).collect::<Vec<_>>().join(", ");
+    let all = || {
+        let shown = titles.iter().take(MOST_SHOWN).map(|title| format!("\"{title}\""));
+        let more = titles.len().saturating_sub(MOST_SHOWN);
+        let more = (more > 0).then(|| format!("and {more} more"));
+        shown.chain(more).collect::<Vec<_>>().join(", ")
+    };
     if !columns.iter().any(|column| matches!(column.role, ColumnRole::Frequency(_))) {
         return Err(PointsError::NoFrequency { titles: all() });
     }

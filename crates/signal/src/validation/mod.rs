@@ -75,6 +75,9 @@ fn one_group(
     }
 }
 
+/// Time axes that a message names.
+const MOST_SHOWN: usize = 20;
+
 fn describe(groups: &[RawGroup]) -> String {
     let one = |group: &RawGroup| {
         let names: Vec<&str> = group.channels.iter().map(|channel| channel.name.as_str()).collect();
@@ -85,7 +88,9 @@ fn describe(groups: &[RawGroup]) -> String {
         };
         format!("{} ({sampling})", names.join(" + "))
     };
-    groups.iter().map(one).collect::<Vec<_>>().join("; ")
+    let shown: Vec<String> = groups.iter().take(MOST_SHOWN).map(one).collect();
+    let more = groups.len().saturating_sub(MOST_SHOWN);
+    if more > 0 { format!("{}; and {more} more", shown.join("; ")) } else { shown.join("; ") }
 }
 
 /// Channels cut to one length, if permitted; times count as a channel unless the rate is given.

@@ -16,6 +16,8 @@ use crate::{
 
 /// Difference above which there is a gap, in steps.
 const GAP: f64 = 1.5;
+/// Largest time, and longest step; one over the shortest [s].
+const FARTHEST: f64 = 1e60;
 /// Deviation from the even grid, in steps, that is rounding, and that is accepted with a finding.
 const ROUNDING: f64 = 0.01;
 const JITTER: f64 = 0.1;
@@ -48,17 +50,26 @@ pub(super) fn to_even_grid(
         TimeAxis::Times(times) => times,
     };
     ensure_numbers(&times)?;
+    // Of larger ones differences are no numbers.
+    if let Some(&far) = times.iter().find(|time| time.abs() > FARTHEST) {
+        return Err(RecordError::TooFar { time_s: far });
+    }
     sort(&mut times, &mut channels, options, findings)?;
     drop_duplicates(&mut times, &mut channels, options, findings)?;
     if times.len() < 2 {
         return Err(RecordError::Empty);
     }
     let step = fill_gaps(&mut times, &mut channels, options, findings)?;
+    ensure_step(step)?;
     on_grid(&times, step, channels, options, findings)
 }
 
 fn ensure_step(step_s: f64) -> Result<(), RecordError> {
-    if step_s.is_finite() && step_s > 0.0 { Ok(()) } else { Err(RecordError::Step { step_s }) }
+    if step_s > 0.0 && (1.0 / FARTHEST..=FARTHEST).contains(&step_s) {
+        Ok(())
+    } else {
+        Err(RecordError::Step { step_s })
+    }
 }
 
 /// The sampling rate given by the user, with a finding if the file contradicts it.

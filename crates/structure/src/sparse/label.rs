@@ -45,7 +45,7 @@ impl fmt::Display for Direction {
 }
 
 /// What kind of coordinate a row is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RowKind {
     /// The motion of a node.
     Physical,
@@ -54,7 +54,7 @@ pub enum RowKind {
 }
 
 /// What a row stands for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RowLabel {
     /// Number of the node, or of the scalar point of a mode.
     pub node: i64,

@@ -23,6 +23,7 @@ mod lines;
 use crate::{
     error::ReadError,
     finding::RecordFinding,
+    limits::MAX_COLUMNS,
     raw::{RawRecord, number_repeated_names},
     read::bytes::NumberRoom,
 };
@@ -55,6 +56,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         if kind.trim() == "58" || kind.trim_start().starts_with("58b") || kind.trim_start().starts_with("58B")
         {
             functions += 1;
+            if functions > MAX_COLUMNS {
+                return Err(ReadError::TooManyColumns { found: functions });
+            }
             function(&mut file, &kind, functions, &mut raw, &mut room)?;
         } else {
             file.skip_dataset();

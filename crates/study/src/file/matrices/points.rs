@@ -105,5 +105,12 @@ fn read_nodes_list(value: &Value<'_>) -> Option<Vec<[u32; 2]>> {
         }
         ends
     };
-    elements.iter().map(run).collect()
+    let runs = elements.iter().map(run).collect::<Option<Vec<_>>>()?;
+    let count: u64 = runs.iter().map(|[first, last]| u64::from(last - first) + 1).sum();
+    if count > u64::from(MOST_NODES) {
+        let help = vec![format!("allowed: at most {MOST_NODES} nodes")];
+        value.problem(format!("`nodes` are {count} nodes"), help);
+        return None;
+    }
+    Some(runs)
 }
