@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hammerbeam_study::{Setting, StudyError, StudyFile};
+use hammerbeam_study::{Setting, StudyError, StudyFile, with_structure_fault};
 
 /// A study file, and keys of it that get other values.
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub struct StudyInput {
 impl StudyInput {
     /// Reads the study.
     pub fn read(&self) -> Result<StudyFile, StudyError> {
-        StudyFile::read_with(&self.path, &self.set)
+        StudyFile::read_with(&self.path, &self.set).map_err(with_structure_fault)
     }
 }
 

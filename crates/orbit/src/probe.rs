@@ -13,7 +13,7 @@ use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response, SurveyEffort,
-    arrival::StableOrbits,
+    arrival::{Approach, StableOrbits},
     backbone::backbone_states,
     catalogue::{Arrived, Catalogue},
     cut::search_cut,
@@ -115,10 +115,12 @@ impl Probe<'_> {
     /// Follows a motion until it is seen where it goes.
     fn follow(&mut self, state: Vec<f64>, interrupted: Interruption<'_>) -> Result<(), OrbitError> {
         let mut states = vec![state];
+        let mut approach = self.reached.approached();
         let mut periods = 0;
         while periods < self.most {
             let more = (BETWEEN_LOOKS + self.largest).min(self.most - periods);
-            if self.advance(&mut states, more, &mut *interrupted)? == Advanced::ToKnownOrbit {
+            if self.advance((&mut states, &mut approach), more, &mut *interrupted)? == Advanced::ToKnownOrbit
+            {
                 return Ok(());
             }
             periods += more;
@@ -177,7 +179,7 @@ impl Probe<'_> {
     /// Goes on by some periods and keeps the last states.
     fn advance(
         &mut self,
-        states: &mut Vec<Vec<f64>>,
+        (states, approach): (&mut Vec<Vec<f64>>, &mut Approach),
         periods: usize,
         interrupted: Interruption<'_>,
     ) -> Result<Advanced, OrbitError> {
@@ -187,7 +189,7 @@ impl Probe<'_> {
                 return Err(OrbitError::Interrupted);
             }
             let next = self.catalogue.integrator().advance(&stretch, &states[states.len() - 1])?;
-            if self.reached.are_reached(&next) {
+            if approach.has_arrived(&self.reached, &next) {
                 return Ok(Advanced::ToKnownOrbit);
             }
             states.push(next);

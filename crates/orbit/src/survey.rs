@@ -126,12 +126,13 @@ impl Survey<'_> {
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
         let observed = self.effort.observed.max(3 * largest);
         let mut states = vec![start.to_vec()];
+        let mut approach = known.approached();
         for period in 0..self.effort.settling + observed {
             if interrupted() {
                 return Err(OrbitError::Interrupted);
             }
             let next = integrator.advance(&stretch, &states[states.len() - 1])?;
-            if known.are_reached(&next) {
+            if approach.has_arrived(known, &next) {
                 return Ok(LedTo::default());
             }
             if period < self.effort.settling {

@@ -45,6 +45,6 @@ pub use identity::DATA_VERSION;
 pub use model::matrix_study;
 pub use model::{
     Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
-    UndampedMode, output_signals,
+    UndampedMode, output_signals, with_structure_fault,
 };
 pub use setting::{Setting, SettingError};

@@ -57,6 +57,45 @@ pub fn number_named(text: &str, key: &str) -> Result<Option<Number>, usize> {
     if named.len() > 1 { Err(named.len()) } else { Ok(named.pop()) }
 }
 
+/// The key paths of everything that the text of a study holds, tables and what is no number as well.
+pub(crate) fn written_paths(text: &str) -> Vec<String> {
+    let (document, _) = DeTable::parse_recoverable(text);
+    let mut found = Vec::new();
+    for (key, value) in document.get_ref() {
+        collect_paths(value, vec![key.get_ref().to_string()], &mut found);
+    }
+    found
+}
+
+fn collect_paths(value: &Spanned<DeValue<'_>>, paths: Vec<String>, found: &mut Vec<String>) {
+    match value.get_ref() {
+        DeValue::Table(table) => {
+            for (key, value) in table {
+                collect_paths(value, extended(&paths, &[key.get_ref().to_string()]), found);
+            }
+        }
+        DeValue::Array(elements) => {
+            for (index, element) in elements.iter().enumerate() {
+                collect_paths(element, extended(&paths, &element_names(index, element)), found);
+            }
+        }
+        _ => {}
+    }
+    found.extend(paths);
+}
+
+/// The name of an element of a list, if it has one, and its number from 1.
+fn element_names(index: usize, element: &Spanned<DeValue<'_>>) -> Vec<String> {
+    let name = match element.get_ref() {
+        DeValue::Table(table) => table.get("name").and_then(|name| match name.get_ref() {
+            DeValue::String(name) => Some(name.to_string()),
+            _ => None,
+        }),
+        _ => None,
+    };
+    name.into_iter().chain([format!("{}", index + 1)]).collect()
+}
+
 fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number>) {
     let mut push = |value: Option<f64>, span: Range<usize>| {
         if let Some(value) = value.filter(|value| value.is_finite()) {
@@ -81,13 +120,7 @@ fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number
         DeValue::Table(table) => collect_table(table, keys, found),
         DeValue::Array(elements) => {
             for (index, element) in elements.iter().enumerate() {
-                let mut names = vec![format!("{}", index + 1)];
-                if let DeValue::Table(table) = element.get_ref()
-                    && let Some(DeValue::String(name)) = table.get("name").map(Spanned::get_ref)
-                {
-                    names.insert(0, name.to_string());
-                }
-                collect(element, &extended(keys, &names), found);
+                collect(element, &extended(keys, &element_names(index, element)), found);
             }
         }
         _ => {}

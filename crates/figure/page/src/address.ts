@@ -26,7 +26,8 @@ export class Address {
     /**
      * Writes now, without a new entry of the history.
      *
-     * A link that was typed since is followed first: the browser tells of it later than the address has it, and would not tell at all once it is overwritten.
+     * A link that was typed since is followed first: the browser tells of it later than the address has it,
+     * and would not tell at all once it is overwritten.
      */
     write(): void {
         this.read();

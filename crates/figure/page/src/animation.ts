@@ -152,7 +152,12 @@ export class Animation {
             this.enlarged > 0
                 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.`
                 : "";
-        const text = `Played ${pace}.${size} Largest displacement: ${digits(MEASURES.displacement.factor * this.largest, 3)} ${MEASURES.displacement.unit}. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
+        const { factor, unit } = MEASURES.displacement;
+        const largest = `${digits(factor * this.largest, 3)} ${unit}`;
+        const text =
+            `Played ${pace}.${size} Largest displacement: ${largest}. A stop is coloured while it is ` +
+            `pressed, a rigid one for a moment at an impact.` +
+            (this.isNamed ? "" : " Point at a mass for its name.");
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }

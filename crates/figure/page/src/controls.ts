@@ -142,7 +142,8 @@ function opener(opened: (files: readonly File[]) => void): HTMLElement {
     });
     const press = button(
         "Compare…",
-        "Draw the branches of other pages or tables of branches behind these; or drop their files onto the diagram",
+        "Draw the branches of other pages or tables of branches behind these; " +
+            "or drop their files onto the diagram",
         () => input.click(),
     );
     return element("span", {}, [press, input]);

@@ -27,7 +27,8 @@ export function choice<T extends string>(
     options: readonly (readonly [T, string])[],
     chosen: (value: T) => void,
 ): { root: HTMLElement; show: (value: T) => void } {
-    const select = element("select", {}, options.map(([value, text]) => element("option", { value }, [text])));
+    const choices = options.map(([value, text]) => element("option", { value }, [text]));
+    const select = element("select", {}, choices);
     select.addEventListener("change", () => {
         const found = options.find(([value]) => value === select.value);
         if (found !== undefined) {
@@ -39,12 +40,16 @@ export function choice<T extends string>(
 }
 
 /** A switch with a label. */
-export function toggle(label: string, changed: (on: boolean) => void): { root: HTMLElement; show: (on: boolean) => void } {
+export function toggle(
+    label: string,
+    changed: (on: boolean) => void,
+): { root: HTMLElement; show: (on: boolean) => void } {
     const box = element("input", { type: "checkbox" });
     box.addEventListener("change", () => changed(box.checked));
     return { root: element("label", { class: "toggle" }, [box, label]), show: (on) => (box.checked = on) };
 }
 
 export function panel(heading: string, id: string, children: readonly Child[]): HTMLElement {
-    return element("section", { class: "panel", id, "aria-label": heading }, [element("h2", {}, [heading]), ...children]);
+    const title = element("h2", {}, [heading]);
+    return element("section", { class: "panel", id, "aria-label": heading }, [title, ...children]);
 }

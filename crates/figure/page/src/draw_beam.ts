@@ -4,7 +4,9 @@ import type { Structure } from "./data";
 import { carrierOf, type Pose } from "./motion";
 import { hatched, type Sketch } from "./sketch";
 
-/** Draws a beam; `perMetre` is for displacements. Returns how many times larger than lengths they are drawn. */
+/**
+ * Draws a beam; `perMetre` is for displacements. Returns how many times larger than lengths they are drawn.
+ */
 export function drawBeam(sketch: Sketch, structure: Structure, pose: Pose, perMetre: number): number {
     const { context, width, height, theme } = sketch;
     const positions = structure.places.map((place) => place.at);
@@ -54,8 +56,17 @@ export function drawBeam(sketch: Sketch, structure: Structure, pose: Pose, perMe
     return perMetre / along;
 }
 
-/** A wedge whose point is where the stop is touched, half the width of the line away from the middle of the beam. */
-function drawStop({ context, theme }: Sketch, x: number, y: number, above: boolean, isPressed: boolean): void {
+/**
+ * A wedge whose point is where the stop is touched, half the width of the line away from the middle of the
+ * beam.
+ */
+function drawStop(
+    { context, theme }: Sketch,
+    x: number,
+    y: number,
+    above: boolean,
+    isPressed: boolean,
+): void {
     const away = above ? -1 : 1;
     const point = y + 4 * away;
     context.beginPath();

@@ -1,11 +1,14 @@
-// Masses in motion along a line, with what joins them and what they hit, on a canvas. Positive displacements go to the right.
+// Masses in motion along a line, with what joins them and what they hit, on a canvas. Positive displacements
+// go to the right.
 
 import type { Stop, Structure } from "./data";
 import { EDGE, joinedOf, layoutOf, namesOf, WALL, type Joined, type Layout } from "./mass_layout";
 import { carrierOf, type Pose } from "./motion";
 import { dashpot, hatched, spring, type Sketch } from "./sketch";
 
-/** Where the masses are, as a share of the height: what lies below them needs more room than what is above. */
+/**
+ * Where the masses are, as a share of the height: what lies below them needs more room than what is above.
+ */
 const MIDDLE = 0.42;
 /** How far plates of stops stand over a mass (CSS pixels). */
 const OVER = 12;
@@ -28,7 +31,8 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
     const layout = layoutOf(count, width);
     const { rest, spacing, size } = layout;
     const middle = MIDDLE * height;
-    const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * (structure.ground === null ? 0 : (pose.supports[structure.ground] ?? 0))));
+    const moved = structure.ground === null ? 0 : (pose.supports[structure.ground] ?? 0);
+    const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * moved));
     const x = (place: number): number => (rest[place] ?? 0) + perMetre * (pose.places[place] ?? 0);
     const scene = { ...sketch, layout, middle, x, ground };
     const joined = joinedOf(structure.links, count);
@@ -64,7 +68,9 @@ function drawDirect(scene: Scene, { from, to, damper, level, levels }: Joined): 
     const left = from < 0 ? WALL + EDGE + ground : x(from) + layout.size / 2;
     const right = to === layout.rest.length ? width - WALL - EDGE + ground : x(to) - layout.size / 2;
     const apart = Math.min(16, (0.9 * layout.size) / levels);
-    join(scene, damper, left, right, middle + (level - (levels - 1) / 2) * apart, layout.spacing - layout.size / (from < 0 || to === layout.rest.length ? 2 : 1));
+    const height = middle + (level - (levels - 1) / 2) * apart;
+    const isAtWall = from < 0 || to === layout.rest.length;
+    join(scene, damper, left, right, height, layout.spacing - layout.size / (isAtWall ? 2 : 1));
 }
 
 /** Below the mass, from a block of its own: lines from the wall would cross all masses before it. */

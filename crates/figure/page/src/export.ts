@@ -28,11 +28,11 @@ function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
     const height = plot.height + 2 * MARGIN + ROW * rows.length;
     const { paper } = scene.theme.look;
     svg.put(
-        `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`,
+        `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
+            `viewBox="0 0 ${width} ${height}">`,
     );
-    svg.put(
-        `<title>${(of.meta.title || "Response diagram").replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</title>`,
-    );
+    const title = of.meta.title || "Response diagram";
+    svg.put(`<title>${title.replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</title>`);
     svg.fillStyle = paper;
     svg.fillRect(0, 0, width, height);
     svg.put(`<g transform="translate(0 ${MARGIN}) scale(${1 / density})">`);
@@ -40,7 +40,8 @@ function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
         drawGrid(svg, frame, scene);
         const { left, top, width: across, height: up } = plot.bbox;
         svg.put(
-            `<clipPath id="frame"><rect x="${left}" y="${top}" width="${across}" height="${up}"/></clipPath><g clip-path="url(#frame)">`,
+            `<clipPath id="frame"><rect x="${left}" y="${top}" width="${across}" height="${up}"/>` +
+                '</clipPath><g clip-path="url(#frame)">',
         );
         paintResponse(svg as unknown as CanvasRenderingContext2D, frame, scene);
         svg.put("</g>");
@@ -99,7 +100,8 @@ function drawAxes(svg: SvgContext, frame: Frame, { theme }: Scene): void {
     const { density } = frame;
     const { left, top, width, height } = frame.plot.bbox;
     svg.put(
-        `<rect x="${left}" y="${top}" width="${width}" height="${height}" fill="none" stroke="${theme.look.pale}" stroke-width="${density}"/>`,
+        `<rect x="${left}" y="${top}" width="${width}" height="${height}" fill="none" ` +
+            `stroke="${theme.look.pale}" stroke-width="${density}"/>`,
     );
     svg.fillStyle = theme.look.ink;
     svg.font = `${12 * density}px ${SANS}`;

@@ -114,7 +114,9 @@ function drag(
             over.append(box);
             const [left, right] = [Math.min(first[0], now[0]), Math.max(first[0], now[0])];
             const [low, high] = [Math.min(first[1], now[1]), Math.max(first[1], now[1])];
-            box.style.cssText = `left:${100 * left}%;width:${100 * (right - left)}%;top:${100 * (1 - high)}%;height:${100 * (high - low)}%`;
+            box.style.cssText =
+                `left:${100 * left}%;width:${100 * (right - left)}%;` +
+                `top:${100 * (1 - high)}%;height:${100 * (high - low)}%`;
         }
     };
     const up = (event: PointerEvent): void => {

@@ -51,7 +51,11 @@ export class LinePlot {
     private frame: Frame | null = null;
     private readonly pointer: HTMLElement;
 
-    constructor(private readonly theme: Theme, private readonly height: number, private readonly pointed: "instant" | "place" | "nothing" = "instant") {
+    constructor(
+        private readonly theme: Theme,
+        private readonly height: number,
+        private readonly pointed: "instant" | "place" | "nothing" = "instant",
+    ) {
         this.pointer = element("div", { class: pointed });
     }
 

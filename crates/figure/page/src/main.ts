@@ -189,7 +189,10 @@ async function start(): Promise<void> {
             `${count} ${count === 1 ? one : several}`;
         const { factor, unit } = MEASURES.frequency;
         const [low, high] = meta.range.map((end) => Number((factor * end).toPrecision(12)));
-        return `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${low} to ${high} ${unit}${meta.point === "" ? "" : `; response of ${meta.point}`}`;
+        const branches = counted(meta.branches.length, "branch", "branches");
+        const point = meta.point === "" ? "" : `; response of ${meta.point}`;
+        const all = counted(solutions.count, "solution", "solutions");
+        return `${branches}, ${all}, ${low} to ${high} ${unit}${point}`;
     }
 }
 
@@ -198,7 +201,8 @@ start().catch((error: unknown) => {
     const page = document.getElementById("page") ?? document.body;
     page.append(
         element("p", { class: "notice", role: "alert" }, [
-            `The page cannot be shown: ${error instanceof Error ? error.message : String(error)}. A browser of 2023 or later is needed.`,
+            `The page cannot be shown: ${error instanceof Error ? error.message : String(error)}. ` +
+                "A browser of 2023 or later is needed.",
         ]),
     );
 });

@@ -245,7 +245,8 @@ export function namedMarks(marked: readonly Marked[], solutions: Solutions): [Ma
     const of = (layer: Layer): number[] =>
         marked.filter(({ kinds }) => kinds.includes(layer)).map(({ solution }) => solution);
     const key = (k: number, across: number, up: number): string =>
-        `${Math.round(1e5 * Math.log(frequency[k] ?? NaN)) + across}:${Math.round(1e5 * Math.log(displacement[k] ?? NaN)) + up}`;
+        `${Math.round(1e5 * Math.log(frequency[k] ?? NaN)) + across}:` +
+        `${Math.round(1e5 * Math.log(displacement[k] ?? NaN)) + up}`;
     const flips = new Set(of("flip").map((k) => key(k, 0, 0)));
     const beside = [-1, 0, 1];
     const branchPoints = of("branch-point");

@@ -35,9 +35,14 @@ export function layoutOf(count: number, width: number): Layout {
 }
 
 /** The name of every so many masses, cut where it has no room; empty where there is none. */
-export function namesOf(names: readonly string[], spacing: number, widthOf: (text: string) => number): string[] {
+export function namesOf(
+    names: readonly string[],
+    spacing: number,
+    widthOf: (text: string) => number,
+): string[] {
     for (let every = 1; every < names.length; every++) {
-        const shown = names.map((name, k) => (k % every === 0 ? shortened(name, every * spacing - BETWEEN, widthOf) : ""));
+        const room = every * spacing - BETWEEN;
+        const shown = names.map((name, k) => (k % every === 0 ? shortened(name, room, widthOf) : ""));
         if (shown.every((name, k) => k % every !== 0 || name !== null)) {
             return shown.map((name) => name ?? "");
         }
@@ -45,14 +50,18 @@ export function namesOf(names: readonly string[], spacing: number, widthOf: (tex
     return names.map((name, k) => (k === 0 ? (shortened(name, names.length * spacing, widthOf) ?? "") : ""));
 }
 
-/** A name, or as much of its beginning and its end as has room; null where that is too little to know it by. */
+/**
+ * A name, or as much of its beginning and its end as has room; null where that is too little to know it by.
+ */
 export function shortened(name: string, room: number, widthOf: (text: string) => number): string | null {
     if (widthOf(name) <= room) {
         return name;
     }
     const characters = [...name];
     for (let kept = characters.length - 1; kept >= LEAST_CHARACTERS; kept--) {
-        const text = `${characters.slice(0, Math.ceil(kept / 2)).join("")}…${characters.slice(characters.length - Math.floor(kept / 2)).join("")}`;
+        const first = characters.slice(0, Math.ceil(kept / 2)).join("");
+        const last = characters.slice(characters.length - Math.floor(kept / 2)).join("");
+        const text = `${first}…${last}`;
         if (widthOf(text) <= room) {
             return text;
         }
@@ -61,7 +70,10 @@ export function shortened(name: string, room: number, widthOf: (text: string) =>
 }
 
 export interface Joined extends Link {
-    /** Between neighbours, the first wall and the first mass, or the last mass and the last wall; from the ground to a mass between others; between masses that are no neighbours. */
+    /**
+     * Between neighbours, the first wall and the first mass, or the last mass and the last wall; from the
+     * ground to a mass between others; between masses that are no neighbours.
+     */
     kind: "direct" | "held" | "far";
     /** Places from left to right; -1 is the wall on the left, the number of masses that on the right. */
     from: number;
@@ -80,7 +92,8 @@ export function joinedOf(links: readonly Link[], count: number): Joined[] {
         const kind = to - from === 1 ? "direct" : low === -1 ? "held" : "far";
         return { ...link, kind, from, to, level: 0, levels: 1 };
     });
-    const beside = (one: Joined): Joined[] => joined.filter(({ from, to }) => from === one.from && to === one.to);
+    const beside = (one: Joined): Joined[] =>
+        joined.filter(({ from, to }) => from === one.from && to === one.to);
     for (const one of joined.filter(({ kind }) => kind !== "far")) {
         one.levels = beside(one).length;
         one.level = beside(one).indexOf(one);

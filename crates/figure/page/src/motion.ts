@@ -35,14 +35,18 @@ export function supportsOf(orbit: Orbit, count: number): Float64Array[] {
 
 /** What carries a stop (m). */
 export function carrierOf(stop: Stop, pose: Pose): number {
-    return stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides !== null ? (pose.supports[stop.rides] ?? 0) : 0;
+    if (stop.other !== null) {
+        return pose.places[stop.other] ?? 0;
+    }
+    return stop.rides !== null ? (pose.supports[stop.rides] ?? 0) : 0;
 }
 
 /** The pose at an instant, in excitation periods since phase 0. */
 export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pose {
     const share = instant / orbit.period;
     const modes = orbit.modes.map((values) => smooth(values, share * values.length));
-    const supports = supportsOf(orbit, structure.supports.length).map((values) => smooth(values, instant * values.length));
+    const samples = supportsOf(orbit, structure.supports.length);
+    const supports = samples.map((values) => smooth(values, instant * values.length));
     const moved = (shape: number[], ratios: number[]): number =>
         modes.reduce(
             (sum, value, mode) => sum + value * (shape[mode] ?? 0),
@@ -58,7 +62,11 @@ export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pos
         return Math.max(Math.abs(values[step] ?? 0), Math.abs(values[step + 1] ?? 0));
     };
     const isStruck = (element: number): boolean =>
-        orbit.impulses.some((impulse) => impulse.element === element && (instant - impulse.cycles + orbit.period) % orbit.period < SEEN);
+        orbit.impulses.some(
+            (impulse) =>
+                impulse.element === element &&
+                (instant - impulse.cycles + orbit.period) % orbit.period < SEEN,
+        );
     const pressed = orbit.forces.map((values, k) => force(values) > 0 || isStruck(k));
     return { places, mesh, supports, pressed };
 }

@@ -41,7 +41,9 @@ export class Multipliers {
                 ? ""
                 : multipliers.length === 0
                   ? `The page has no multipliers ${whose}.`
-                  : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
+                  : multipliers.length < most
+                    ? `The ${multipliers.length} largest of ${most} ${whose}.`
+                    : `All ${multipliers.length} ${whose}.`;
         // Of a pair the one above the axis stands for both.
         const listed = multipliers
             .filter(([, im]) => im >= 0)

@@ -37,7 +37,8 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
             : []),
         [
             "Branch",
-            `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`,
+            `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, ` +
+                `solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`,
         ],
         ["Stability", stabilityOf(solutions, solution)],
         ...(events === "" ? [] : [["Event", events] as [string, string]]),

@@ -5,18 +5,30 @@ import type { Meta, Solutions } from "./data";
 import { smooth } from "./motion";
 import { readRecord, type OrbitRecord } from "./record";
 
-/** An orbit over its period; of accelerations and forces the least and the largest from each sample to the next, in their order in time. */
+/**
+ * An orbit over its period; of accelerations and forces the least and the largest from each sample to the
+ * next, in their order in time.
+ */
 export interface Orbit extends OrbitRecord {
     /** Number of the solution that it belongs to. */
     solution: number;
     period: number;
-    /** Displacements over the excitation periods since phase 0, as a line that is drawn: to the end of the period. */
+    /**
+     * Displacements over the excitation periods since phase 0, as a line that is drawn: to the end of the
+     * period.
+     */
     course: [Float64Array, Float64Array];
-    /** Displacements and velocities, those within contacts among them, with a gap where an impact makes the velocity jump. */
+    /**
+     * Displacements and velocities, those within contacts among them, with a gap where an impact makes the
+     * velocity jump.
+     */
     portrait: [Float64Array, Float64Array];
 }
 
-/** Place in the list of the carried orbits of the one nearest to a solution on its branch; -1 where its branch has none. */
+/**
+ * Place in the list of the carried orbits of the one nearest to a solution on its branch; -1 where its branch
+ * has none.
+ */
 export function nearestOrbit(meta: Meta, solutions: Solutions, solution: number): number {
     const carried = meta.orbits.solutions;
     let low = 0;
@@ -50,21 +62,38 @@ export function recordPlaces(lengths: readonly number[]): Uint32Array {
     return places;
 }
 
-/** The orbit at a place in the list of those carried; `text` is the base64 text of all, of whose records each has a multiple of three bytes. */
-export function readOrbit(meta: Meta, solutions: Solutions, text: string, places: Uint32Array, place: number): Orbit {
+/**
+ * The orbit at a place in the list of those carried; `text` is the base64 text of all, of whose records each
+ * has a multiple of three bytes.
+ */
+export function readOrbit(
+    meta: Meta,
+    solutions: Solutions,
+    text: string,
+    places: Uint32Array,
+    place: number,
+): Orbit {
     const [begin = 0, end = 0] = places.subarray(place, place + 2);
     const record = readRecord(bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4)));
     const solution = meta.orbits.solutions[place] ?? 0;
     const period = meta.branches[solutions.branch[solution] ?? 0]?.period ?? 1;
     const frequency = solutions.frequency[solution] ?? NaN;
-    return { ...record, solution, period, course: courseOf(record, period, frequency), portrait: portraitOf(record, period) };
+    const course = courseOf(record, period, frequency);
+    return { ...record, solution, period, course, portrait: portraitOf(record, period) };
 }
 
 /** Parts of a step that is drawn by cubics. */
 const PARTS = 4;
 
-/** Displacements by the cubics that have the velocities of the samples, which follow a contact of a few samples, too; with a corner at each impact. */
-function courseOf({ displacement, velocity, impulses }: OrbitRecord, period: number, frequency: number): [Float64Array, Float64Array] {
+/**
+ * Displacements by the cubics that have the velocities of the samples, which follow a contact of a few
+ * samples, too; with a corner at each impact.
+ */
+function courseOf(
+    { displacement, velocity, impulses }: OrbitRecord,
+    period: number,
+    frequency: number,
+): [Float64Array, Float64Array] {
     const [times, values]: [number[], number[]] = [[], []];
     const count = displacement.length;
     const step = period / count;
@@ -93,11 +122,17 @@ function courseOf({ displacement, velocity, impulses }: OrbitRecord, period: num
 }
 
 /**
- * Samples with what lies between them: points within contacts, and both ends of the jumps of impacts with a gap between. Away from both the motion is smooth, and cubics stand between samples.
+ * Samples with what lies between them: points within contacts, and both ends of the jumps of impacts with a
+ * gap between. Away from both the motion is smooth, and cubics stand between samples.
  */
-function portraitOf({ displacement, velocity, inContacts, impulses }: OrbitRecord, period: number): [Float64Array, Float64Array] {
+function portraitOf(
+    { displacement, velocity, inContacts, impulses }: OrbitRecord,
+    period: number,
+): [Float64Array, Float64Array] {
     const between = new Map<number, [number, number][]>();
-    const add = (step: number, ...points: [number, number][]): void => void between.set(step, [...(between.get(step) ?? []), ...points]);
+    const add = (step: number, ...points: [number, number][]): void => {
+        between.set(step, [...(between.get(step) ?? []), ...points]);
+    };
     for (const { cycles, displacement: at, velocity: [before, after] } of impulses) {
         add(Math.floor((cycles / period) * displacement.length), [at, before], [NaN, NaN], [at, after]);
     }

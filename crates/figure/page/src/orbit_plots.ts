@@ -226,7 +226,9 @@ export class OrbitPlots {
         const top = largest > 0 ? 2 * largest : 1;
         const last = x.length * base;
         this.harmonics.hidden = last + base > highest;
-        this.harmonics.textContent = `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} ${unit}; what lies above is not known here.`;
+        this.harmonics.textContent =
+            `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} ${unit}; ` +
+            "what lies above is not known here.";
         return {
             xLabel: `Frequency (${unit})`,
             yLabel: "Amplitude (m/s²)",
@@ -254,10 +256,12 @@ const FEW = 4;
 function impulsesInWords({ impulses }: Orbit): string {
     const sizes = impulses.map(({ impulse }) => Math.abs(impulse));
     if (sizes.length <= FEW) {
-        return `${sizes.length === 1 ? "One impact" : `${sizes.length} impacts`}: ${sizes.map((size) => digits(size, 4)).join(", ")} N s.`;
+        const several = sizes.length === 1 ? "One impact" : `${sizes.length} impacts`;
+        return `${several}: ${sizes.map((size) => digits(size, 4)).join(", ")} N s.`;
     }
     const sum = sizes.reduce((all, size) => all + size, 0);
-    return `${sizes.length} impacts: together ${digits(sum, 4)} N s, the largest ${digits(Math.max(...sizes), 4)} N s.`;
+    const largest = digits(Math.max(...sizes), 4);
+    return `${sizes.length} impacts: together ${digits(sum, 4)} N s, the largest ${largest} N s.`;
 }
 
 /** With its first value behind its last one, or another one. */

@@ -2,7 +2,10 @@
 
 import type { Multiplier } from "./multiplier_table";
 
-/** Largest modulus for which the frame grows; where one is larger, the frame holds the unit circle and what is near it. */
+/**
+ * Largest modulus for which the frame grows; where one is larger, the frame holds the unit circle and what is
+ * near it.
+ */
 const FARTHEST = 3.5;
 
 /** Distances of the edges of a frame from 0, along the real and the imaginary axis. */

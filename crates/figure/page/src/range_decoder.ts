@@ -1,4 +1,5 @@
-// Whole numbers from bits: the other half of page/orbits/coder.rs of the figure crate, which says how they are written.
+// Whole numbers from bits: the other half of page/orbits/coder.rs of the figure crate, which says how they
+// are written.
 
 const LEAST_RANGE = 2 ** 24;
 const SUMS = 16;

@@ -1,4 +1,5 @@
-// The series of an orbit from its record (see page/orbits/record.rs of the figure crate, which says what stands in it).
+// The series of an orbit from its record (see page/orbits/record.rs of the figure crate, which says what
+// stands in it).
 
 import { Kind, RangeDecoder } from "./range_decoder";
 
@@ -6,7 +7,16 @@ import { Kind, RangeDecoder } from "./range_decoder";
 const STEPS_OF_A_DECADE = 50;
 const MOST_STEPS = 4194304;
 
-type Of = "head" | "acceleration" | "velocity" | "displacement" | "support" | "forces" | "modes" | "spectrum" | "inContacts";
+type Of =
+    | "head"
+    | "acceleration"
+    | "velocity"
+    | "displacement"
+    | "support"
+    | "forces"
+    | "modes"
+    | "spectrum"
+    | "inContacts";
 
 /** An impact on a rigid stop. */
 export interface Impulse {
@@ -38,7 +48,8 @@ interface Stepped {
     counts: Int32Array;
 }
 
-const valuesOf = ({ size, counts }: Stepped): Float64Array => Float64Array.from(counts, (count) => size * count);
+const valuesOf = ({ size, counts }: Stepped): Float64Array =>
+    Float64Array.from(counts, (count) => size * count);
 const asFloat = new DataView(new ArrayBuffer(4));
 
 function single(bits: number): number {
@@ -77,7 +88,9 @@ class Reader {
         return numbers;
     }
 
-    /** Numbers from what a predictor misses them by: those of each order are sums of those of the order below. */
+    /**
+     * Numbers from what a predictor misses them by: those of each order are sums of those of the order below.
+     */
     counts(of: Of, count: number): Int32Array {
         const order = this.numbers("head", 1)[0] ?? 0;
         const counts = this.numbers(of, count);
@@ -93,7 +106,10 @@ class Reader {
         return { size: this.size(), counts: this.counts(of, count) };
     }
 
-    /** A series that is continued by something else: `change` is by how many steps it changes behind its value of that number. */
+    /**
+     * A series that is continued by something else: `change` is by how many steps it changes behind its value
+     * of that number.
+     */
     continued(of: Of, count: number, change: (size: number, k: number) => number): Stepped {
         const size = this.size();
         const counts = this.numbers(of, count);
@@ -107,7 +123,9 @@ class Reader {
 export function readRecord(bytes: Uint8Array): OrbitRecord {
     const reader = new Reader(bytes);
     const repeated = <T>(count: number, one: () => T): T[] => Array.from({ length: count }, one);
-    const [samples = 0, elements = 0, ofSupport = 0, modes = 0, ofMode = 0, harmonics = 0, inside = 0, impulses = 0] = reader.numbers("head", 8);
+    const head = reader.numbers("head", 8);
+    const [samples = 0, elements = 0, ofSupport = 0, modes = 0] = head;
+    const [ofMode = 0, harmonics = 0, inside = 0, impulses = 0] = head.slice(4);
     const distance = reader.size();
     const acceleration = reader.series("acceleration", 2 * samples);
     const a = (k: number): number => acceleration.counts[k] ?? 0;
@@ -139,7 +157,8 @@ export function readRecord(bytes: Uint8Array): OrbitRecord {
         ],
         impulses: repeated(impulses, () => {
             const element = reader.numbers("head", 1)[0] ?? 0;
-            const [cycles, impulse, at, before, after] = [reader.float(), reader.float(), reader.float(), reader.float(), reader.float()];
+            const [cycles, impulse, at] = [reader.float(), reader.float(), reader.float()];
+            const [before, after] = [reader.float(), reader.float()];
             return { element, cycles, impulse, displacement: at, velocity: [before, after] };
         }),
     };

@@ -26,7 +26,8 @@ function sectionText(section: Section, carried: number): string {
     }
     if (exponent !== null) {
         parts.push(
-            `Largest Lyapunov exponent ${digits(exponent, 4)} ± ${digits(half ?? NaN, 2)} 1/s (95 per cent).`,
+            `Largest Lyapunov exponent ${digits(exponent, 4)} ± ${digits(half ?? NaN, 2)} 1/s ` +
+                "(95 per cent).",
         );
     }
     if (section.dimension !== null) {
@@ -68,7 +69,8 @@ export function sectionPanel(
         (section, k) =>
             [
                 String(k),
-                `${shortHertz(section.frequency, 7)}${section.kind === null ? "" : `, ${section.kind}`} (${section.origin})`,
+                `${shortHertz(section.frequency, 7)}${section.kind === null ? "" : `, ${section.kind}`} ` +
+                    `(${section.origin})`,
             ] as const,
     );
     const chosen = choice("Motion", options, (value) => store.update({ section: Number(value) }));

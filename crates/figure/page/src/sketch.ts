@@ -11,7 +11,11 @@ export interface Sketch {
 }
 
 /** A hatched block: what is held. */
-export function hatched({ context }: Sketch, [left, top, width, height]: [number, number, number, number], colour: string): void {
+export function hatched(
+    { context }: Sketch,
+    [left, top, width, height]: [number, number, number, number],
+    colour: string,
+): void {
     context.save();
     context.beginPath();
     context.rect(left, top, width, height);
@@ -55,7 +59,8 @@ export function spring({ context }: Sketch, from: number, to: number, y: number,
 }
 
 /**
- * A damper between two places on a horizontal line: a piston in a pot, which is open towards the second place; a line with a stroke across it where that has no room.
+ * A damper between two places on a horizontal line: a piston in a pot, which is open towards the second
+ * place; a line with a stroke across it where that has no room.
  *
  * * `length`: at rest (CSS pixels).
  */

@@ -95,7 +95,8 @@ export class SolutionView {
             this.start.replaceChildren();
             return;
         }
-        const command = `hammerbeam run STUDY.toml --from ${this.meta.folder || "RESULTS"}:${number} --out NEW`;
+        const from = `${this.meta.folder || "RESULTS"}:${number}`;
+        const command = `hammerbeam run STUDY.toml --from ${from} --out NEW`;
         const copy = button(
             "Copy command",
             "Copy a command that starts branches of a study at this point",
@@ -139,11 +140,14 @@ export class SolutionView {
 
     private whichOrbit(selected: number, shown: number): string {
         const frequency = hertz(this.solutions.frequency[shown] ?? NaN);
-        const carried = `The page carries ${this.meta.orbits.solutions.length} orbits of ${this.solutions.count} solutions.`;
+        const orbits = this.meta.orbits.solutions.length;
+        const carried = `The page carries ${orbits} orbits of ${this.solutions.count} solutions.`;
         if (shown === selected) {
             return `Shown: the orbit of this solution. ${carried}`;
         }
         const steps = Math.abs(shown - selected);
-        return `Shown: the orbit of the solution at ${frequency}, the nearest of those carried, ${steps} ${steps === 1 ? "solution" : "solutions"} away along the branch. ${carried}`;
+        const away = `${steps} ${steps === 1 ? "solution" : "solutions"} away along the branch`;
+        const orbit = `Shown: the orbit of the solution at ${frequency}, the nearest of those carried`;
+        return `${orbit}, ${away}. ${carried}`;
     }
 }

@@ -50,14 +50,16 @@ export class SvgContext {
 
     fillRect(x: number, y: number, width: number, height: number): void {
         this.parts.push(
-            `<rect x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}" fill="${this.fillStyle}"/>`,
+            `<rect x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}" ` +
+                `fill="${this.fillStyle}"/>`,
         );
     }
 
     /** A line between two places. */
     line(from: readonly [number, number], to: readonly [number, number]): void {
         this.parts.push(
-            `<path d="M${short(from[0])} ${short(from[1])}L${short(to[0])} ${short(to[1])}" fill="none"${this.pen()}/>`,
+            `<path d="M${short(from[0])} ${short(from[1])}L${short(to[0])} ${short(to[1])}" ` +
+                `fill="none"${this.pen()}/>`,
         );
     }
 
@@ -81,12 +83,14 @@ export class SvgContext {
             ? `transform="translate(${short(x)} ${short(y)}) rotate(-90)"`
             : `x="${short(x)}" y="${short(y + down)}"`;
         this.parts.push(
-            `<text ${place} font-family="${escaped(family)}" font-size="${size}" text-anchor="${ANCHORS[this.textAlign] ?? "start"}" ${look}>${escaped(text)}</text>`,
+            `<text ${place} font-family="${escaped(family)}" font-size="${size}" ` +
+                `text-anchor="${ANCHORS[this.textAlign] ?? "start"}" ${look}>${escaped(text)}</text>`,
         );
     }
 
     private pen(): string {
         const dash = this.dash.length === 0 ? "" : ` stroke-dasharray="${this.dash.map(short).join(" ")}"`;
-        return ` stroke="${this.strokeStyle}" stroke-width="${short(this.lineWidth)}" stroke-linejoin="${this.lineJoin}"${dash}`;
+        const width = `stroke-width="${short(this.lineWidth)}"`;
+        return ` stroke="${this.strokeStyle}" ${width} stroke-linejoin="${this.lineJoin}"${dash}`;
     }
 }

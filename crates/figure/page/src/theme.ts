@@ -1,4 +1,5 @@
-// Dark and light: the colours in use, as the system or the reader asks for. Paper is light, and of its own width.
+// Dark and light: the colours in use, as the system or the reader asks for. Paper is light, and of its own
+// width.
 
 import type { Look, Meta } from "./data";
 import type { Store } from "./state";

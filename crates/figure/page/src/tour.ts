@@ -6,22 +6,27 @@ const STOPS: readonly (readonly [selector: string, heading: string, text: string
     [
         ".diagram",
         "The response diagram",
-        "Each line is a branch of periodic solutions: solid where they are stable, dashed where they are unstable. Marks are bifurcations; more of them appear as you zoom in. Zoom with the wheel, a box or two fingers; click on a solution to see its motion.",
+        "Each line is a branch of periodic solutions: solid where they are stable, dashed where they are " +
+            "unstable. Marks are bifurcations; more of them appear as you zoom in. Zoom with the wheel, a " +
+            "box or two fingers; click on a solution to see its motion.",
     ],
     [
         ".legend",
         "The legend",
-        "Every entry is a switch: a kind of solutions, of lines or of marks, other results that you compare with.",
+        "Every entry is a switch: a kind of solutions, of lines or of marks, other results that you " +
+            "compare with.",
     ],
     [
         ".controls",
         "What the axes show",
-        "Any stored quantity over the frequency, over another quantity or over another parameter that was varied. Save takes what is seen as SVG, PNG or CSV. Compare draws other results behind these.",
+        "Any stored quantity over the frequency, over another quantity or over another parameter that was " +
+            "varied. Save takes what is seen as SVG, PNG or CSV. Compare draws other results behind these.",
     ],
     [
         ".solution",
         "The selected solution",
-        "Its numbers, the structure in motion, its Floquet multipliers, its orbit over time, in the phase plane and as a spectrum. Arrow keys go along the branch.",
+        "Its numbers, the structure in motion, its Floquet multipliers, its orbit over time, in the phase " +
+            "plane and as a spectrum. Arrow keys go along the branch.",
     ],
     [
         "#branches",

@@ -27,6 +27,7 @@ mod dense;
 mod dip;
 mod error;
 mod field;
+mod first_step;
 mod march;
 mod observe;
 mod resting;

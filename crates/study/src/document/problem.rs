@@ -42,6 +42,18 @@ impl FaultReport {
         Self { left_out, ..self }
     }
 
+    /// The text that has the faults.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The same with a further fault in its place.
+    pub(crate) fn with(self, problem: Problem) -> Self {
+        let mut problems = self.problems;
+        problems.push(problem);
+        Self::new(&self.name, &self.text, problems).and(self.left_out)
+    }
+
     /// Line and column of a fault, both counted from 1; `None` if it stands nowhere in the text.
     #[must_use]
     pub fn position(&self, problem: &Problem) -> Option<(usize, usize)> {

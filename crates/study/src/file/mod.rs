@@ -26,6 +26,7 @@ mod names;
 mod output;
 mod output_value;
 mod parameter;
+mod parameter_kind;
 mod read_formula;
 mod read_stop_law;
 mod reduction;
@@ -60,7 +61,8 @@ pub use matrices::{
 };
 pub use output::{OutputEntry, OutputPlace, OutputSource};
 pub use output_value::{OutputQuantity, OutputValue};
-pub use parameter::{DampingKey, ParameterKind, VariedParameter};
+pub use parameter::VariedParameter;
+pub use parameter_kind::{DampingKey, ParameterKind};
 pub use reduction::{ReductionMethod, ReductionTable};
 pub use response::ResponseTable;
 pub use rig::Rig;

@@ -1,16 +1,20 @@
 //! The name of a parameter of the study, and its range: `parameter` and `range` of `[[vary]]` and
 //! `[[curve]]`.
 
-use hammerbeam_motion::{LawConstant, law::LawKey};
-use serde::{Serialize, Serializer, ser::SerializeStructVariant};
+use hammerbeam_motion::{
+    LawConstant,
+    law::{DESCRIPTIONS, LawKey},
+};
+use serde::Serialize;
 
 use crate::{
-    document::{Quantity, TomlTable, Value, quantity},
-    number::{number_named, numbers},
+    document::{Quantity, TomlTable, Value, quantity, unit::without_unit},
+    number::{number_named, numbers, written_paths},
 };
 
 use super::{
-    DampingTable, Excitation, ExcitationKind, LoadTable, ModalRatio, Stop, StopEntry, StopLaw, StructureTable,
+    DampingKey, DampingTable, Excitation, ExcitationKind, LoadTable, ModalRatio, ParameterKind, Stop,
+    StopEntry, StopLaw, StructureTable,
 };
 
 /// A parameter of the study and the range in which it varies.
@@ -22,82 +26,6 @@ pub struct VariedParameter {
     pub kind: ParameterKind,
     /// Its range, in the unit of the name.
     pub range: [f64; 2],
-}
-
-/// What a parameter is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ParameterKind {
-    /// Amplitude of the excitation [m or N].
-    Amplitude,
-    /// A constant of the law of a stop, in its unit.
-    OfStop {
-        /// Number of the stop, from 0.
-        stop: usize,
-        /// The constant.
-        constant: LawConstant,
-    },
-    /// Ratio to critical damping of every mode.
-    ModalRatio,
-    /// A part of the damping of the structure.
-    Damping(DampingKey),
-    /// Another number of the model, by its key path.
-    Number,
-}
-
-impl Serialize for ParameterKind {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        const TYPE: &str = "ParameterKind";
-        let (stop, constant) = match self {
-            Self::Amplitude => return serializer.serialize_unit_variant(TYPE, 0, "amplitude"),
-            Self::ModalRatio => return serializer.serialize_unit_variant(TYPE, 2, "modal-ratio"),
-            Self::Damping(key) => return serializer.serialize_newtype_variant(TYPE, 3, "damping", key),
-            Self::Number => return serializer.serialize_unit_variant(TYPE, 4, "number"),
-            Self::OfStop { stop, constant } => (stop, constant),
-        };
-        let (name, number) = match constant {
-            LawConstant::Gap => ("gap", None),
-            LawConstant::Stiffness => ("stiffness", None),
-            LawConstant::Restitution => ("restitution", None),
-            LawConstant::Damping => ("stop-damping", None),
-            LawConstant::Further(number) => ("stop-constant", Some(number)),
-        };
-        let mut variant = serializer.serialize_struct_variant(TYPE, 1, name, 2)?;
-        variant.serialize_field("stop", stop)?;
-        if let Some(number) = number {
-            variant.serialize_field("number", number)?;
-        }
-        variant.end()
-    }
-}
-
-/// A constant of the damping of the structure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DampingKey {
-    /// Ratio to critical damping of a mode.
-    ModalRatio {
-        /// Number of the mode, from 0.
-        mode: usize,
-    },
-    /// Rayleigh damping in proportion to the mass.
-    RayleighMass,
-    /// Rayleigh damping in proportion to the stiffness.
-    RayleighStiffness,
-    /// A damper of a lumped structure.
-    Damper {
-        /// Its number, from 0.
-        damper: usize,
-    },
-    /// The damper at a point of a beam.
-    PointDamper {
-        /// Number of the point, from 0.
-        point: usize,
-    },
-    /// The rotational damper at a point of a beam.
-    RotationalDamper {
-        /// Number of the point, from 0.
-        point: usize,
-    },
 }
 
 /// What of a study can vary. Tables that could not be read are `None`: names in them are not judged.
@@ -150,16 +78,32 @@ impl Variable<'_> {
         self.loads.unwrap_or_default().iter().any(|load| load.order() > 0)
     }
 
-    /// Whether the table that a name begins with was read, so that all its names are known.
-    fn knows_table_of(self, name: &str) -> bool {
-        match name.split('.').next() {
-            Some("structure") => self.structure.is_some(),
-            Some("excitation") => self.excitation.is_some(),
-            Some("damping") => self.damping.is_some(),
-            Some("load") => self.loads.is_some(),
-            Some("stop") => self.stops.is_some(),
-            _ => true,
-        }
+    /// Whether a name may mean something that is not known because the table that it begins with has faults:
+    /// what is written there, or a key that an element that is there may have.
+    fn may_mean(self, name: &str) -> bool {
+        let Some((element, key)) = name.rsplit_once('.') else { return false };
+        let written = written_paths(self.text);
+        let is_written = |path: &str| written.iter().any(|known| known == path);
+        let of_law = || DESCRIPTIONS.iter().any(|law| law.keys.iter().any(|of| of.name == key));
+        let (is_faulty, may_have) = match name.split('.').next() {
+            Some("structure") => {
+                let of_point = ["damper_n_s_m", "rotational_damper_n_m_s_rad"].contains(&key);
+                (self.structure.is_none(), of_point && is_written(element))
+            }
+            Some("excitation") => (self.excitation.is_none(), key.starts_with("amplitude_")),
+            Some("damping") => {
+                let of_damping = ["modal_ratio", "mass_per_s", "stiffness_s"].contains(&key);
+                (self.damping.is_none(), of_damping)
+            }
+            Some("load") => (self.loads.is_none(), false),
+            Some("stop") => {
+                let of_stop = element != "stop" && is_written(element);
+                (self.stops.is_none(), of_stop && (key == "gap_m" || of_law()))
+            }
+            _ => return false,
+        };
+        let with_unit = || without_unit(name).is_some_and(|(stem, _)| is_written(stem));
+        is_faulty && (may_have || is_written(name) || with_unit())
     }
 }
 
@@ -265,7 +209,7 @@ fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(Paramet
     }
     let of_model = matches!(number, Ok(Some(_))).then_some((ParameterKind::Number, quantity::ANY));
     let found = kinds.pop().or(of_model);
-    if found.is_none() && study.knows_table_of(text) {
+    if found.is_none() && !study.may_mean(text) {
         let others = numbers(study.text).into_iter().map(|mut number| number.keys.swap_remove(0));
         let mut names: Vec<String> = known.into_iter().map(|(name, ..)| name).collect();
         for other in others {

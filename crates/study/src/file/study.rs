@@ -154,14 +154,27 @@ impl StudyFile {
     }
 
     fn parse_with(name: &str, text: String, pieces: bool) -> Result<Self, StudyError> {
-        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-        let reading = Reading::in_folder(folder);
+        let reading = reading_beside(name);
         let study = read_text(&text, &reading, pieces);
         let (problems, left_out, places) = reading.into_parts();
         match study {
             Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
             _ => Err(StudyError::Invalid(FaultReport::new(name, &text, problems).and(left_out))),
         }
+    }
+
+    /// What a text says of the structure and of what moves it, whatever else it says: a study without stops,
+    /// for faults that only the assembled structure shows. `None` if that part has faults itself.
+    pub(crate) fn parse_structure(name: &str, text: &str) -> Option<Self> {
+        let reading = reading_beside(name);
+        let document = DeTable::parse(text).ok()?;
+        let nothing = DeTable::new();
+        let root = TomlTable::new(&reading, String::new(), 0..0, document.get_ref());
+        let rest = TomlTable::new(&reading, String::new(), 0..0, &nothing);
+        let study = read_tables((&root, &rest), &reading, (text, false))?;
+        let (problems, _, places) = reading.into_parts();
+        let file = Self { name: name.to_owned(), text: text.to_owned(), study, places };
+        problems.is_empty().then_some(file)
     }
 
     /// The excitation, for what needs its frequency.
@@ -205,18 +218,29 @@ fn read_text(text: &str, reading: &Reading, pieces: bool) -> Option<Study> {
         return None;
     }
     let root = TomlTable::new(reading, String::new(), 0..0, document.get_ref());
-    let study = read_root(&root, reading, (text, pieces));
+    let study = read_tables((&root, &root), reading, (text, pieces));
     root.finish();
     study
 }
 
-fn read_root(root: &TomlTable<'_>, reading: &Reading, (text, pieces): (&str, bool)) -> Option<Study> {
+/// A reading of a document whose files lie beside it.
+fn reading_beside(name: &str) -> Reading {
+    Reading::in_folder(Path::new(name).parent().unwrap_or(Path::new("")))
+}
+
+/// The study: its structure and what moves it from one document, all else from another, which is the same or
+/// empty.
+fn read_tables(
+    (linear, root): (&TomlTable<'_>, &TomlTable<'_>),
+    reading: &Reading,
+    (text, pieces): (&str, bool),
+) -> Option<Study> {
     let mut names = Names::default();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
-    let structure = structure::read(root, reading, &mut names);
-    let reduction = reduction::read(root, structure.as_ref());
-    let damping = damping::read(root);
-    let excitation = excitation::read(root, &names, structure.as_ref());
+    let structure = structure::read(linear, reading, &mut names);
+    let reduction = reduction::read(linear, structure.as_ref());
+    let damping = damping::read(linear);
+    let excitation = excitation::read(linear, &names, structure.as_ref());
     let loads = load::read(root, reading, &names, excitation.as_ref());
     let stops = stop::read(root, reading, &names, excitation.as_ref());
     let response = response::read(root, &names, stops.as_deref());

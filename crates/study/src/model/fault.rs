@@ -3,11 +3,36 @@
 use hammerbeam_motion::SystemError;
 use hammerbeam_structure::StructureError;
 
-use super::structure::ReduceError;
+use super::structure::{self, ReduceError};
 use crate::{
-    document::unit::readable,
+    document::{FaultReport, unit::readable},
     file::{StudyError, StudyFile},
 };
+
+/// Faults of a study file, and beside them what only its assembled structure shows: else that came to light
+/// when everything else is right.
+#[must_use]
+pub fn with_structure_fault(error: StudyError) -> StudyError {
+    let StudyError::Invalid(report) = error else { return error };
+    let Some(file) = StudyFile::parse_structure(&report.name, report.text()) else {
+        return StudyError::Invalid(report);
+    };
+    // What depends on where stops act is left alone: there are none here.
+    let fault = match structure::reduce(&file.study, &[]) {
+        Err(
+            error @ (ReduceError::Files(_)
+            | ReduceError::Structure(
+                StructureError::CutOffBelowFirstMode { .. }
+                | StructureError::NotHeld { .. }
+                | StructureError::MovedTwice { .. }
+                | StructureError::StiffnessNotPositive { .. },
+            )),
+        ) => reduce_fault(&file, &error),
+        _ => return StudyError::Invalid(report),
+    };
+    let StudyError::Invalid(of_structure) = fault else { return StudyError::Invalid(report) };
+    StudyError::Invalid(of_structure.problems.into_iter().fold(report, FaultReport::with))
+}
 
 /// The fault of a structure, or of a file of it, at the key that is to blame.
 pub(super) fn reduce_fault(file: &StudyFile, error: &ReduceError) -> StudyError {

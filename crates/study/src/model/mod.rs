@@ -23,6 +23,7 @@ use hammerbeam_structure::{MatrixReport, MeshShape, ModeTables, OutlinePoint, Re
 
 pub use drift::Drift;
 pub use export::matrix_study;
+pub use fault::with_structure_fault;
 pub use initial::{PointStart, PointStartError, PointStartKind};
 pub use outputs::output_signals;
 pub use parameter::StudyParameter;

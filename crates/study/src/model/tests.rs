@@ -58,6 +58,27 @@ fn a_cut_off_below_the_first_mode_is_refused_at_its_key() {
 }
 
 #[test]
+fn what_a_faulty_stop_hid_is_reported_with_it() {
+    let vary = |parameter: &str| {
+        format!("[[vary]]\nparameter = \"{parameter}\"\nrange = [1.0, 2.0]\nfrequency_hz = 30.0\n")
+    };
+    let text =
+        PAPER.replacen("side = \"below\"", "", 1).replacen("cut_off_hz = 1000.0", "cut_off_hz = 5.0", 1);
+    let wrong = ["stop.1.stifness", "stop.2.gap_m", "stop.gap_m"];
+    let varied = wrong.into_iter().chain(["stop.1.stiffness_n_m15", "stop.1.gap_m", "stop.1.restitution"]);
+    let text = varied.fold(text, |text, parameter| format!("{text}\n{}", vary(parameter)));
+    let read = StudyFile::parse("study.toml", text).map_err(with_structure_fault);
+    let Err(StudyError::Invalid(report)) = read else { panic!("{read:?}") };
+    let found: Vec<&str> = report.problems.iter().map(|problem| problem.message.as_str()).collect();
+    assert_eq!(found.len(), 5, "{found:#?}");
+    assert!(found[0].contains("the cut-off frequency is 5 Hz"), "{found:#?}");
+    assert!(found[1].contains("`side` is missing"), "{found:#?}");
+    for (message, wrong) in found[2..].iter().zip(wrong) {
+        assert!(message.contains(wrong), "{message}");
+    }
+}
+
+#[test]
 fn one_damping_ratio_per_mode_is_needed() {
     let ratios = |list: &str| paper_with("modal_ratio = 0.015", &format!("modal_ratio = {list}"));
     assert!(ratios("[0.01, 0.01, 0.01, 0.01, 0.01, 0.01]").is_ok());

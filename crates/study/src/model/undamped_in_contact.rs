@@ -51,7 +51,8 @@ impl std::fmt::Display for UndampedInContact {
     }
 }
 
-/// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
+/// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed; none where
+/// nothing damps the open structure either.
 pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     let opening: Vec<usize> = system
         .elements()
@@ -64,10 +65,12 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     if opening.len() > 1 {
         closed.push(opening);
     }
-    if every_motion_is_damped(system) {
+    let undamped = undamped_modes(system);
+    // Where nothing damps any mode, that says it all: every stop would name every mode once more.
+    if undamped.len() == system.dof() || every_motion_is_damped(system) {
         return Vec::new();
     }
-    let mut known: Vec<f64> = undamped_modes(system).iter().map(|mode| mode.frequency_hz).collect();
+    let mut known: Vec<f64> = undamped.iter().map(|mode| mode.frequency_hz).collect();
     let mut found = Vec::new();
     for elements in closed {
         for mode in undamped_while_closed(system, &elements) {
