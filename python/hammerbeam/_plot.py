@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import BadInput
+from ._check import unknown
 from ._tables import Array, needed
 
 PERIODS = ("#262d72", "#b24b13", "#4bb897", "#681505", "#726587", "#cd8ee3", "#512834", "#3864d1", "#86b361")
@@ -41,7 +41,7 @@ def framed(ax: Any, x: str, y: str) -> Any:
 def checked_quantity(quantity: Any) -> tuple[str, str]:
     """Column and label of a quantity that can be drawn."""
     if not isinstance(quantity, str) or quantity not in QUANTITIES:
-        raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
+        raise unknown("quantity", quantity, QUANTITIES)
     return QUANTITIES[quantity]
 
 
@@ -98,7 +98,7 @@ def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
         if name.endswith("_displacement_m")
     ]
     if point not in names:
-        raise BadInput(f"there is no point {point!r}; allowed: {', '.join(names)}")
+        raise unknown("point", point, names)
     ax = framed(axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
     colour = PERIODS[(solution.period_multiple - 1) % len(PERIODS)]
     ax.plot(waveform["phase_cycles"], waveform[f"{point}_displacement_m"], color=colour, linewidth=1.1)

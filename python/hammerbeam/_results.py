@@ -177,7 +177,7 @@ class Results:
             names = ["branches", "events", "ends", *more, "varied", "motions"]
             tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
             return _export.write(tables, format, folder, "results")
-        return [Path(path) for path in self._native.export(format, folder, bool(states))]
+        return [Path(path) for path in self._native.export(format, folder, _check.flag("states", states))]
 
     def export_orbits(
         self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
@@ -186,7 +186,7 @@ class Results:
         `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         if not isinstance(orbits, Orbits):
-            raise BadInput(f"orbits: found {orbits!r}, must be Orbits, as `orbits` gives them, and not a part")
+            raise _check.refused("orbits", orbits, "must be Orbits, as `orbits` gives them, and not a part")
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}

@@ -67,9 +67,9 @@ class Batch:
         `StudyError` here. A folder that holds the same batch already is opened.
         """
         if not isinstance(parameters, Parameters):
-            raise BadInput(f"parameters: found {parameters!r}, must be Parameters")
+            raise _check.refused("parameters", parameters, "must be Parameters")
         if task is not None and not isinstance(task, Task):
-            raise BadInput(f"task: found {task!r}, must be a Task")
+            raise _check.refused("task", task, "must be a Task")
         place = _check.folder("folder", folder).absolute()
         if any(path.is_file() for path in (place, *place.parents)):
             raise BadInput(f"folder: {place} is a file, or lies in one; must be a folder")

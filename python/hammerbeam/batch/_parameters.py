@@ -45,10 +45,10 @@ class Parameters:
     def grid(cls, values: Mapping[str, Iterable[Any]]) -> "Parameters":
         """All combinations of values, the last key changing fastest."""
         if not isinstance(values, Mapping):
-            raise BadInput(f"values: found {values!r}, must be a dictionary of lists by keys")
+            raise _check.refused("values", values, "must be a dictionary of lists by keys")
         for key, column in values.items():
             if isinstance(column, (str, bytes)) or not isinstance(column, Iterable):
-                raise BadInput(f"{key}: found {column!r}, must be a list of values")
+                raise _check.refused(key, column, "must be a list of values")
         return cls(list(values), itertools.product(*(list(column) for column in values.values())))
 
     @classmethod
@@ -64,7 +64,7 @@ class Parameters:
         random = np.random.default_rng(_check.whole("seed", seed, 0, 2**63 - 1))
         columns = []
         for key, ends in ranges.items():
-            low, high = _range(key, ends)
+            low, high = _check.rising(key, ends)
             part = (random.permutation(rows) + random.random(rows)) / rows
             columns.append((low + (high - low) * part).tolist())
         return cls(list(ranges), zip(*columns, strict=True))
@@ -85,7 +85,7 @@ class Parameters:
     def parse(cls, text: str) -> "Parameters":
         """The same from a text."""
         if not isinstance(text, str):
-            raise BadInput(f"text: found {text!r}, must be a text of comma-separated values")
+            raise _check.refused("text", text, "must be a text of comma-separated values")
         lines = [row for row in csv.reader(StringIO(text), skipinitialspace=True) if row]
         if not lines:
             raise BadInput("the table of parameters is empty; its first line has the keys")
@@ -101,7 +101,7 @@ class Parameters:
     def column(self, key: str) -> "np.ndarray[Any, np.dtype[Any]]":
         """The values of a key: numbers if all are, else texts."""
         if key not in self.keys:
-            raise BadInput(f"there is no column {key!r}; allowed: {', '.join(self.keys)}")
+            raise _check.unknown("column", key, self.keys)
         texts = [row[self.keys.index(key)] for row in self.rows]
         try:
             return np.array([float(text) for text in texts])
@@ -118,14 +118,3 @@ def _text(key: str, value: Any) -> str:
     if not key or not text:
         raise BadInput(f"{key or 'a column without a key'}: found no value in the table of parameters")
     return text
-
-
-def _range(key: str, ends: Any) -> tuple[float, float]:
-    try:
-        low, high = ends
-    except (TypeError, ValueError):
-        raise BadInput(f"{key}: found {ends!r}, must be (LOW, HIGH)") from None
-    low, high = _check.number(key, low), _check.number(key, high)
-    if high <= low:
-        raise BadInput(f"{key}: the range {low}..{high} is empty; LOW must be below HIGH")
-    return low, high

@@ -49,7 +49,7 @@ class Task:
     @classmethod
     def run(cls, *, figures: bool = False) -> "Task":
         """Everything that the study asks for."""
-        return cls("run", {"figures": bool(figures)})
+        return cls("run", {"figures": _check.flag("figures", figures)})
 
     @classmethod
     def simulate(cls, frequency_hz: float | None = None, **options: Any) -> "Task":
@@ -72,7 +72,7 @@ class Task:
         for name, axis in (("x", x), ("y", y)):
             if isinstance(axis, str) or not isinstance(axis, Sequence):
                 must = "must be (NAME, LOW, HIGH), as in ('q1', -1e-3, 1e-3)"
-                raise BadInput(f"{name}: found {axis!r}, {must}")
+                raise _check.refused(name, axis, must)
         return cls("basins", {"frequency_hz": frequency_hz, "x": x, "y": y, **options}, parts)
 
     @classmethod
@@ -127,5 +127,5 @@ def _plain(name: str, value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(name, entry) for entry in value]
     if isinstance(value, float) and not math.isfinite(value):
-        raise BadInput(f"{name}: found {value}, must be a finite number")
+        raise _check.refused(name, value, "must be a finite number")
     return value
