@@ -64,6 +64,26 @@ def test_orbits_by_frequency_branch_and_event(results: Results) -> None:
         np.testing.assert_allclose(np.prod(orbit.multipliers).real, np.exp(-0.1 / 0.25), rtol=1e-7)
 
 
+def test_a_slice_of_orbits_is_orbits(results: Results, tmp_path: Path) -> None:
+    orbits = results.orbits(0.25)
+    last = orbits[-1:]
+    assert isinstance(last, hammerbeam.Orbits) and len(last) == 1 and len(orbits[3:]) == 0
+    np.testing.assert_array_equal(last[0].waveform(8), orbits[2].waveform(8))
+    # Each table counts its orbits from 1 on.
+    names = [name for name in orbits.table.dtype.names or () if name != "orbit"]
+    back = orbits[::-1].table
+    assert back["orbit"].tolist() == [1, 2, 3]
+    assert all((back[name] == orbits.table[name][::-1]).all() for name in names)
+    [path] = results.export_orbits(orbits[1:], "npz", tmp_path, samples=8)
+    with np.load(path) as found:
+        np.testing.assert_array_equal(found["orbits"]["state"], orbits.table["state"][1:])
+        assert set(found["waveforms"]["orbit"]) == {1, 2}
+    # None of them is no file without a table.
+    [path] = results.export_orbits(orbits[:0], "npz", tmp_path / "none", samples=8)
+    with np.load(path) as found:
+        assert len(found["orbits"]) == 0
+
+
 def test_frames_have_a_column_for_each_number(results: Results) -> None:
     pytest.importorskip("pandas")
     frame = results.frame()
@@ -191,7 +211,7 @@ def test_an_export_into_a_file_is_refused(results: Results, tmp_path: Path, form
     with pytest.raises(hammerbeam.ExportError):
         results.export(format, tmp_path / "file")
     with pytest.raises(hammerbeam.BadInput, match="orbits"):
-        results.export_orbits(results.orbits(0.25)[:1], format, tmp_path)  # type: ignore[arg-type]
+        results.export_orbits(list(results.orbits(0.25)), format, tmp_path)  # type: ignore[arg-type]
 
 
 def test_folders_to_start_from_are_a_list(duffing: hammerbeam.Study, tmp_path: Path) -> None:
