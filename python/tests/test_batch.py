@@ -319,7 +319,8 @@ def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
-    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.001 * k for k in range(400)]}))
+    gaps = [0.8 + 0.001 * k for k in range(400)]
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: gaps}))
     script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
     # A group of its own, as a terminal has it: all processes get the signal. So many items that some are left
     # however late it comes.
