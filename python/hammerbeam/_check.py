@@ -6,6 +6,7 @@ What is refused has `numbers`: `found`, and `low` and `high` where a range is al
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any, SupportsFloat, SupportsIndex
 
@@ -106,9 +107,11 @@ def setting(key: Any, value: Any) -> str:
         raise refused("key", key, "must be a word")
     if isinstance(value, str):
         return f"{word('key', key)}={word(key, value)}"
-    if isinstance(value, Sequence) or isinstance(value, np.ndarray):
-        entries = (setting("", entry).removeprefix("=") for entry in value)
-        return f"{word('key', key)}=[{', '.join(entries)}]"
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, (Sequence, np.ndarray)):
+        parts = (setting("", entry).removeprefix("=") for entry in value)
+        return f"{word('key', key)}=[{', '.join(parts)}]"
     if isinstance(value, (bool, np.bool_)):
         return f"{word('key', key)}={'true' if value else 'false'}"
     if isinstance(value, SupportsIndex):
@@ -123,6 +126,19 @@ def words(name: str, value: Any) -> list[str]:
     if isinstance(value, Sequence) and all(isinstance(one, str) for one in value):
         return [word(name, one) for one in value]
     raise refused(name, value, "must be a word or a list of words")
+
+
+def entries(name: str, value: Any, must: str, most: int = 1_000_000) -> list[Any]:
+    """What a list or an array holds, or whatever else gives one thing after the other, `most` at most."""
+    if isinstance(value, (str, bytes, Mapping)):
+        raise refused(name, value, must)
+    try:
+        found = list(islice(iter(value), most + 1))
+    except TypeError:
+        raise refused(name, value, must) from None
+    if len(found) > most:
+        raise BadInput(f"{name}: found more than {most}, which are allowed", numbers={"high": most})
+    return found
 
 
 def numbers(name: str, value: Any) -> list[float]:

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ._check import unknown
+from ._check import refused, unknown
 from ._tables import Array, needed
 
 PERIODS = ("#262d72", "#b24b13", "#4bb897", "#681505", "#726587", "#cd8ee3", "#512834", "#3864d1", "#86b361")
@@ -24,6 +24,8 @@ QUANTITIES = {
 def axes(ax: Any) -> Any:
     """What is given, or axes of a new figure."""
     if ax is not None:
+        if not all(hasattr(ax, name) for name in ("plot", "set_xlabel", "grid")):
+            raise refused("ax", ax, "must be axes of matplotlib")
         return ax
     pyplot = needed("matplotlib.pyplot", "plot")
     return pyplot.subplots(figsize=(7.1, 4.0), layout="constrained")[1]
@@ -97,7 +99,7 @@ def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
         for name in waveform.dtype.names or ()
         if name.endswith("_displacement_m")
     ]
-    if point not in names:
+    if not isinstance(point, str) or point not in names:
         raise unknown("point", point, names)
     ax = framed(axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
     colour = PERIODS[(solution.period_multiple - 1) % len(PERIODS)]

@@ -186,7 +186,8 @@ class Results:
         `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         if not isinstance(orbits, Orbits):
-            raise _check.refused("orbits", orbits, "must be Orbits, as `orbits` gives them, or a slice of them")
+            must = "must be Orbits, as `orbits` gives them, or a slice of them"
+            raise _check.refused("orbits", orbits, must)
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}

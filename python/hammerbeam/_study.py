@@ -1,11 +1,11 @@
 """Studies, and what can be asked of them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from os import PathLike
 
 from . import _check
 from ._attractors import Attractors
-from ._errors import BadInput, Interrupted, NoResult
+from ._errors import Interrupted, NoResult
 from ._model import AnyPath, loads
 from ._native import NativeOrbits
 from ._orbits import Orbit, Orbits
@@ -41,9 +41,10 @@ class Study(Attractors):
         """
         folder = _check.folder("out", out)
         native = self._placed(folder)
-        if isinstance(start_from, (str, bytes, PathLike)) or not isinstance(start_from, Iterable):
+        if isinstance(start_from, PathLike):
             raise _check.refused("start_from", start_from, "must be a list of folders")
-        folders = [str(_check.folder("start_from", one)) for one in start_from]
+        given = _check.entries("start_from", start_from, "must be a list of folders")
+        folders = [str(_check.folder("start_from", one)) for one in given]
         asked = (folder, folders, _check.jobs(jobs), _check.flag("figures", figures))
         kept = f"what was computed is kept in {folder}, the same call goes on from there"
         with interruptible(kept), watched(progress) as callbacks:

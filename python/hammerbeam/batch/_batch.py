@@ -104,19 +104,22 @@ class Batch:
 
     def row(self, number: int) -> int:
         """The row of the table, counted from 1, that an item belongs to."""
-        return (number - 1) // self.task.parts + 1
+        return (_check.whole("item", number, 1, len(self)) - 1) // self.task.parts + 1
 
     def part(self, number: int) -> int:
         """Which part of its study an item is, counted from 1."""
-        return (number - 1) % self.task.parts + 1
+        return (_check.whole("item", number, 1, len(self)) - 1) % self.task.parts + 1
 
     def numbers_of(self, row: int) -> range:
         """The items of a row of the table, counted from 1."""
-        return range((row - 1) * self.task.parts + 1, row * self.task.parts + 1)
+        place = _check.whole("row", row, 1, len(self.parameters))
+        return range((place - 1) * self.task.parts + 1, place * self.task.parts + 1)
 
     def whole(self, row: int) -> ItemFolder:
         """The folder of a row's result: its item, or what its parts are put together to."""
-        return self.item(row) if self.task.parts == 1 else ItemFolder.of(self.folder / "merged", row)
+        if self.task.parts == 1:
+            return self.item(row)
+        return ItemFolder.of(self.folder / "merged", _check.whole("row", row, 1, len(self.parameters)))
 
     def statuses(self) -> list[Status]:
         """How far each item is."""

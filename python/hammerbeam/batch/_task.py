@@ -15,6 +15,7 @@ from .._errors import BadInput
 from .._results import Results
 from .._study import Study
 
+_METHODS = ("run", "simulate", "sweep", "lyapunov", "basins")
 _OWN = ("self", "out", "jobs", "progress", "parts", "part", "results")
 
 
@@ -33,8 +34,10 @@ class Task:
     parts: int = 1
 
     def __post_init__(self) -> None:
-        if self.method not in ("run", "simulate", "sweep", "lyapunov", "basins"):
-            raise BadInput(f"{self.method!r} cannot be computed for many studies")
+        if not isinstance(self.method, str) or self.method not in _METHODS:
+            raise _check.unknown("task", self.method, _METHODS)
+        if not isinstance(self.options, Mapping):
+            raise _check.refused("options", self.options, "must be a dictionary of keyword arguments")
         _check.whole("parts", self.parts, 1, 100_000)
         allowed = inspect.signature(getattr(Study, self.method)).parameters
         plain = {name: _plain(name, value) for name, value in self.options.items()}
@@ -78,6 +81,8 @@ class Task:
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> "Task":
         """The task that `document` describes."""
+        if not isinstance(document, Mapping) or not {"method", "options", "parts"} <= set(document):
+            raise _check.refused("task", document, "must have method, options and parts")
         return cls(document["method"], document["options"], document["parts"])
 
     def document(self) -> dict[str, Any]:
