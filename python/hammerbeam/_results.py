@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _check, _export, _plot
-from ._errors import BadInput, DrawingError
+from ._errors import BadInput, ClosedResults, DrawingError
 from ._native import NativeResults
 from ._orbits import MOST_SAMPLES, Orbits
 from ._progress import Progress, interruptible, watched
@@ -188,6 +188,7 @@ class Results:
         if not isinstance(orbits, Orbits):
             must = "must be Orbits, as `orbits` gives them, or a slice of them"
             raise _check.refused("orbits", orbits, must)
+        self._refuse_closed()
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
@@ -205,12 +206,18 @@ class Results:
         return self._native.closed_already
 
     def __enter__(self) -> "Results":
+        self._refuse_closed()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+    def _refuse_closed(self) -> None:
+        if self.closed:
+            message = f"the results of {self.folder} are closed"
+            raise ClosedResults(message, numbers={"folder": str(self.folder)})
 
     def _table(self, name: str, branch: Branches) -> Array:
         numbers = _numbers(branch)

@@ -4,6 +4,7 @@ import json
 import os
 import pickle
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -170,12 +171,29 @@ def test_a_closed_folder_raises_and_other_results_go_on(folder: Path) -> None:
     orbits = results.orbits(0.25)
     results.close()
     results.close()
-    for call in (results.branches, results.events, results.svg, results.export, lambda: results.orbits(0.25)):
+    calls: list[Callable[[], Any]] = [
+        results.branches, results.events, results.svg, results.export, results.page, results.__enter__,
+        lambda: results.orbits(0.25), lambda: results.export_orbits(orbits),
+    ]  # fmt: skip
+    for call in calls:
         with pytest.raises(hammerbeam.ClosedResults, match="closed"):
             call()
     assert results.closed and len(orbits[0].waveform(4)) == 4
     with Results(folder) as other:
         assert len(other.branches()) > 0
+
+
+def test_a_folder_that_was_deleted(folder: Path, tmp_path: Path) -> None:
+    shutil.copytree(folder, tmp_path / "copy")
+    results = Results(tmp_path / "copy")
+    shutil.rmtree(tmp_path / "copy")
+    for call in (lambda: results.orbits(0.25), results.svg, results.page, results.draw):
+        with pytest.raises(hammerbeam.StoreError, match="there are no results") as raised:
+            call()
+        assert raised.value.name == "NoResults"
+    assert "copy" in repr(results)
+    results.close()
+    assert not (tmp_path / "copy").exists()
 
 
 def test_a_folder_without_results(tmp_path: Path) -> None:
