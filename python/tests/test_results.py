@@ -2,7 +2,11 @@
 
 import csv
 import json
+import sys
+import threading
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import hammerbeam
 import numpy as np
@@ -150,8 +154,73 @@ def test_plots(results: Results) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("agg")
     axes = results.plot()
-    assert axes.get_xlabel() == "Frequency (Hz)" and len(axes.lines) > 2
+    assert axes.get_xlabel() == "Excitation frequency (Hz)"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["stable", "unstable", "fold"]
+    # Two stable parts with an unstable one between them, and its two folds as one line of marks.
+    stable, unstable, folds = axes.lines
+    np.testing.assert_array_equal(folds.get_xdata(), results.events()["frequency_hz"][:2])
+    table = results.branches()
+    assert np.isfinite(stable.get_ydata()).sum() == table["stable"].sum()
+    assert (np.isfinite(unstable.get_ydata()) >= (table["stability"] == "unstable")).all()
     assert results.orbits(0.25)[0].plot().get_ylabel() == "Displacement of mass (m)"
+
+
+def test_each_event_has_the_mark_of_hammerbeams_own_figures() -> None:
+    from hammerbeam._look import MARKS, marks_of
+
+    rows = [
+        ("", "stable", ""),
+        ("fold", "marginal", "fold"),
+        ("grazing", "unstable", "grazing"),
+        ("flip", "unstable", "bifurcation of unstable solutions"),
+        ("fold+grazing", "unstable", "fold at a grazing"),
+        ("neimark-sacker", "marginal", "Neimark-Sacker"),
+        ("branch-point", "stable", "branch point"),
+        ("flip", "stable", "flip"),
+    ]
+    events, stability, expected = (np.array(column) for column in zip(*rows, strict=True))
+    assert marks_of(events, stability).tolist() == expected.tolist()
+    assert set(expected) - {""} == {mark.name for mark in MARKS}
+
+
+@pytest.mark.parametrize(
+    ("module", "call"),
+    [
+        ("matplotlib.pyplot", lambda results: results.plot()),
+        ("pandas", lambda results: results.frame()),
+        ("scipy.io", lambda results: results.export("mat")),
+        ("pyarrow", lambda results: results.export("parquet")),
+        ("h5py", lambda results: results.export("hdf5")),
+    ],
+)
+def test_a_package_that_is_not_there_is_named(
+    results: Results, module: str, call: Callable[[Results], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(hammerbeam.BadInput, match=r"pip install 'hammerbeam\[\w+\]'") as raised:
+        call(results)
+    assert module.partition(".")[0] in str(raised.value)
+
+
+def test_results_are_read_by_several_threads_and_closed_by_one(folder: Path) -> None:
+    results, found = Results(folder), list[object]()
+    first = len(results.branches())
+
+    def work(closes: bool) -> None:
+        for turn in range(10):
+            try:
+                found.append(len(results.branches()) == first and len(results.orbits(0.25)) == 3)
+            except Exception as error:
+                found.append(type(error))
+            if closes and turn == 5:
+                results.close()
+
+    threads = [threading.Thread(target=work, args=(number == 0,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert len(found) == 30 and set(found) == {True, hammerbeam.ClosedResults}
 
 
 def test_what_run_reported_is_there(folder: Path) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._errors import BadInput, WriteError
-from .._plot import axes, framed
+from .._look import axes, framed
 from .._results import Results
 from .._tables import Array, frame
 from ._folder import Status, read_json, write_whole
