@@ -46,7 +46,7 @@ mv -f python/hammerbeam/.native.new python/hammerbeam/_native.abi3.so
 
 # Stubs say what the compiled module has: whoever changes it commits them as well.
 stubs="python/hammerbeam/_native.pyi"
-"$target/debug/stubs" "$library" > "$target/_native.pyi"
+"$target/debug/stubs" "$library" "$target/_native.pyi"
 if [ "${HAMMERBEAM_UPDATE:-0}" != 0 ]; then
     cp "$target/_native.pyi" "$stubs"
 elif ! diff "$stubs" "$target/_native.pyi"; then

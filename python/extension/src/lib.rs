@@ -7,7 +7,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `study.rs`, `asked.rs` | a study and what can be asked of it; what Python gives, as jobs take it |
-//! | `bin/stubs.rs` | the program that prints the types of all this for Python |
+//! | `bin/stubs.rs` | the program that writes the types of all this for Python |
 //! | `matrix.rs` | matrices as files |
 //! | `stored.rs` | a results folder |
 //! | `orbits.rs` | periodic solutions |
