@@ -1,8 +1,11 @@
 //! The book says what the command does: tutorials are followed to the letter, and its commands exist.
 //!
-//! `HAMMERBEAM_UPDATE=1` writes the pictures of the tutorials and the page of commands anew.
+//! `HAMMERBEAM_UPDATE=1` writes the pictures of the tutorials, the page of commands and the tables of keys
+//! anew.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod commands;
+mod keys;
 mod readers;
 mod snippets;
 

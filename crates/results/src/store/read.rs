@@ -5,6 +5,7 @@ use rusqlite::{Connection, OptionalExtension, Row as SqlRow, params};
 
 use super::{
     Store, StoreError, blob,
+    closed::ClosedAt,
     event::event,
     keys::{first_key, is_of_piece, solution_key, start_of_key, walk_id},
     stability,
@@ -157,10 +158,11 @@ impl Store {
         branch: &BranchRecord,
         mut take: impl FnMut(PlacedRow) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut place = 0;
+        let (mut place, mut closed) = (0, ClosedAt::of(branch));
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             self.each_row_of_walk(walk_id(branch.start, side), order, |number, mut row| {
                 place += 1;
+                row.events = closed.events(&row, place == 1);
                 if !branch.is_of_piece() {
                     row.events = with_ends(row.events, place == 1, place == branch.solutions());
                 }
