@@ -44,8 +44,8 @@ fn a_run_with_a_changed_parameter_begins_at_a_special_point_of_another_run() {
     assert_bad_input(&missing, &["results has no special point 1000", "numbered from 1"]);
 }
 
-/// The Duffing oscillator whose symmetric orbits lose their symmetry between two branch points: orbits without
-/// it make a loop through both, which starts at one of them.
+/// The Duffing oscillator whose symmetric orbits lose their symmetry between two branch points: orbits
+/// without it make a loop through both, which starts at one of them.
 const LOOP: &str = r#"
 [structure]
 kind = "lumped"

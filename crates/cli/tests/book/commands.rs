@@ -2,9 +2,9 @@
 //! language `sh`.
 //!
 //! A command is run as the page has it, in a folder with the studies of the project and a `study.toml`. Words
-//! in capitals stand for what the reader has; they are put in. Where a command takes long on the page, a number
-//! of it is made smaller, or the run gets a narrower range by `--set`. What the program prints is compared on
-//! the pages that show all of it.
+//! in capitals stand for what the reader has; they are put in. Where a command takes long on the page, a
+//! number of it is made smaller, or the run gets a narrower range by `--set`. What the program prints is
+//! compared on the pages that show all of it.
 
 use std::fs;
 
@@ -63,16 +63,16 @@ const NARROWED: [(&str, [f64; 2]); 5] = [
 const DONE_BEFORE: [(&str, &[&str]); 5] = [
     (
         "docs/how-to/choose-damping.md",
-        &[
-            "simulate studies/free-decay.toml --set stop.1.gap_m=1 --initial mass.y=-0.01 --duration 10 --sampling 100 --out decay",
-        ],
+        &["simulate studies/free-decay.toml --set stop.1.gap_m=1 --initial mass.y=-0.01 --duration 10 \
+             --sampling 100 --out decay"],
     ),
     (
         "docs/how-to/compare-with-measurements.md",
         &[
             "run study.toml --out own",
             "simulate study.toml --frequency 31 --transient-periods 300 --periods 30 --out own-motion",
-            "signal chain own-motion/samples.csv --periodic --low-pass 500 --noise 0.01 --seed 1 --out own-rig",
+            "signal chain own-motion/samples.csv --periodic --low-pass 500 --noise 0.01 --seed 1 \
+             --out own-rig",
         ],
     ),
     ("docs/reference/figures.md", &["run study.toml --out own"]),

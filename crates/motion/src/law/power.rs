@@ -92,7 +92,8 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
     sides: LawSides::Always { build: of_terms },
     keys: &[
         term("stiffness_n_m", "k1", "N/m", 1e18).meaning(
-            "linear term of a cubic spring; negative pushes away from the middle, see [two wells](#two-wells)",
+            "linear term of a cubic spring; negative pushes away from the middle, see [two \
+             wells](#two-wells)",
         ),
         term("stiffness_n_m2", "k2", "N/m^2", 1e24).meaning("quadratic term of a cubic spring"),
         LawKey {

@@ -1,13 +1,12 @@
-//! A branch that starts at a branch point and comes back to its start passes that point once more, just before
-//! it ends. It is one point: tables, summaries and figures have it at the start alone.
+//! A branch that starts at a branch point and comes back to its start passes that point once more, just
+//! before it ends. It is one point: tables, summaries and figures have it at the start alone.
 
 use hammerbeam_orbit::{BranchEventKind, EventSet};
 
-use super::read::BranchRecord;
-use crate::{end::BranchEnd, row::Row};
+use crate::row::Row;
 
-/// How far the located point may be from the start, relative to the frequency. Both are located to some 1e-12;
-/// other branch points of one branch are much farther apart.
+/// How far the located point may be from the start, relative to the frequency. Both are located to some
+/// 1e-12; other branch points of one branch are much farther apart.
 const SAME_FREQUENCY: f64 = 1e-9;
 /// The same relative to the displacement, which changes like the square root beside a branch point.
 const SAME_DISPLACEMENT: f64 = 1e-3;
@@ -21,10 +20,10 @@ pub(super) struct ClosedAt {
 
 impl ClosedAt {
     /// Of a branch whose rows are read from its first one on.
-    pub fn of(branch: &BranchRecord) -> Self {
-        let is_closed = branch.up.end.as_ref().is_some_and(BranchEnd::is_closed);
-        // A closed branch has its start first: there is nothing on its other side.
-        Self { is_closed: is_closed && branch.down.solutions == 0, start: None }
+    ///
+    /// * `is_closed`: whether it starts with its first row and ends there.
+    pub fn of(is_closed: bool) -> Self {
+        Self { is_closed, start: None }
     }
 
     /// What happens at the next row; the branch point of the start does not happen twice.
@@ -65,14 +64,14 @@ mod tests {
         let rows =
             [(0.137_302_460_674_888, 1.72), (0.169_858_346_613_087, 2.32), (0.137_302_460_673_380, 1.72)];
         let labels = |is_closed| {
-            let mut closed = ClosedAt { is_closed, start: None };
+            let mut closed = ClosedAt::of(is_closed);
             let rows = rows.iter().enumerate();
             rows.map(|(k, &(at, high))| closed.events(&branch_point(at, high), k == 0).label())
                 .collect::<Vec<_>>()
         };
         assert_eq!(labels(true), ["branch-point", "branch-point", ""]);
         assert_eq!(labels(false), ["branch-point"; 3]);
-        let mut closed = ClosedAt { is_closed: true, start: None };
+        let mut closed = ClosedAt::of(true);
         let twice = [branch_point(0.137, 1.72), branch_point(0.137, 1.82)];
         assert!(twice.iter().enumerate().all(|(k, row)| closed.events(row, k == 0) == row.events));
     }

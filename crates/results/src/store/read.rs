@@ -71,6 +71,11 @@ impl BranchRecord {
         self.up.solutions + self.down.solutions
     }
 
+    /// Whether it came back to its start, which then is its first solution.
+    fn starts_where_it_ends(&self) -> bool {
+        self.up.end.as_ref().is_some_and(BranchEnd::is_closed) && self.down.solutions == 0
+    }
+
     /// The walk to one side.
     #[must_use]
     pub fn walk(&self, side: Side) -> &WalkRecord {
@@ -158,7 +163,7 @@ impl Store {
         branch: &BranchRecord,
         mut take: impl FnMut(PlacedRow) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (mut place, mut closed) = (0, ClosedAt::of(branch));
+        let (mut place, mut closed) = (0, ClosedAt::of(branch.starts_where_it_ends()));
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             self.each_row_of_walk(walk_id(branch.start, side), order, |number, mut row| {
                 place += 1;

@@ -1,9 +1,9 @@
 //! Keys of tables as constants: the reader takes its range and its default from where the book has them.
 //!
 //! A [`Key`] is a name, what its value may be, its default and a sentence. The reader of a table asks it for
-//! the value, and the page of keys prints it as a [`KeyRow`]. What a reader of its own takes (a reference to a
-//! point, a list, a key that only some studies have) is a row without such a constant; tests hold the names of
-//! all rows to those that the readers ask for.
+//! the value, and the page of keys prints it as a [`KeyRow`]. What a reader of its own takes (a reference to
+//! a point, a list, a key that only some studies have) is a row without such a constant; tests hold the names
+//! of all rows to those that the readers ask for.
 
 use super::{Quantity, TomlTable, Value};
 
@@ -172,7 +172,6 @@ impl<R: KeyRange> Key<R> {
     }
 
     /// The value, if it is given: the inner `None` where it is not, the outer one where it is wrong.
-    #[expect(clippy::option_option, reason = "not given and wrong are different things")]
     pub fn given<'t, 'a: 't>(&self, table: impl Into<Option<&'t TomlTable<'a>>>) -> Option<Option<R::Read>> {
         let value = table.into().and_then(|table| table.optional(self.name));
         value.map_or(Some(None), |value| self.range.take(&value).map(Some))

@@ -1,5 +1,5 @@
-//! Defaults in the tables of keys are those that the readers take: a study in which a default is written out is
-//! the study without the key, and another value makes another one.
+//! Defaults in the tables of keys are those that the readers take: a study in which a default is written out
+//! is the study without the key, and another value makes another one.
 
 use super::{KeyTable, Study, StudyFile, key_tables};
 use crate::document::KeyRow;

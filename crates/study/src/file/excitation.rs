@@ -3,13 +3,14 @@
 use serde::Serialize;
 
 use crate::document::{
-    Key, KeyRow, Quantity, TomlTable, Value,
+    Key, KeyRow, TomlTable, Value,
     key::{Whole, Words},
     quantity,
 };
 
 use super::{
     ActingForce, Amplitude, ForcePlace, ForceSize, StructureTable, amplitude, force,
+    harmonic::{ORDERS, PHASE},
     names::Names,
     support_motion::{self, MovingSupport, PrescribedMotion, SupportDrive},
 };
@@ -173,10 +174,6 @@ const KIND: Key<Words<Kind>> = Key::new(
     Words(&[("support-motion", Kind::SupportMotion), ("force", Kind::Force)]),
     "what is prescribed",
 );
-/// Of the excitation, and of each of its forces and supports.
-pub(super) const PHASE: Key<Quantity> = Key::new("phase_rad", quantity::PHASE, "phase").or(0.0);
-/// Orders of harmonics start here; 0 is a constant.
-pub(super) const ORDERS: Whole = Whole(1, 1000);
 const ORDER: Key<Whole> = Key::new("order", ORDERS, "multiple of the frequency").or(1);
 
 /// Rows of the page of keys.

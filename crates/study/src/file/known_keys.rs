@@ -96,7 +96,8 @@ fn excitations() -> Vec<(&'static str, String)> {
     let shaken = "kind = \"support-motion\"\nat = \"left\"\namplitude_m = 0.2e-3\n";
     let excited = |keys: &str| BEAM.replace(shaken, keys);
     let supports = "kind = \"support-motion\"\n\
-                    support = [{ at = \"left\", amplitude_m = 1e-3 }, { at = \"tip\", amplitude_m = 1e-3 }]\n";
+                    support = [{ at = \"left\", amplitude_m = 1e-3 }, \
+                    { at = \"tip\", amplitude_m = 1e-3 }]\n";
     let force = "kind = \"force\"\nat = \"tip\"\namplitude_n = 1.0\n";
     let forces = "kind = \"force\"\nforce = [{ at = \"tip\", amplitude_n = 1.0 }]\n";
     let wrong = |keys: &str| keys.replacen("1e-3 }", "1e-3, wrong_key = 1 }", 1);

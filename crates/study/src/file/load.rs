@@ -9,9 +9,8 @@ use crate::document::{
 };
 
 use super::{
-    ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude,
-    excitation::{ORDERS, PHASE},
-    force,
+    ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude, force,
+    harmonic::{ORDERS, PHASE},
     names::Names,
     support_motion,
 };

@@ -19,6 +19,7 @@ mod excitation;
 mod figures;
 mod file_checksum;
 mod force;
+mod harmonic;
 mod keys;
 mod load;
 mod lumped;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Key, KeyRow, Quantity, TomlTable, Value, quantity};
 
-use super::{Amplitude, amplitude, excitation::PHASE, names::Names};
+use super::{Amplitude, amplitude, harmonic::PHASE, names::Names};
 
 /// A support that moves in a way of its own, as `amplitude cos(2 pi order f t + phase)`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -7,7 +7,7 @@ mod files;
 mod points;
 mod rows;
 
-use crate::document::{Key, Quantity, Reading, TomlTable, quantity};
+use crate::document::{Reading, TomlTable};
 
 use super::names::Names;
 
@@ -20,10 +20,8 @@ pub use entries::{
 use direction::read_vector;
 use files::{optional_file, read_components, read_factor};
 use points::{read_point, read_rows, read_support};
+use rows::MEMORY;
 pub(super) use rows::{rows, rows_of_component, rows_of_fixed, rows_of_point, rows_of_support};
-
-const MEMORY: Key<Quantity> =
-    Key::new("memory_gb", quantity::MEMORY_GB, "memory that factors may take").or(4.0);
 
 pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<MatricesTable> {
     let before = reading.count();

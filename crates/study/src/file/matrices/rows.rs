@@ -2,9 +2,12 @@
 
 use hammerbeam_matrices::MatrixFormat;
 
-use crate::document::{KeyRow, key::words};
+use crate::document::{Key, KeyRow, Quantity, key::words, quantity};
 
-use super::{MEMORY, files::factor};
+use super::files::factor;
+
+pub(super) const MEMORY: Key<Quantity> =
+    Key::new("memory_gb", quantity::MEMORY_GB, "memory that factors may take").or(4.0);
 
 fn row(name: &str, allowed: &str, default: &str, meaning: &str) -> KeyRow {
     KeyRow::read_apart(name, allowed, default, meaning)
