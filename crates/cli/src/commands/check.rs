@@ -31,7 +31,7 @@ pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
 
 /// How to damp a mode.
 pub const UNDAMPED_ADVICE: &str =
-    "give `modal_ratio` in [damping], such as 0.01, or a damper in [[structure.damper]]";
+    "give `modal_ratio` in [damping], such as 0.01, or a damper to the structure";
 
 /// The modes without damping while stops are closed, and what that means.
 fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {

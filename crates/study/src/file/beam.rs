@@ -3,7 +3,10 @@
 use hammerbeam_structure::{self as linear, StructureError};
 use serde::{Serialize, Serializer};
 
-use crate::document::{Reading, TomlTable};
+use crate::document::{
+    Key, KeyRow, Reading, TomlTable,
+    key::{Whole, Words},
+};
 
 use super::{
     beam_end::{END_KINDS, EndSupport},
@@ -97,11 +100,36 @@ impl BeamTable {
     }
 }
 
+const ELEMENTS: Key<Whole> = Key::new(
+    "elements",
+    Whole(1, 1000),
+    "number of finite elements; at least one between neighbouring points, ends and borders of spans",
+);
+const LEFT: Key<Words<EndSupport>> = Key::new(
+    "left",
+    Words(END_KINDS),
+    "support of the left end: clamped holds displacement and rotation, pinned the displacement, sliding the \
+     rotation",
+);
+const RIGHT: Key<Words<EndSupport>> = Key::new("right", Words(END_KINDS), "support of the right end");
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let list = |name, meaning| KeyRow::read_apart(name, "list of tables, below", "none", meaning);
+    let mut rows = vec![KeyRow::read_apart("kind", "`\"beam\"`", "required", "what the structure is")];
+    rows.push(beam_span::row_of_length("required, but not a key of a beam with `span`"));
+    rows.push(ELEMENTS.row());
+    rows.extend(beam_span::rows_of_profile());
+    rows.extend([beam_span::row_of_theory(), LEFT.row(), RIGHT.row()]);
+    rows.push(list("span", "spans of different section or material"));
+    rows.push(list("point", "named points"));
+    rows
+}
+
 pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<BeamTable> {
     let (length_m, spans) = beam_span::read(table, reading);
-    let elements = table.required("elements").and_then(|value| value.whole(1, 1000));
-    let left = table.required("left").and_then(|value| value.choice(&END_KINDS));
-    let right = table.required("right").and_then(|value| value.choice(&END_KINDS));
+    let elements = ELEMENTS.read(table);
+    let (left, right) = (LEFT.read(table), RIGHT.read(table));
     names.add_beam_ends(left, right);
     let points = beam_point::read(table, reading, length_m, names);
     let beam = BeamTable {

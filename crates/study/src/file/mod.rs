@@ -19,6 +19,8 @@ mod excitation;
 mod figures;
 mod file_checksum;
 mod force;
+mod harmonic;
+mod keys;
 mod load;
 mod lumped;
 mod matrices;
@@ -34,6 +36,7 @@ mod response;
 mod rig;
 mod search;
 mod stop;
+mod stop_keys;
 mod stop_law;
 mod structure;
 mod study;
@@ -51,6 +54,7 @@ pub use damping::{DampingTable, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};
 pub use figures::{DrawnOrbit, Figures};
 pub use force::{ActingForce, ForcePlace, ForceSize};
+pub use keys::{KeyTable, key_tables};
 pub use load::LoadTable;
 
 pub use lumped::{Damper, LumpedTable, Mass, Spring};
@@ -78,5 +82,7 @@ pub use vary::{Curve, CurveOf, Vary};
 mod defaults;
 #[cfg(test)]
 mod documentation;
+#[cfg(test)]
+mod known_keys;
 #[cfg(test)]
 mod tests;
