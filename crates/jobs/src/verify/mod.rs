@@ -44,10 +44,6 @@
 //! below `c v_s` agree, and accelerations to what the response gets from that. A touch at a node belongs to
 //! either segment, or, by rounding, to none.
 //!
-//! The general integrator's own errors grow with what is met on the way: within a contact of the time `t`
-//! sensitivities are some `pi / t` times as large as behind it, and steps are judged by that. So what disagrees
-//! is computed once more with the finest steps, and what is found then counts.
-//!
 //! Rows of curves are compared with `tau` of 1e-8 at least, to which curves are followed.
 //!
 //! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that
@@ -155,29 +151,9 @@ fn compare_with(
     stored: &StoredRow<'_>,
     settings: &VerifySettings,
 ) -> Compared {
-    let tolerance = stored.tolerance(settings.tolerance);
-    let coarse = motion_tolerance(tolerance);
-    let compared = compare_by((system, response), stored, (tolerance, coarse));
-    let disagrees = |found: &Comparison| {
-        let bound = compare::bound(found.quantity, tolerance);
-        !found.grazing && (found.difference.is_nan() || found.difference > bound)
-    };
-    if coarse <= FINEST_MOTION || !compared.as_ref().is_ok_and(|found| found.iter().any(disagrees)) {
-        return compared;
-    }
-    // Where it is not known whether the finest motion fails or disagrees, what was found counts.
-    compare_by((system, response), stored, (tolerance, FINEST_MOTION)).or(compared)
-}
-
-/// * `by`: the tolerance of the comparisons, and that of the steps of the general integrator.
-fn compare_by(
-    (system, response): (&System, &Response),
-    stored: &StoredRow<'_>,
-    (tolerance, by): (f64, f64),
-) -> Compared {
-    let solution = &stored.solution;
+    let (solution, tolerance) = (&stored.solution, stored.tolerance(settings.tolerance));
     let scales = scales(system, solution).map_err(|failed| failed.to_string())?;
-    let motion = GeneralSettings::with_tolerance(by);
+    let motion = GeneralSettings::with_tolerance(motion_tolerance(tolerance));
     let found =
         recompute((system, response), solution, &scales, &motion).map_err(|failed| failed.to_string())?;
     let with = |sensitivity| {
