@@ -219,6 +219,10 @@ impl ExactIntegrator {
     /// Whether the guard of the a-th active element, which falls to zero at `event`, is proved to stay above
     /// what rounding and the location of events leave undecided, all through the solved step.
     pub(super) fn stays_above(&self, run: &Run, (a, event): (usize, Event), at_end: Option<Event>) -> bool {
+        if self.laws[event.element()].round_hole().is_some() {
+            // Its guard is not an output: what decides is the search with bounds (`hole.rs`).
+            return false;
+        }
         let Some(guard) = self.guard_of(run, a, event) else { return false };
         let hermite = Hermite::of(self.step.grading());
         let located = if at_end == Some(event) { guard.values[1].abs() } else { 0.0 };
