@@ -92,7 +92,7 @@ pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) 
 }
 
 /// The values of all keys; every fault of them is noted.
-fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
+pub(super) fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
     let read: Vec<Option<LawValue>> =
         description.keys.iter().map(|key| read_value(table, key, description)).collect();
     let values: Vec<LawValue> = read.into_iter().collect::<Option<_>>()?;
@@ -198,7 +198,14 @@ fn read_sides(table: &TomlTable<'_>) -> Option<Sides> {
         ("below", Sides::One(StopSide::Below)),
         ("both", Sides::Both),
     ];
-    table.required("side").and_then(|value| value.choice(&choices))
+    table.required("side").and_then(|value| {
+        if value.is_text() && value.text() == Some("around") {
+            let help = "allowed: with two points, as at = [\"tip.y\", \"tip.z\"]; else above, below, both";
+            value.problem("`side` is \"around\", but `at` names one point".to_owned(), vec![help.to_owned()]);
+            return None;
+        }
+        value.choice(&choices)
+    })
 }
 
 fn read_gap(table: &TomlTable<'_>) -> Option<Approach> {
