@@ -1,4 +1,5 @@
 //! A round hole around a point that moves in two directions, without friction.
+//! Equations (L13) and (L14) of the book, `docs/reference`.
 //!
 //! With the displacement `r = (y, z)` across the axis of the hole, its length `rho` and the clearance `c`,
 //! the force is that of a one-sided law `f` of the penetration `rho - c`, along the radius:
