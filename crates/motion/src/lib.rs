@@ -31,8 +31,8 @@
 //! step up to its middle and one down to its release, whose time is part of the solution.
 //!
 //! **Round holes** push back along the radius of two displacements, `F = f(rho) (y, z)/rho`. They are two
-//! elements with an output and an input each. At the nodes `F_k = F(y_k, z_k)`, so `f'` has blocks of two, and
-//! contacts are those of the reading `c/2 + (y^2 + z^2)/(2 c)`, whose derivatives have bounds from those of y
+//! elements with an output and an input each. At the nodes `F_k = F(y_k, z_k)`, so `f'` has blocks of two.
+//! Contacts are those of the reading `c/2 + (y^2 + z^2)/(2 c)`, whose derivatives have bounds from those of y
 //! and z ([`law::RoundHole`], `exact/hole.rs`).
 //!
 //! **Laws that lose energy** depend on the relative velocity, too, which is known as exactly: `r'_k =
@@ -97,7 +97,8 @@
 //! ```
 //!
 //! # Limits
-//! No friction. Round holes are elastic, and nothing beside them is rigid or loses energy. While forces act, the end of a hold is looked for on polynomials through twelve nodes, which
+//! No friction. Round holes are elastic, and nothing beside them is rigid or loses energy. While forces act,
+//! the end of a hold is looked for on polynomials through twelve nodes, which
 //! resolve it to some 1e-9 of its parts, not with the bounds of a flight. Stops that throw one another off
 //! beside such forces leave errors of up to 2e-6 in the sensitivities. A stretch cannot start in a contact
 //! whose law remembers its impact, since a state `[q; q']` does not tell how the contact began; motions and

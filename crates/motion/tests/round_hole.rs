@@ -205,6 +205,34 @@ fn whirl_in_full_contact_is_the_closed_form() {
         let error = flow.state.iter().zip(state).map(|(end, start)| (end - start).abs()).fold(0.0, f64::max);
         assert!(error < 1e-11 * w * radius, "{frequency_hz}: {error:e}");
         assert_eq!((exact.touches(), exact.closed_throughout()), (&[0][..], 1));
+        // Polynomials show that the hole stays closed: nothing is searched.
+        assert_eq!(exact.counts().looks, 0, "{frequency_hz}");
+    }
+}
+
+/// The same next to the wall: at the frequency at which it leaves the wall by no more than a part of the
+/// clearance, all the way round.
+#[test]
+fn whirl_that_hardly_touches_is_followed_with_few_looks() {
+    let (spring, damper, wall) = (400.0, 3.0, 2e4);
+    let ratio = damper / (2.0 * f64::sqrt(spring));
+    let plane = Plane { rates: vec![f64::sqrt(spring)], shape: vec![1.0], ratio };
+    let w = TAU * 2.0;
+    for part in [1e-4, 1e-6, 1e-8, -1e-4, -1e-6, -1e-8] {
+        // The force that makes a whirl of this radius.
+        let radius = GAP * (1.0 + part);
+        let along = (spring - w * w) * radius + wall * (radius - GAP).max(0.0);
+        let (size, lag) = (along.hypot(damper * w * radius), f64::atan2(damper * w * radius, along));
+        let system = plane.with_hole(&linear(wall), &[(0, size, 0.0), (1, size, -PI / 2.0)]);
+        let (sin, cos) = lag.sin_cos();
+        let state = [radius * cos, -radius * sin, w * radius * sin, w * radius * cos];
+        let stretch = Stretch { frequency_hz: 2.0, start: 0.0, end: 1.0 };
+        let mut exact = integrator(&system);
+        let end = exact.advance(&stretch, &state).unwrap();
+        let error = end.iter().zip(state).map(|(end, start)| (end - start).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-11 * w * radius, "{part}: {error:e}");
+        assert_eq!(exact.closed_throughout(), u64::from(part > 0.0), "{part}");
+        assert!(exact.counts().looks < 10_000, "{part}: {}", exact.counts().looks);
     }
 }
 

@@ -13,9 +13,9 @@
 //!
 //! **Force steps.** At the nodes `F_k = F(y_k, z_k)`, so Newton's matrix is `I - W f'` with the blocks
 //! `[[f_yy, f_yz], [f_yz, f_zz]]` in the place of the slopes of both elements; and so are the sensitivities,
-//! `dF = f' dr`. That a hole stays closed all through a step is not shown by the polynomials of
-//! `enclosure.rs`, whose bounds are those of linear outputs: it is left to the certified search of
-//! `touching.rs`, which serves with the bounds above.
+//! `dF = f' dr`. That a hole stays closed all through a step is shown by the polynomials of `enclosure.rs`,
+//! with the remainder of a product; where they do not, the certified search of `touching.rs` decides, with
+//! the bounds above.
 //!
 //! **Touches.** An elastic force is continuous where it begins, whatever its direction, so nothing jumps in
 //! the state or in the sensitivities as a hole is touched or left.
