@@ -109,13 +109,14 @@ fn sum_of(solution: &PeriodicSolution) -> f64 {
     solution.floquet_multipliers.iter().map(|multiplier| multiplier[0]).sum()
 }
 
-/// From the static lean on the wall over the resonance of the rotor on it.
+/// From the static lean on the wall up to near the fold at 15.7 Hz, where `d W R` is the whole force. The
+/// branch behind it comes to where the rotor leaves the wall all the way round, at 5 Hz.
 #[test]
 fn branch_of_whirls_in_contact_is_the_closed_form() {
     let rig = rotor();
     let settings = OrbitSettings { max_step_hz: 0.5, ..OrbitSettings::default() };
-    let branch = walk_both(&rig, 3.0, (1.5, 19.0), &settings);
-    assert!(branch.rows.len() > 30, "{} rows, {:?}", branch.rows.len(), branch.reasons);
+    let branch = walk_both(&rig, 3.0, (1.5, 14.5), &settings);
+    assert!(branch.rows.len() > 25, "{} rows, {:?}", branch.rows.len(), branch.reasons);
     for row in &branch.rows {
         let (solution, w) = (&row.solution, TAU * row.solution.frequency_hz);
         let found = solution.maxima.displacement;
