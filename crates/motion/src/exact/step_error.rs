@@ -36,6 +36,7 @@ use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
     drive::Order,
+    hole,
     run::{ElementStart, Run},
 };
 
@@ -110,6 +111,13 @@ impl ExactIntegrator {
             + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(state, i)).sum::<f64>()
     }
 
+    /// The same of an element: of a hole in any direction.
+    pub(super) fn element_speed(&self, state: &[f64], element: usize) -> f64 {
+        let own = self.speed_bound(state, element);
+        let is_hole = self.laws[element].round_hole().is_some();
+        if is_hole { own.hypot(self.speed_bound(state, element + 1)) } else { own }
+    }
+
     pub(super) fn energy_norm(&self, state: &[f64], block: usize) -> f64 {
         let (p, s) = (state[block], state[self.blocks.count() + block]);
         (self.blocks.stiffness[block] * p * p + s * s).sqrt()
@@ -126,12 +134,15 @@ impl ExactIntegrator {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
             let response = self.response(element);
             let impulse = step.length * response.mobility;
-            let ElementStart { jet, velocity, .. } = run.start[element];
-            let driven = jet.slope.abs() + jet.curvature.abs() * step.length;
+            let ElementStart { output, velocity, .. } = run.start[element];
+            let driven = output.slope.abs() + output.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
             let mut dual = impulse * step.length * step.tail(&step.slope[nodes.clone()]).highest;
+            if step.has_holes() {
+                dual += impulse * step.length * step.tail(&step.cross[nodes.clone()]).highest;
+            }
             if step.damped {
                 dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
             }
@@ -171,7 +182,10 @@ impl ExactIntegrator {
 
     /// The largest slopes of a force over nodes of the solved step.
     fn steepest(&self, nodes: std::ops::Range<usize>) -> Steepest {
-        let (step, stiffness) = (&self.step, largest_magnitude(&self.step.slope[nodes.clone()]));
+        let (step, mut stiffness) = (&self.step, largest_magnitude(&self.step.slope[nodes.clone()]));
+        if step.has_holes() {
+            stiffness += largest_magnitude(&step.cross[nodes.clone()]);
+        }
         let damping = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
         Steepest { stiffness, damping }
     }
@@ -192,9 +206,9 @@ impl ExactIntegrator {
         let (mut p, mut s) = (run.state[block], run.state[n + block]);
         if k > 0.0 {
             for &element in &self.step.active {
-                let jet = run.start[element].jet;
-                let force = self.laws[element].pressing_force(jet.value, jet.slope);
-                let rate = force.slope * jet.slope + force.damping * jet.curvature;
+                let outputs = |e: usize| run.start[e].output;
+                let force = hole::force_of(&self.laws, element, outputs);
+                let rate = hole::force_rate(&self.laws, element, outputs);
                 let input = &self.inputs[element];
                 // `-A^-1 B F - A^-2 B F'`.
                 let first = [(input[n + block] + c * input[block]) / k, -input[block]];
@@ -263,7 +277,7 @@ impl ExactIntegrator {
     fn relative_rounding(&self, run: &Run, a: usize) -> f64 {
         let element = self.step.active[a];
         let Some(contact) = self.closed_contact(run, element) else { return 0.0 };
-        let nodes = &self.step.displacement[a * NODES..(a + 1) * NODES];
+        let nodes = self.step.nodal_readings(&self.laws, a);
         let depth = nodes.iter().fold(0.0_f64, |depth, r| depth.max((r - contact.level).abs()));
         run.start[element].margin / depth.max(f64::MIN_POSITIVE)
     }

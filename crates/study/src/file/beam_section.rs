@@ -15,6 +15,9 @@ pub struct SectionKeys {
     /// Shear coefficient, of a beam with shear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_coefficient: Option<f64>,
+    /// Whether it is a rectangle that is no square: then it bends in one plane more easily than across.
+    #[serde(skip)]
+    pub is_oblong: bool,
 }
 
 /// A section as it is given: its form, and its shear coefficient where it has one of its own.
@@ -32,6 +35,7 @@ impl GivenSection {
             area_m2: self.form.area(),
             second_moment_m4: self.form.second_moment(),
             shear_coefficient: poisson_ratio.and_then(of_form),
+            is_oblong: self.form.is_oblong(),
         }
     }
 }

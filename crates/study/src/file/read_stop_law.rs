@@ -51,8 +51,10 @@ pub(super) const SIDE: Key<Words<Sides>> = Key::new(
         ("below", Sides::One(StopSide::Below)),
         ("both", Sides::Both),
     ]),
-    "contact where `r > gap`, or where `r < -gap`, or [on both sides](#on-both-sides)",
+    "contact where `r > gap`, or where `r < -gap`, or [on both sides](#on-both-sides), or all around, as a \
+     [round hole](#round-holes)",
 )
+.further(", `\"around\"`")
 .without("required for one-sided laws");
 pub(super) const GAP: Key<Quantity> = Key::new("gap_m", quantity::GAP, "distance at rest").or(0.0);
 pub(super) const GAP_MEASURED: Key<Words<GapMeasured>> = Key::new(
@@ -121,7 +123,7 @@ pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) 
 }
 
 /// The values of all keys; every fault of them is noted.
-fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
+pub(super) fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
     let read: Vec<Option<LawValue>> =
         description.keys.iter().map(|key| read_value(table, key, description)).collect();
     let values: Vec<LawValue> = read.into_iter().collect::<Option<_>>()?;
@@ -221,6 +223,19 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
     Some(radii)
 }
 
+/// The side, with a word for who means a round hole.
+fn read_sides(table: &TomlTable<'_>) -> Option<Sides> {
+    if let Some(value) = table.optional(SIDE.name)
+        && value.is_text()
+        && value.text() == Some("around")
+    {
+        let help = "allowed: with two points, as at = [\"tip.y\", \"tip.z\"]; else above, below, both";
+        value.problem("`side` is \"around\", but `at` names one point".to_owned(), vec![help.to_owned()]);
+        return None;
+    }
+    SIDE.read(table)
+}
+
 fn read_gap(table: &TomlTable<'_>) -> Option<Approach> {
     let (gap, measured) = (GAP.read(table), GAP_MEASURED.read(table));
     gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured })
@@ -229,7 +244,7 @@ fn read_gap(table: &TomlTable<'_>) -> Option<Approach> {
 /// Gap and side of a law that takes no preload.
 fn read_with_gap(table: &TomlTable<'_>, refused: NoPreload) -> (Option<Approach>, Option<Sides>) {
     let NoPreload { why, allowed } = refused;
-    let sides = SIDE.read(table);
+    let sides = read_sides(table);
     let gap = read_gap(table);
     if !table.has("preload_n") {
         return (gap, sides);
@@ -240,7 +255,7 @@ fn read_with_gap(table: &TomlTable<'_>, refused: NoPreload) -> (Option<Approach>
 
 /// Gap or preload, and the sides.
 fn read_one_sided(table: &TomlTable<'_>) -> (Option<Approach>, Option<Sides>) {
-    let sides = SIDE.read(table);
+    let sides = read_sides(table);
     let Some(preload) = table.optional(PRELOAD.name) else {
         return (read_gap(table), sides);
     };

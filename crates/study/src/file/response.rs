@@ -74,9 +74,9 @@ pub(super) fn read(root: &TomlTable<'_>, names: &Names, stops: Option<&[Stop]>) 
 fn default_point(names: &Names, stops: Option<&[Stop]>) -> Option<String> {
     let of_stop = stops?.first().map(|stop| match &stop.place {
         Place::At { point, .. } => point.as_str(),
-        Place::Between { first, .. } => first.as_str(),
+        Place::Around { first, .. } | Place::Between { first, .. } => first.as_str(),
     });
-    Some(of_stop.or_else(|| names.first()).unwrap_or("right").to_owned())
+    Some(of_stop.or_else(|| names.first()).unwrap_or_else(|| names.right_end()).to_owned())
 }
 
 fn read_multiples(value: &Value<'_>) -> Option<Vec<u32>> {

@@ -15,7 +15,12 @@ pub(super) fn rows() -> Vec<KeyRow> {
     let row = |name, allowed: &str, default, meaning| KeyRow::read_apart(name, allowed, default, meaning);
     vec![
         row("name", "text", "\"stop 1\", \"stop 2\", ...", "name in reports, each once"),
-        row("at", "a point, an end, a mass", "required, or `between`", "where the stop is"),
+        row(
+            "at",
+            "a point, an end, a mass; two of them for a [round hole](#round-holes)",
+            "required, or `between`",
+            "where the stop is",
+        ),
         row(
             "fixed_to",
             "a moving support, a held beam end, `\"space\"`, `\"ground\"`",
