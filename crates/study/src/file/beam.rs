@@ -146,8 +146,8 @@ const ELEMENTS: Key<Whole> = Key::new(
 const PLANES: Key<Whole> = Key::new(
     "planes",
     Whole(1, 2),
-    "planes in which it bends; in two a point `tip` is the points `tip.y` and `tip.z`, the ends are `left.y` and \
-     so on",
+    "planes in which it bends; in two a point `tip` is the points `tip.y` and `tip.z`, the ends are `left.y` \
+     and so on",
 )
 .or(1);
 const LEFT: Key<Words<EndSupport>> = Key::new(

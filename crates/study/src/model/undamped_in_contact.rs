@@ -51,8 +51,8 @@ impl std::fmt::Display for UndampedInContact {
     }
 }
 
-/// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed; none where
-/// nothing damps the open structure either.
+/// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed; none
+/// where nothing damps the open structure either.
 pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     let opening: Vec<usize> = system
         .elements()
