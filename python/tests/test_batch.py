@@ -222,7 +222,10 @@ def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
 def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
     gaps = [0.8 + 0.001 * k for k in range(400)]
     planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: gaps}))
-    script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
+    # Where the tests themselves are told to pass over Ctrl-C, as behind `nohup`, this process is not.
+    listens = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    runs = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
+    script = f"{listens}; {runs}"
     # A group of its own, as a terminal has it: all processes get the signal. So many items that some are left
     # however late it comes.
     asked = [sys.executable, "-c", script]
