@@ -11,6 +11,14 @@ from ._motions import ForcedTime
 
 MOST_PERIODS = 100_000_000
 
+Axis = tuple[str, float, float]
+Cells = tuple[float, tuple[Axis, Axis, int]]
+"""The frequency of basins, and their grid."""
+Swept = tuple[tuple[float, float, float | None], tuple[str, bool, int | None, int]]
+"""A series of frequencies, and how motions start there and are sampled."""
+Work = tuple[tuple[int, int, int, int], Any]
+"""What is spent on a motion, and on how many threads, as it was given."""
+
 
 def kept(out: Path | None) -> str:
     """What Ctrl-C leaves."""
@@ -102,7 +110,13 @@ def only(part: Any) -> tuple[str, list[Path]]:
     return f"{_check.whole('part', number, 1, most)}/{_check.whole('part', of, 1, most)}", []
 
 
-def axis(name: str, given: Any) -> tuple[str, float, float]:
+def cells(frequency_hz: Any, x: Any, y: Any, grid: Any) -> Cells:
+    """The frequency of basins, both coordinates, and how many cells each has."""
+    hertz = _check.frequency("frequency_hz", frequency_hz)
+    return hertz, (axis("x", x), axis("y", y), _check.whole("grid", grid, 1, 10_000))
+
+
+def axis(name: str, given: Any) -> Axis:
     """A coordinate of a grid with its range."""
     try:
         coordinate, low, high = given

@@ -18,6 +18,8 @@ Initial = str | Mapping[str, float] | Sequence[float] | Array
 `{"tip.y": 1e-3, "tip.v": 0.2}` for points in space; or `"branch:3"`, the orbit in which that branch of
 `results` crosses the frequency."""
 
+Folders = tuple[Path | None, Path | None, tuple[str | None, list[Path]]]
+"""Where results lie, where what is computed goes, and parts: which one is asked for, or those to take."""
 
 class Attractors(Model):
     """What `Study` computes of motions that need not repeat."""
@@ -100,9 +102,7 @@ class Attractors(Model):
         spent = _asked.effort(transient_periods, patience_periods, longest_period, averaged_periods)
         place = _check.optional_folder("out", out)
         folders = (_check.optional_folder("results", results), place, _asked.taken(parts))
-        with interruptible(_asked.kept(place)), watched(progress) as callbacks:
-            report = self._placed(place).sweep(*asked, (spent, _check.jobs(jobs)), folders, callbacks)
-        found = loads(report)
+        found = self._swept(asked, (spent, jobs), folders, progress)
         if not found["motions"]:
             raise NoResult("no motion could be computed", name="NoMotion")
         return Sweep(found)
@@ -132,6 +132,13 @@ class Attractors(Model):
         place = _check.folder("out", out)
         folders = (None, place, _asked.only(part))
         spent = _asked.effort(transient_periods, patience_periods, longest_period, averaged_periods)
+        return self._swept(asked, (spent, jobs), folders, progress)
+
+    def _swept(
+        self, asked: _asked.Swept, work: _asked.Work, folders: Folders, progress: Progress
+    ) -> dict[str, Any]:
+        """The report of a sweep, or of a part of one."""
+        (spent, jobs), place = work, folders[1]
         with interruptible(_asked.kept(place)), watched(progress) as callbacks:
             return loads(self._placed(place).sweep(*asked, (spent, _check.jobs(jobs)), folders, callbacks))
 
@@ -190,14 +197,11 @@ class Attractors(Model):
           `displacement` or `velocity`.
         * `parts`: folders of `basins_part`, whose cells are taken from there; the rest is computed.
         """
-        hertz = _check.frequency("frequency_hz", frequency_hz)
-        asked = (_asked.axis("x", x), _asked.axis("y", y), _check.whole("grid", grid, 1, 10_000))
+        asked = _asked.cells(frequency_hz, x, y, grid)
         spent = _asked.effort(transient_periods, patience_periods, longest_period, averaged_periods)
         place = _check.optional_folder("out", out)
         folders = (_check.optional_folder("results", results), place, _asked.taken(parts))
-        with interruptible(_asked.kept(place)), watched(progress) as callbacks:
-            report = self._placed(place).basins(hertz, asked, (spent, _check.jobs(jobs)), folders, callbacks)
-        found = loads(report)
+        found = self._led(asked, (spent, jobs), folders, progress)
         if found["cells_not_computed"] == len(found["cells"]):
             raise NoResult(f"no motion from any of the {len(found['cells'])} cells", name="NoCell")
         return Basins(found)
@@ -222,11 +226,16 @@ class Attractors(Model):
 
         * `part`: as `(2, 4)`, the second of four.
         """
-        hertz = _check.frequency("frequency_hz", frequency_hz)
-        asked = (_asked.axis("x", x), _asked.axis("y", y), _check.whole("grid", grid, 1, 10_000))
+        asked = _asked.cells(frequency_hz, x, y, grid)
         place = _check.folder("out", out)
         folders = (None, place, _asked.only(part))
         spent = _asked.effort(transient_periods, patience_periods, longest_period, averaged_periods)
+        return self._led(asked, (spent, jobs), folders, progress)
+
+    def _led(
+        self, asked: _asked.Cells, work: _asked.Work, folders: Folders, progress: Progress
+    ) -> dict[str, Any]:
+        """The report of basins, or of a part of them."""
+        (spent, jobs), place = work, folders[1]
         with interruptible(_asked.kept(place)), watched(progress) as callbacks:
-            report = self._placed(place).basins(hertz, asked, (spent, _check.jobs(jobs)), folders, callbacks)
-        return loads(report)
+            return loads(self._placed(place).basins(*asked, (spent, _check.jobs(jobs)), folders, callbacks))

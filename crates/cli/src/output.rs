@@ -108,18 +108,7 @@ fn printable(text: &str) -> Cow<'_, str> {
 fn document(failure: &Failure) -> Value {
     let mut document = json!({ "message": failure.message(), "exit_code": failure.code() });
     if let Failure::Study(report) = failure {
-        let fault = |problem: &hammerbeam_study::Problem| {
-            let position = report.position(problem);
-            json!({
-                "file": report.name,
-                "line": position.map(|(line, _)| line),
-                "column": position.map(|(_, column)| column),
-                "key": problem.key,
-                "message": problem.message,
-                "help": problem.help,
-            })
-        };
-        document["problems"] = report.problems.iter().map(fault).collect();
+        document["problems"] = report.documents().into();
         if report.left_out > 0 {
             document["problems_left_out"] = json!(report.left_out);
         }

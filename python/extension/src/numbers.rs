@@ -10,7 +10,7 @@ use hammerbeam::{
     results::{export::ExportError, store::StoreError},
     run::RunError,
     simulate::{DurationTooLong, SimulationTooLarge},
-    study_file::{FaultReport, PointStartError, Problem, SettingError},
+    study_file::{PointStartError, SettingError},
 };
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ pub fn of(error: &Error) -> Value {
 /// Those of an error of a study: `problems` has its faults as `--json` has them.
 fn of_study(error: &StudyError) -> Value {
     match error {
-        StudyError::Invalid(report) => problems(report),
+        StudyError::Invalid(report) => json!({ "problems": report.documents() }),
         StudyError::Unreadable { path, .. } => json!({ "path": path.display().to_string() }),
         StudyError::Setting(error) => match error {
             SettingError::NoAssignment { text } => fields!(text),
@@ -63,21 +63,6 @@ fn of_study(error: &StudyError) -> Value {
         StudyError::Unforced { name } => fields!(name),
         _ => json!({}),
     }
-}
-
-fn problems(report: &FaultReport) -> Value {
-    let one = |problem: &Problem| {
-        let position = report.position(problem);
-        json!({
-            "file": report.name,
-            "line": position.map(|(line, _)| line),
-            "column": position.map(|(_, column)| column),
-            "key": problem.key,
-            "message": problem.message,
-            "help": problem.help,
-        })
-    };
-    json!({ "problems": report.problems.iter().map(one).collect::<Vec<_>>() })
 }
 
 fn of_store(error: &StoreError) -> Value {

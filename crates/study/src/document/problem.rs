@@ -4,6 +4,7 @@ use std::{fmt, ops::Range};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use hammerbeam_signal::text::is_control;
+use serde_json::{Value, json};
 
 /// One fault of a document.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +61,23 @@ impl FaultReport {
         let before = &self.text[..boundary(&self.text, problem.span.as_ref()?.start)];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
+    }
+
+    /// The faults for programs: each with its file, line, column and key, its message and its help.
+    #[must_use]
+    pub fn documents(&self) -> Vec<Value> {
+        let document = |problem: &Problem| {
+            let position = self.position(problem);
+            json!({
+                "file": self.name,
+                "line": position.map(|(line, _)| line),
+                "column": position.map(|(_, column)| column),
+                "key": problem.key,
+                "message": problem.message,
+                "help": problem.help,
+            })
+        };
+        self.problems.iter().map(document).collect()
     }
 
     /// The faults as text for a terminal: each with its line, what was found and what is allowed.
