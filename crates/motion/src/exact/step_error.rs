@@ -14,11 +14,11 @@
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
 //! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
 //! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,
-//! which is in resonance with it and is resolved no better, the share `((z/4)^n/n!)^2`, each block its own, so
-//! that squares add. What U leaves of a velocity moves the release, up to which the sensitivities follow the
-//! force, so where they are wanted it counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode
-//! without damping (`secular.rs`), and what an order is in the column by a parameter, have no part in U. The
-//! step is accepted if
+//! which is in resonance with it and resolved no better, the share `((z/4)^n/n!)^2`, each of its own, so that
+//! squares add. What U leaves of a velocity moves the release, up to which the sensitivities follow the force,
+//! so where they are wanted it counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without
+//! damping (`secular.rs`), and what an order is in the column by a parameter, have no part in U. The step is
+//! accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
