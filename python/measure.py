@@ -1,16 +1,24 @@
-"""What Python costs: a run by the command and by the package, in turn; a million rows into NumPy; the
-import; many studies.
+"""What Python costs, as the table of docs/performance.md: size and import, a run by the command and by the
+package, a million rows into NumPy, many studies.
 
-    python python/measure.py COMMAND [STUDY]
+    python python/measure.py COMMAND [--whole] [--wheel FILE] [--rounds N]
 
-COMMAND and the extension module have to be built with the same profile.
+* COMMAND: the command `hammerbeam`, built with the same profile as the extension module.
+* `--whole`: figure 3 of the paper over its whole range, 19 to 110 Hz, instead of 30 to 38 Hz alone.
+* `--wheel`: the wheel; by default the newest in `target/wheels`.
+
+All seconds but those of the last line are processor time of all threads and processes, the least of some
+rounds: other programs may be at work.
 """
 
+import argparse
+import os
 import resource
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import hammerbeam
@@ -19,99 +27,154 @@ from hammerbeam._native import NativeResults
 from hammerbeam._tables import array
 from hammerbeam.batch import Batch, Local, Parameters
 
-ROUNDS = 5
-SCRIPT = "import sys, hammerbeam; hammerbeam.Study.read(sys.argv[1]).run(sys.argv[2], progress=False)"
+ROOT = Path(__file__).resolve().parents[1]
+EXAMPLE = ROOT / "python/examples/dakota/oscillator.toml"
+RUN = "import sys, hammerbeam; hammerbeam.Study.read(sys.argv[1]).run(sys.argv[2], progress=False)"
+IMPORT = (
+    "from time import process_time as now; a = now(); import numpy; b = now(); import hammerbeam; "
+    "print(b - a, now() - b)"
+)
+Row = tuple[str, str, str]
+"""What was measured, what came out, and what is allowed."""
 
 
-def seconds(arguments: list[str]) -> float:
-    """How long a process takes."""
-    started = time.perf_counter()
+def processor_s(arguments: list[str]) -> float:
+    """Processor time of a process and of those that it starts."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(arguments, check=True, capture_output=True)
-    return time.perf_counter() - started
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-def overhead(command: str, study: str, folder: Path) -> None:
-    """The same run by both, in turn; the fastest of each counts on a busy machine."""
-    pairs = []
-    for turn in range(ROUNDS):
-        out = [str(folder / f"{name}-{turn}") for name in ("command", "python")]
-        by_command = seconds([command, "run", study, "--out", out[0]])
-        by_python = seconds([sys.executable, "-c", SCRIPT, study, out[1]])
-        pairs.append((by_command, by_python))
-        print(f"run: command {by_command:.2f} s, Python {by_python:.2f} s")
-    least = [min(times) for times in zip(*pairs, strict=True)]
-    print(f"run: least {least[0]:.2f} s and {least[1]:.2f} s, ratio {least[1] / least[0]:.3f}")
+def size(wheel: Path | None) -> Iterator[Row]:
+    """Size of the wheel."""
+    built = sorted((ROOT / "target/wheels").glob("*.whl"), key=os.path.getmtime)
+    found = wheel or (built[-1] if built else None)
+    megabytes = "no wheel: python/test.sh wheel" if found is None else f"{found.stat().st_size / 1e6:.1f} MB"
+    yield "wheel", megabytes, "15 MB"
 
 
-def million(folder: Path) -> None:
+def imported(rounds: int) -> Iterator[Row]:
+    """The import in a process of its own: NumPy, and what comes on top."""
+    asked = [sys.executable, "-c", IMPORT]
+    said = [subprocess.run(asked, capture_output=True, text=True, check=True).stdout for _ in range(rounds)]
+    numpy_s, own_s = (min(part) for part in zip(*(map(float, one.split()) for one in said), strict=True))
+    yield "import", f"{numpy_s + own_s:.3f} s, of it NumPy {numpy_s:.3f} s", "0.3 s"
+
+
+def overhead(command: str, whole: bool, rounds: int, folder: Path) -> Iterator[Row]:
+    """Figure 3 of the paper by the command and by the package, in turn: figures and page among it."""
+    study = hammerbeam.Study.read(ROOT / "studies/beam-with-stop.toml")
+    settings = {} if whole else {"excitation.frequency_hz": [30.0, 38.0], "response.period_multiples": [1]}
+    path = folder / "figure-3.toml"
+    path.write_text(study.text_with(settings), encoding="utf-8")
+    times = dict[str, list[float]](command=[], python=[])
+    for turn in range(rounds):
+        out = [str(folder / f"{name}-{turn}") for name in times]
+        times["command"].append(processor_s([command, "run", str(path), "--out", out[0]]))
+        times["python"].append(processor_s([sys.executable, "-c", RUN, str(path), out[1]]))
+    by_command, by_python = (min(found) for found in times.values())
+    share = 100 * (by_python / by_command - 1)
+    where = "19 to 110 Hz" if whole else "30 to 38 Hz, period 1"
+    yield (
+        f"paper's figure 3, {where}: the command, the package",
+        f"{by_command:.2f} s, {by_python:.2f} s: {by_python - by_command:+.2f} s, {share:+.1f} %",
+        "5 % over the whole range",
+    )
+
+
+def million(rounds: int, folder: Path) -> Iterator[Row]:
     """A motion of a million samples, from its results folder into a structured array."""
-    study = hammerbeam.Study.read(Path(__file__).parents[1] / "studies/duffing.toml")
+    study = hammerbeam.Study.read(ROOT / "studies/duffing.toml")
     study.simulate(0.25, periods=10, samples_per_period=100_000, out=folder / "motion", progress=False)
     read = NativeResults.open(folder / "motion")
-    # Processor time: other programs may be at work.
-    started = time.process_time()
-    packed = read.request_tables(1)
-    middle = time.process_time()
-    tables = {one[0]: array(one) for one in packed}
-    ended = time.process_time()
-    rows = tables["samples"]
-    print(
-        f"{len(rows)} rows of {len(rows.dtype)} columns: read and packed {middle - started:.3f} s,", end=" "
-    )
-    print(f"into NumPy {1e3 * (ended - middle):.3f} ms; largest {np.abs(rows['displacement_m']).max():.6f} m")
+
+    def taken() -> tuple[float, float, int]:
+        start = time.process_time()
+        packed = read.request_tables(1)
+        middle = time.process_time()
+        tables = {one[0]: array(one) for one in packed}
+        return middle - start, time.process_time() - middle, len(tables["samples"])
+
+    found = [taken() for _ in range(rounds)]
+    read_s, into_s = (min(one[k] for one in found) for k in (0, 1))
+    yield f"{found[0][2]} rows of a folder, read and packed", f"{read_s:.3f} s", "0.2 s with the next"
+    yield "the same, packed rows as an array of NumPy", f"{into_s:.5f} s", ""
 
 
-def imported() -> None:
-    """The import in a process of its own, with NumPy and beside it."""
-    for clock in ("perf_counter", "process_time"):
-        script = (
-            f"from time import {clock} as now; a = now(); import numpy; b = now(); import hammerbeam; "
-            "print(b - a, now() - b)"
-        )
-        asked = [sys.executable, "-c", script]
-        found = [subprocess.run(asked, capture_output=True, text=True) for _ in range(5)]
-        times = [[float(word) for word in one.stdout.split()] for one in found]
-        numpy_s, own_s = (min(part) for part in zip(*times, strict=True))
-        print(f"import, {clock}: NumPy {numpy_s:.3f} s, hammerbeam beside it {own_s:.3f} s")
+def planned(folder: Path) -> Iterator[Row]:
+    """A batch of ten thousand items is planned, and its folder listed."""
+    gaps = Parameters.latin_hypercube({"stop.stop.gap_m": (0.8, 1.2)}, 10_000, seed=1)
+    start = time.process_time()
+    batch = Batch.plan(folder / "large", EXAMPLE, gaps)
+    plan_s = time.process_time() - start
+    start = time.process_time()
+    largest = max(len(files) + len(folders) for _, folders, files in os.walk(batch.folder))
+    list_s = time.process_time() - start
+    yield "10 000 items planned", f"{plan_s:.2f} s", "5 s"
+    yield "their folder listed", f"{list_s:.2f} s, {largest} entries a folder at most", ""
 
 
-def many(folder: Path) -> None:
-    """A batch of ten thousand items is planned; two hundred items on two workers and in this process
-    alone."""
-    study = hammerbeam.Study.read(Path(__file__).parent / "examples/dakota/oscillator.toml")
-    gaps = {"stop.stop.gap_m": (0.8, 1.2)}
-    started = time.perf_counter(), time.process_time()
-    Batch.plan(folder / "large", study, Parameters.latin_hypercube(gaps, 10_000, seed=1))
-    taken = time.perf_counter() - started[0], time.process_time() - started[1]
-    print(f"10000 items planned: {taken[0]:.2f} s, of them {taken[1]:.2f} s of processor time")
-
-    study = hammerbeam.Study.parse(study.text_with({"search.frequencies": 12, "search.starts": 6}))
-    table = Parameters.latin_hypercube(gaps, 200, seed=1)
+def throughput(folder: Path) -> Iterator[Row]:
+    """Two hundred items on two workers, and one after the other in this process."""
+    text = hammerbeam.Study.read(EXAMPLE).text_with({"search.frequencies": 12, "search.starts": 6})
+    study = hammerbeam.Study.parse(text)
+    table = Parameters.latin_hypercube({"stop.stop.gap_m": (0.8, 1.2)}, 200, seed=1)
     alone, by_two = (Batch.plan(folder / name, study, table) for name in ("alone", "by-two"))
-    started = time.perf_counter(), time.process_time()
-    for number in range(1, 201):
-        alone.compute(number)
-    one_s, one_cpu = time.perf_counter() - started[0], time.process_time() - started[1]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    started = time.perf_counter(), time.process_time()
-    by_two.run(Local(2))
-    two_s, own_cpu = time.perf_counter() - started[0], time.process_time() - started[1]
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    two_cpu = own_cpu + after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    print(f"200 items: alone {one_s:.1f} s ({one_cpu:.1f} s of processor time),", end=" ")
-    print(
-        f"two workers {two_s:.1f} s ({two_cpu:.1f} s): {two_cpu / one_cpu:.3f} of the processor time,",
-        end=" ",
+
+    def one_by_one() -> None:
+        for number in range(1, len(alone) + 1):
+            alone.compute(number)
+
+    one_s, one_cpu = spent(one_by_one)
+    two_s, two_cpu = spent(lambda: by_two.run(Local(2), progress=False))
+    yield (
+        "200 items: one process, two workers",
+        f"{one_cpu:.1f} s, {two_cpu:.1f} s: {two_cpu / one_cpu:.3f} of the processor time",
+        "1.1 of it",
     )
-    print(f"{one_s / two_s:.2f} times as quick")
+    share = f"{one_s / two_s / 2:.2f} of two cores"
+    yield "the same by the clock", f"{one_s:.1f} s, {two_s:.1f} s: {share}", "0.9 on idle cores"
+
+
+def spent(work: Callable[[], object]) -> tuple[float, float]:
+    """Seconds by the clock, and of processor time, that work takes with the processes that it starts."""
+
+    def cpu() -> float:
+        children = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return time.process_time() + children.ru_utime + children.ru_stime
+
+    start = time.perf_counter(), cpu()
+    work()
+    return time.perf_counter() - start[0], cpu() - start[1]
+
+
+def main() -> None:
+    """Prints a line of the table as soon as it is measured."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("command")
+    parser.add_argument("--whole", action="store_true")
+    parser.add_argument("--wheel", type=Path)
+    parser.add_argument("--rounds", type=int, default=5)
+    given = parser.parse_args()
+    print("| what | measured | allowed |\n|---|---|---|")
+    with tempfile.TemporaryDirectory() as temporary:
+        folder, rounds = Path(temporary), given.rounds
+        parts = (
+            size(given.wheel),
+            imported(rounds),
+            overhead(given.command, given.whole, rounds, folder),
+            million(rounds, folder),
+            planned(folder),
+            throughput(folder),
+        )
+        for part in parts:
+            for row in part:
+                print(f"| {' | '.join(row)} |", flush=True)
+    print(f"\n{np.__name__} {np.__version__}, Python {sys.version.split()[0]}, {os.cpu_count()} cores")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    given = sys.argv[2] if len(sys.argv) > 2 else str(Path(__file__).parents[1] / "studies/duffing.toml")
-    with tempfile.TemporaryDirectory() as temporary:
-        imported()
-        million(Path(temporary))
-        many(Path(temporary))
-        overhead(sys.argv[1], given, Path(temporary))
+    main()

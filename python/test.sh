@@ -35,7 +35,7 @@ if [ "${1:-}" = wheel ]; then
     exec "$tools/bin/maturin" build --release --out "$target/wheels"
 fi
 
-cargo build --workspace --locked --examples --lib --bins
+cargo build --workspace --locked --examples --lib --bins --features hammerbeam-python/stubs
 case "$(uname)" in
     Darwin) library="$target/debug/libhammerbeam_native.dylib" ;;
     *) library="$target/debug/libhammerbeam_native.so" ;;
@@ -43,6 +43,16 @@ esac
 # Moved to its place: a process that has the old one loaded keeps it.
 cp "$library" python/hammerbeam/.native.new
 mv -f python/hammerbeam/.native.new python/hammerbeam/_native.abi3.so
+
+# Stubs say what the compiled module has: whoever changes it commits them as well.
+stubs="python/hammerbeam/_native.pyi"
+"$target/debug/stubs" "$library" "$target/_native.pyi"
+if [ "${HAMMERBEAM_UPDATE:-0}" != 0 ]; then
+    cp "$target/_native.pyi" "$stubs"
+elif ! diff "$stubs" "$target/_native.pyi"; then
+    echo "error: $stubs is not what the compiled module has; HAMMERBEAM_UPDATE=1 python/test.sh writes it" >&2
+    exit 1
+fi
 
 export PYTHONPATH="$PWD/python" MPLBACKEND=agg JUPYTER_PLATFORM_DIRS=1
 "$tools/bin/mypy"

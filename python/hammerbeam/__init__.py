@@ -33,11 +33,12 @@ from ._errors import (
     StudyError,
     WriteError,
 )
+from ._model import Modes
 from ._motions import Basins, Exponents, Motion, Sweep
 from ._native import version as _version
 from ._orbits import Orbit, Orbits
 from ._results import Page, Results
-from ._study import Modes, Study
+from ._study import Study
 from ._tables import frame
 
 __version__ = _version()

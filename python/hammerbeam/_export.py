@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import BadInput, ExportError
+from ._check import unknown
+from ._errors import ExportError
 from ._tables import Array, needed
 
 NATIVE = ("csv", "json", "npz")
@@ -16,7 +17,7 @@ def checked(format: Any) -> str:
     """A format that can be written."""
     known = (*NATIVE, *WRITERS)
     if not isinstance(format, str) or format not in known:
-        raise BadInput(f"there is no format {format!r}; allowed: {', '.join(known)}")
+        raise unknown("format", format, known)
     return format
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._check import whole
+from ._check import refused, shaped, whole
 from ._errors import BadInput, StudyError
 from ._toml import study_text
 
@@ -29,14 +29,15 @@ def write_bundle(
     """
     for name in ("M", "K"):
         if matrices[name] is None:
-            raise BadInput(f"{name}: found None, must be a square matrix")
+            raise refused(name, None, "must be a square matrix")
     entries = {name: _entries(name, matrix) for name, matrix in matrices.items() if matrix is not None}
     for name, given in entries.items():
         _refuse_unsymmetric(name, *given)
     size = entries["K"][0]
-    named = {str(name): whole(f"points[{name!r}]", row, 0, max(size - 1, 0)) for name, row in _items(points)}
+    rows_named = _items("points", points)
+    named = {str(name): whole(f"points[{name!r}]", row, 0, max(size - 1, 0)) for name, row in rows_named}
     if isinstance(fixed, (str, bytes)) or not isinstance(fixed, Iterable):
-        raise BadInput(f"fixed: found {fixed!r}, must be a list of rows")
+        raise refused("fixed", fixed, "must be a list of rows")
     held = [whole("fixed", row, 0, max(size - 1, 0)) for row in fixed]
     keys = {"K": "stiffness", "M": "mass", "C": "damping"}
     structure: dict[str, Any] = {"kind": "matrices"}
@@ -46,7 +47,7 @@ def write_bundle(
         structure["fixed"] = [{"rows": [row + 1 for row in held]}]
     extra = tables.get("structure")
     if extra is not None:
-        structure |= dict(_items(extra))
+        structure |= dict(_items("structure", extra))
     text = study_text({**tables, "structure": structure})
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -62,9 +63,9 @@ def write_bundle(
     return path
 
 
-def _items(mapping: Any) -> Any:
+def _items(name: str, mapping: Any) -> Any:
     if not isinstance(mapping, Mapping):
-        raise BadInput(f"found {mapping!r}, must be a dictionary")
+        raise refused(name, mapping, "must be a dictionary")
     return mapping.items()
 
 
@@ -77,19 +78,20 @@ def _entries(name: str, matrix: Any) -> Entries:
         # A copy: entries of one place are summed, and the matrix stays as it was given.
         sparse = matrix.tocoo(copy=True)
         sparse.sum_duplicates()
-        shape, rows, columns, values = sparse.shape, sparse.row, sparse.col, sparse.data
+        array, rows, columns, values = sparse, sparse.row, sparse.col, sparse.data
     else:
         try:
             dense = np.asarray(matrix)
         except (TypeError, ValueError) as error:
             raise BadInput(f"{name}: {error}") from error
         if dense.ndim != 2:
-            raise BadInput(f"{name}: found an array of shape {dense.shape}, must be a square matrix")
-        shape = dense.shape
+            raise shaped(name, dense, "must be a square matrix")
+        array = dense
         rows, columns = np.nonzero(dense)
         values = dense[rows, columns]
+    shape = array.shape
     if len(shape) != 2 or shape[0] != shape[1] or shape[0] == 0:
-        raise BadInput(f"{name}: found an array of shape {tuple(shape)}, must be a square matrix")
+        raise shaped(name, array, "must be a square matrix")
     if np.asarray(values).dtype.kind not in "iuf":
         raise BadInput(f"{name}: found an array of {np.asarray(values).dtype}, must be real numbers")
     return (
@@ -101,11 +103,16 @@ def _entries(name: str, matrix: Any) -> Entries:
 
 
 _SYMMETRIC = 1e-6
-"""Mirrored entries may differ by this part of `sqrt(a_ii a_jj)` and of themselves, as in files of matrices."""
+"""Mirrored entries may differ by this part of `sqrt(a_ii a_jj)` and of themselves, as in files of
+matrices."""
 
 
 def _refuse_unsymmetric(
-    name: str, size: int, rows: np.ndarray[Any, Any], columns: np.ndarray[Any, Any], values: np.ndarray[Any, Any]
+    name: str,
+    size: int,
+    rows: np.ndarray[Any, Any],
+    columns: np.ndarray[Any, Any],
+    values: np.ndarray[Any, Any],
 ) -> None:
     """Refuses what the reader of files would take for one triangle of a symmetric matrix: an array has both.
 

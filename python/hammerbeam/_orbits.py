@@ -116,7 +116,7 @@ class Orbit:
 
 
 class Orbits(Sequence[Orbit]):
-    """Periodic solutions; `table` has a row for each.
+    """Periodic solutions; `table` has a row for each. A slice of them is `Orbits` again.
 
     * `incomplete`: why a search for them is not complete, in words.
     """
@@ -132,10 +132,11 @@ class Orbits(Sequence[Orbit]):
     @overload
     def __getitem__(self, index: int) -> Orbit: ...
     @overload
-    def __getitem__(self, index: slice) -> Sequence[Orbit]: ...
-    def __getitem__(self, index: int | slice) -> Orbit | Sequence[Orbit]:
+    def __getitem__(self, index: slice) -> "Orbits": ...
+    def __getitem__(self, index: int | slice) -> "Orbit | Orbits":
         if isinstance(index, slice):
-            return [self[k] for k in range(*index.indices(len(self)))]
+            places = range(*index.indices(len(self)))
+            return Orbits(self._native.chosen(list(places)), self.incomplete)
         place = range(len(self))[index]
         return Orbit(self._native, place, self.table[place])
 

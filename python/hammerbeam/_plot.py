@@ -4,90 +4,77 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import BadInput
+from ._check import unknown
+from ._look import (
+    FILLS,
+    INK,
+    LINES,
+    MARKS,
+    PALE_INK,
+    PERIODS,
+    axes,
+    framed,
+    legend,
+    marks_of,
+    scaled,
+)
 from ._tables import Array, needed
 
-PERIODS = ("#262d72", "#b24b13", "#4bb897", "#681505", "#726587", "#cd8ee3", "#512834", "#3864d1", "#86b361")
-"""Colours of period multiples 1, 2, 3 and so on."""
-FILLS = ("#2b4f87", "#f2c38a", "#5fae96", "#a0476b", "#dfe6ee", "#8c8c3a")
-INK, GRID = "#222222", "#e3e3e3"
-MARKS = {"fold": "o", "flip": "^", "neimark-sacker": "s", "branch-point": "D", "grazing": "|"}
-
 QUANTITIES = {
-    "displacement": ("max_abs_displacement_m", "Maximum displacement (m)"),
-    "acceleration": ("max_abs_acceleration_m_s2", "Maximum acceleration (m/s²)"),
-    "force": ("max_contact_force_n", "Maximum contact force (N)"),
-    "velocity": ("max_impact_velocity_m_s", "Maximum impact velocity (m/s)"),
+    "displacement": ("max_abs_displacement_m", "Displacement max |y| (m)"),
+    "acceleration": ("max_abs_acceleration_m_s2", "Acceleration max |ÿ| (m/s²)"),
+    "force": ("max_contact_force_n", "Largest contact force (N)"),
+    "velocity": ("max_impact_velocity_m_s", "Largest impact velocity (m/s)"),
 }
-
-
-def axes(ax: Any) -> Any:
-    """What is given, or axes of a new figure."""
-    if ax is not None:
-        return ax
-    pyplot = needed("matplotlib.pyplot", "plot")
-    return pyplot.subplots(figsize=(7.1, 4.0), layout="constrained")[1]
-
-
-def framed(ax: Any, x: str, y: str) -> Any:
-    """Axes with their labels and a grid."""
-    ax.set_xlabel(x, color=INK)
-    ax.set_ylabel(y, color=INK)
-    ax.grid(color=GRID, linewidth=0.5)
-    ax.set_axisbelow(True)
-    return ax
 
 
 def checked_quantity(quantity: Any) -> tuple[str, str]:
     """Column and label of a quantity that can be drawn."""
     if not isinstance(quantity, str) or quantity not in QUANTITIES:
-        raise BadInput(f"there is no quantity {quantity!r}; allowed: {', '.join(QUANTITIES)}")
+        raise unknown("quantity", quantity, QUANTITIES)
     return QUANTITIES[quantity]
 
 
 def response(table: Array, quantity: str, ax: Any, title: str) -> Any:
-    """Branches over the frequency: a colour for each period, dashes for unstable solutions, marks for
-    events."""
+    """Branches over the frequency: a colour for each period, lines by stability, marks for events."""
     column, label = checked_quantity(quantity)
-    ax = framed(axes(ax), "Frequency (Hz)", label)
-    known: set[int] = set()
+    ax = framed(axes(ax), "Excitation frequency (Hz)", label)
+    marked = np.full(len(table), "", dtype="U64")
+    periods, stabilities = dict[str, dict[str, Any]](), set[str]()
     for number in np.unique(table["branch"]):
-        rows = table[table["branch"] == number]
+        of_branch = table["branch"] == number
+        rows = table[of_branch]
+        marked[of_branch] = marks_of(rows["event"], rows["stability"])
         period = int(rows["period_multiple"][0])
         colour = PERIODS[(period - 1) % len(PERIODS)]
-        for stable, dashes in ((True, "-"), (False, (0, (3, 1.5)))):
-            values = np.where(_with_next(rows["stability"] != "unstable", stable), rows[column], np.nan)
-            name = f"period {period}" if stable and period not in known else None
-            ax.plot(rows["frequency_hz"], values, color=colour, linestyle=dashes, linewidth=1.1, label=name)
-        known.add(period)
-        for event, mark in MARKS.items():
-            at = rows[np.char.find(rows["event"], event) >= 0]
-            ax.plot(
-                at["frequency_hz"],
-                at[column],
-                mark,
-                color=colour,
-                markersize=3,
-                markerfacecolor="white",
-                linestyle="",
-            )
-    values = table[column]
-    positive = values[values > 0]
-    if len(positive) == len(values) > 0 and positive.max() > 40 * positive.min():
-        ax.set_yscale("log")
-    if title:
-        ax.set_title(title, color=INK, fontsize="medium")
-    if len(known) > 1:
-        ax.legend(frameon=False)
+        periods[f"period {period}"] = {"color": colour, **LINES["stable"]}
+        # The row of a fold is marginal, between a stable and an unstable stretch.
+        is_between = (rows["stability"] == "marginal") & (rows["event"] != "")
+        words = np.where(is_between, "unstable", rows["stability"])
+        for stability in LINES:
+            is_so = words == stability
+            if is_so.any():
+                values = np.where(_joined(is_so, stability), rows[column], np.nan)
+                ax.plot(rows["frequency_hz"], values, color=colour, **LINES[stability])
+                stabilities.add(stability)
+    marks = [mark for mark in MARKS if (marked == mark.name).any()]
+    for mark in marks:
+        at = table[marked == mark.name]
+        behind = mark.edge == PALE_INK
+        ax.plot(at["frequency_hz"], at[column], zorder=1.5 if behind else 3, **mark.style())
+    scaled(ax, table[column])
+    ax.margins(x=0.0)
+    lines = [(name, look) for name, look in LINES.items() if name in stabilities]
+    several = sorted(periods.items()) if len(periods) > 1 else []
+    legend(ax, [*lines, *several, *((mark.name, mark.style()) for mark in marks)], title)
     return ax
 
 
-def _with_next(stable: Array, wanted: bool) -> Array:
-    """Rows of a kind, with the row behind each stretch, so that lines meet."""
-    found = np.asarray(stable == wanted)
-    if not wanted:
-        found = found | np.append(found[1:], False) | np.append(False, found[:-1])
-    return found
+def _joined(is_so: Array, stability: str) -> Array:
+    """Rows of a stability; of others than stable ones the rows beside them as well, so that lines meet."""
+    if stability == "stable":
+        return is_so
+    return np.asarray(is_so | np.append(is_so[1:], False) | np.append(False, is_so[:-1]))
 
 
 def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
@@ -97,11 +84,11 @@ def orbit(waveform: Array, solution: Any, point: str, ax: Any) -> Any:
         for name in waveform.dtype.names or ()
         if name.endswith("_displacement_m")
     ]
-    if point not in names:
-        raise BadInput(f"there is no point {point!r}; allowed: {', '.join(names)}")
+    if not isinstance(point, str) or point not in names:
+        raise unknown("point", point, names)
     ax = framed(axes(ax), "Time (excitation periods)", f"Displacement of {point} (m)")
     colour = PERIODS[(solution.period_multiple - 1) % len(PERIODS)]
-    ax.plot(waveform["phase_cycles"], waveform[f"{point}_displacement_m"], color=colour, linewidth=1.1)
+    ax.plot(waveform["phase_cycles"], waveform[f"{point}_displacement_m"], color=colour, linewidth=0.9)
     return ax
 
 

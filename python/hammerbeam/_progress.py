@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ._check import refused
 from ._errors import HammerbeamWarning, Interrupted
 
 Report = Callable[[float | None, str], None]
@@ -83,6 +84,8 @@ def watched(progress: Progress) -> Iterator[tuple[Report | None, Callable[[str],
     if callable(progress):
         yield progress, _warn
         return
+    if progress is not None and not isinstance(progress, bool):
+        raise refused("progress", progress, "must be True, False, None or a function")
     if progress is None:
         # Without a console there is no standard error.
         progress = _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _check, _export, _plot
-from ._errors import BadInput, DrawingError
+from ._errors import BadInput, ClosedResults, DrawingError
 from ._native import NativeResults
 from ._orbits import MOST_SAMPLES, Orbits
 from ._progress import Progress, interruptible, watched
@@ -177,7 +177,7 @@ class Results:
             names = ["branches", "events", "ends", *more, "varied", "motions"]
             tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
             return _export.write(tables, format, folder, "results")
-        return [Path(path) for path in self._native.export(format, folder, bool(states))]
+        return [Path(path) for path in self._native.export(format, folder, _check.flag("states", states))]
 
     def export_orbits(
         self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
@@ -186,7 +186,9 @@ class Results:
         `export`."""
         folder = self.folder / "export" if out is None else _check.folder("out", out)
         if not isinstance(orbits, Orbits):
-            raise BadInput(f"orbits: found {orbits!r}, must be Orbits, as `orbits` gives them, and not a part")
+            must = "must be Orbits, as `orbits` gives them, or a slice of them"
+            raise _check.refused("orbits", orbits, must)
+        self._refuse_closed()
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
         if _export.checked(format) in _export.WRITERS:
             tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
@@ -204,12 +206,18 @@ class Results:
         return self._native.closed_already
 
     def __enter__(self) -> "Results":
+        self._refuse_closed()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+    def _refuse_closed(self) -> None:
+        if self.closed:
+            message = f"the results of {self.folder} are closed"
+            raise ClosedResults(message, numbers={"folder": str(self.folder)})
 
     def _table(self, name: str, branch: Branches) -> Array:
         numbers = _numbers(branch)

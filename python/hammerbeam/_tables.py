@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ._check import refused
 from ._errors import BadInput
 
 Array = np.ndarray[Any, np.dtype[Any]]
@@ -32,6 +33,8 @@ def frame(table: Array) -> Any:
     Columns with several numbers in a row, states and multipliers, become one column for each of them,
     `state_1` and so on.
     """
+    if not isinstance(table, np.ndarray) or table.dtype.names is None:
+        raise refused("table", table, "must be a structured array")
     pandas = needed("pandas", "frames")
     columns: dict[str, Any] = {}
     for name in table.dtype.names or ():

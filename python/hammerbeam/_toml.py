@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import BadInput
+from ._check import refused
 
 
 def study_text(tables: Mapping[str, Any]) -> str:
     """TOML of nested dictionaries; tables within tables stand in one line."""
     if not isinstance(tables, Mapping):
-        raise BadInput(f"found {tables!r}, must be a dictionary with the tables of a study")
+        raise refused("tables", tables, "must be a dictionary with the tables of a study")
     plain, below = list[str](), list[str]()
     for key, value in tables.items():
         if value is None:
@@ -49,7 +49,7 @@ def _is_list_of_tables(value: Any) -> bool:
 
 def _key(key: Any) -> str:
     if not isinstance(key, str):
-        raise BadInput(f"found the key {key!r}, must be a word")
+        raise refused("key", key, "must be a word")
     is_bare = bool(key) and all(letter.isascii() and (letter.isalnum() or letter in "-_") for letter in key)
     return key if is_bare else _text(key)
 
@@ -74,14 +74,12 @@ def _value(value: Any, name: str) -> str:
         return "{ " + ", ".join(entries) + " }"
     if isinstance(value, Sequence) and not isinstance(value, bytes):
         return "[" + ", ".join(_value(entry, name) for entry in value) + "]"
-    raise BadInput(
-        f"{name}: found {value!r}, must be a number, a word, true or false, a list or a dictionary"
-    )
+    raise refused(name, value, "must be a number, a word, true or false, a list or a dictionary")
 
 
 def _text(text: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise BadInput(f"found the text {text!r}, must be Unicode") from None
+        raise refused("text", text, "must be Unicode") from None
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -20,6 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ._check import refused
 from ._errors import BadInput, HammerbeamError
 from ._study import Study
 from .batch._folder import write_whole
@@ -45,6 +46,8 @@ class Asked:
 
 def parse(text: str) -> Asked:
     """Reads a file of parameters, in either format."""
+    if not isinstance(text, str):
+        raise refused("text", text, "must be the text of a file of parameters")
     pairs = [pair for line in text.splitlines() if (pair := _pair(line)) is not None]
     variables, rest = _counted(pairs, ("variables", "DAKOTA_VARS"))
     functions, rest = _counted(rest, ("functions", "DAKOTA_FNS"))
@@ -86,6 +89,8 @@ def _tagged(name: str, tag: str) -> str:
 
 def respond(study: str | Path, asked: Asked) -> str:
     """Runs the study with the values that Dakota gives: the file of responses."""
+    if not isinstance(asked, Asked):
+        raise refused("asked", asked, "must be what parse gives")
     derivatives = [name for name, wanted in asked.responses.items() if wanted & ~_VALUE]
     if derivatives:
         allowed = "numerical_gradients, no_hessians"

@@ -1,4 +1,4 @@
-"""Batches: planning, status, what is missing, one table; parts that merge to the bytes of one process."""
+"""Batches: planning, status, what is missing, one table."""
 
 import csv
 import os
@@ -34,42 +34,6 @@ def memory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     folder.mkdir()
     yield folder
     shutil.rmtree(folder)
-
-
-def test_a_grid_is_all_combinations() -> None:
-    table = Parameters.grid({"a.b": [1, 2.5], "c": ["x", "2 mm"]})
-    assert table.rows == [("1", "x"), ("1", "2 mm"), ("2.5", "x"), ("2.5", "2 mm")]
-    assert table.column("a.b").tolist() == [1.0, 1.0, 2.5, 2.5]
-
-
-def test_a_latin_hypercube_has_each_part_of_every_range_once() -> None:
-    table = Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=7)
-    parts = np.floor(50 * table.column("a")), np.floor(50 * (table.column("b") + 2) / 4)
-    assert all(sorted(part) == list(range(50)) for part in parts)
-    assert list(parts[0]) != list(parts[1])
-    assert table.rows == Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=7).rows
-    assert table.rows != Parameters.latin_hypercube({"a": (0.0, 1.0), "b": (-2.0, 2.0)}, 50, seed=8).rows
-
-
-def test_a_table_is_read_as_it_is_written() -> None:
-    table = Parameters.parse(f'{GAP}, excitation.frequency_hz\n0.9, "[0.1, 0.2]"\n 1 mm ,"[0.1, 0.3]"\n')
-    assert table.rows == [("0.9", "[0.1, 0.2]"), ("1 mm", "[0.1, 0.3]")]
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "is empty"),
-        ("a\n", "has no row"),
-        ("a,a\n1,2\n", "the same key"),
-        ("a,b\n1\n", "has 1 values"),
-        ("a,\n1,2\n", "a column without a key"),
-        ('a\n" "\n', "no value"),
-    ],
-)
-def test_tables_that_make_no_sense_are_refused(text: str, words: str) -> None:
-    with pytest.raises(hammerbeam.BadInput, match=words):
-        Parameters.parse(text)
 
 
 def test_values_are_placed_as_the_command_places_them(tmp_path: Path) -> None:
@@ -243,69 +207,6 @@ def test_matrices_of_arrays_go_with_the_batch(tmp_path: Path) -> None:
     assert two == pytest.approx(2 * one, rel=1e-9)
 
 
-def tables(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.csv"))}
-
-
-def test_basins_by_parts_are_those_of_one_process(tmp_path: Path, duffing: hammerbeam.Study) -> None:
-    asked = (0.25, ("q1", -2.0, 2.0), ("v1", -3.0, 3.0))
-    options: dict[str, Any] = {"grid": 40, "transient_periods": 5, "patience_periods": 100}
-    whole = duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
-    task = Task.basins(*asked, **options, parts=3)
-    planned = Batch.plan(tmp_path / "b", duffing, Parameters.grid({"excitation.amplitude_n": [0.3]}), task)
-    assert len(planned) == 3 and planned.run(Local(2)).finished == 3
-    gathered = planned.gather()
-    assert gathered.table["attractors"][0] == len(whole.attractors)
-    assert tables(planned.whole(1).results) == tables(tmp_path / "whole") != {}
-    # Without one of the parts the rest is computed, to the same bytes again.
-    folders = [planned.item(number).results for number in (1, 3)]
-    duffing.basins(*asked, **options, parts=folders, out=tmp_path / "again", progress=False)
-    assert tables(tmp_path / "again") == tables(tmp_path / "whole")
-    # A part of something else is refused.
-    with pytest.raises(hammerbeam.StoreError, match="holds no part of this"):
-        duffing.basins(*asked, **{**options, "grid": 41}, parts=folders, progress=False)
-
-
-def test_an_attractor_that_only_a_late_cell_finds_changes_nothing(
-    tmp_path: Path, duffing: hammerbeam.Study
-) -> None:
-    # The first 256 of 576 cells start near rest, which leads to the small motion: of the large one no part
-    # knows before.
-    asked = (0.25, ("q1", -0.2, 0.2), ("v1", -0.3, 3.0))
-    options: dict[str, Any] = {"grid": 24, "transient_periods": 5, "patience_periods": 100}
-    duffing.basins(*asked, **options, out=tmp_path / "whole", progress=False)
-    parts = [tmp_path / str(number) for number in (1, 2)]
-    for number, part in enumerate(parts, 1):
-        named: dict[str, Any] = {"frequency_hz": asked[0], "x": asked[1], "y": asked[2]}
-        duffing.basins_part((number, 2), part, **named, **options, progress=False)
-    with pytest.warns(hammerbeam.HammerbeamWarning, match="computed again"):
-        duffing.basins(*asked, **options, parts=parts, out=tmp_path / "merged", progress=False)
-    assert tables(tmp_path / "merged") == tables(tmp_path / "whole") != {}
-
-
-def test_a_sweep_by_parts_is_that_of_one_process(tmp_path: Path, duffing: hammerbeam.Study) -> None:
-    options: dict[str, Any] = {
-        "from_hz": 0.2,
-        "to_hz": 0.3,
-        "step_hz": 0.02,
-        "starts": 3,
-        "patience_periods": 60,
-    }
-    duffing.sweep(**options, out=tmp_path / "whole", progress=False)
-    planned = Batch.plan(
-        tmp_path / "b",
-        duffing,
-        Parameters.grid({"excitation.amplitude_n": [0.3]}),
-        Task.sweep(**options, parts=4),
-    )
-    assert planned.run(Local(2)).finished == 4
-    planned.merge()
-    assert tables(planned.whole(1).results) == tables(tmp_path / "whole") != {}
-    with pytest.raises(hammerbeam.BadInput, match="has no parts"):
-        folder = planned.item(1).results
-        duffing.sweep(0.2, 0.3, 0.02, parts=[folder], progress=False)
-
-
 def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
     psutil = pytest.importorskip("psutil")
     planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.05 * k for k in range(8)]}))
@@ -319,7 +220,8 @@ def test_a_killed_process_loses_no_item(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
-    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: [0.8 + 0.001 * k for k in range(400)]}))
+    gaps = [0.8 + 0.001 * k for k in range(400)]
+    planned = Batch.plan(tmp_path / "b", EXAMPLE, Parameters.grid({GAP: gaps}))
     script = f"from hammerbeam.batch import Batch, Local; Batch({str(planned.folder)!r}).run(Local(2))"
     # A group of its own, as a terminal has it: all processes get the signal. So many items that some are left
     # however late it comes.

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -85,3 +86,15 @@ def test_many_studies_are_run_as_the_page_says(place: Path, monkeypatch: pytest.
     rows = (place / "results/forces/gathered.csv").read_text().splitlines()
     assert len(rows) == 5 and all(",finished," in row for row in rows[1:])
     assert list((place / "results/basins/merged").glob("*/*/results/basins.csv"))
+
+
+def test_many_studies_run_from_a_terminal_as_the_page_says(tmp_path: Path) -> None:
+    (tmp_path / "studies").symlink_to(ROOT / "studies")
+    (tmp_path / "forces.csv").write_text("excitation.amplitude_n\n0.2\n0.3\n")
+    commands = [line.split() for line in snippets("sh", MANY)[0].splitlines()]
+    assert [words[:3] for words in commands] == [["python", "-m", "hammerbeam.batch"]] * 4
+    for words in commands:
+        done = subprocess.run([sys.executable, *words[1:]], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    rows = (tmp_path / "results/forces/gathered.csv").read_text().splitlines()
+    assert len(rows) == 3 and all(",finished," in row for row in rows[1:])

@@ -2,7 +2,11 @@
 
 import csv
 import json
+import sys
+import threading
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import hammerbeam
 import numpy as np
@@ -62,6 +66,26 @@ def test_orbits_by_frequency_branch_and_event(results: Results) -> None:
         assert largest > 0.999 * orbit.max_abs_displacement_m
         # The product of all multipliers is that of the damping alone.
         np.testing.assert_allclose(np.prod(orbit.multipliers).real, np.exp(-0.1 / 0.25), rtol=1e-7)
+
+
+def test_a_slice_of_orbits_is_orbits(results: Results, tmp_path: Path) -> None:
+    orbits = results.orbits(0.25)
+    last = orbits[-1:]
+    assert isinstance(last, hammerbeam.Orbits) and len(last) == 1 and len(orbits[3:]) == 0
+    np.testing.assert_array_equal(last[0].waveform(8), orbits[2].waveform(8))
+    # Each table counts its orbits from 1 on.
+    names = [name for name in orbits.table.dtype.names or () if name != "orbit"]
+    back = orbits[::-1].table
+    assert back["orbit"].tolist() == [1, 2, 3]
+    assert all((back[name] == orbits.table[name][::-1]).all() for name in names)
+    [path] = results.export_orbits(orbits[1:], "npz", tmp_path, samples=8)
+    with np.load(path) as found:
+        np.testing.assert_array_equal(found["orbits"]["state"], orbits.table["state"][1:])
+        assert set(found["waveforms"]["orbit"]) == {1, 2}
+    # None of them is no file without a table.
+    [path] = results.export_orbits(orbits[:0], "npz", tmp_path / "none", samples=8)
+    with np.load(path) as found:
+        assert len(found["orbits"]) == 0
 
 
 def test_frames_have_a_column_for_each_number(results: Results) -> None:
@@ -130,8 +154,73 @@ def test_plots(results: Results) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("agg")
     axes = results.plot()
-    assert axes.get_xlabel() == "Frequency (Hz)" and len(axes.lines) > 2
+    assert axes.get_xlabel() == "Excitation frequency (Hz)"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["stable", "unstable", "fold"]
+    # Two stable parts with an unstable one between them, and its two folds as one line of marks.
+    stable, unstable, folds = axes.lines
+    np.testing.assert_array_equal(folds.get_xdata(), results.events()["frequency_hz"][:2])
+    table = results.branches()
+    assert np.isfinite(stable.get_ydata()).sum() == table["stable"].sum()
+    assert (np.isfinite(unstable.get_ydata()) >= (table["stability"] == "unstable")).all()
     assert results.orbits(0.25)[0].plot().get_ylabel() == "Displacement of mass (m)"
+
+
+def test_each_event_has_the_mark_of_hammerbeams_own_figures() -> None:
+    from hammerbeam._look import MARKS, marks_of
+
+    rows = [
+        ("", "stable", ""),
+        ("fold", "marginal", "fold"),
+        ("grazing", "unstable", "grazing"),
+        ("flip", "unstable", "bifurcation of unstable solutions"),
+        ("fold+grazing", "unstable", "fold at a grazing"),
+        ("neimark-sacker", "marginal", "Neimark-Sacker"),
+        ("branch-point", "stable", "branch point"),
+        ("flip", "stable", "flip"),
+    ]
+    events, stability, expected = (np.array(column) for column in zip(*rows, strict=True))
+    assert marks_of(events, stability).tolist() == expected.tolist()
+    assert set(expected) - {""} == {mark.name for mark in MARKS}
+
+
+@pytest.mark.parametrize(
+    ("module", "call"),
+    [
+        ("matplotlib.pyplot", lambda results: results.plot()),
+        ("pandas", lambda results: results.frame()),
+        ("scipy.io", lambda results: results.export("mat")),
+        ("pyarrow", lambda results: results.export("parquet")),
+        ("h5py", lambda results: results.export("hdf5")),
+    ],
+)
+def test_a_package_that_is_not_there_is_named(
+    results: Results, module: str, call: Callable[[Results], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(hammerbeam.BadInput, match=r"pip install 'hammerbeam\[\w+\]'") as raised:
+        call(results)
+    assert module.partition(".")[0] in str(raised.value)
+
+
+def test_results_are_read_by_several_threads_and_closed_by_one(folder: Path) -> None:
+    results, found = Results(folder), list[object]()
+    first = len(results.branches())
+
+    def work(closes: bool) -> None:
+        for turn in range(10):
+            try:
+                found.append(len(results.branches()) == first and len(results.orbits(0.25)) == 3)
+            except Exception as error:
+                found.append(type(error))
+            if closes and turn == 5:
+                results.close()
+
+    threads = [threading.Thread(target=work, args=(number == 0,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert len(found) == 30 and set(found) == {True, hammerbeam.ClosedResults}
 
 
 def test_what_run_reported_is_there(folder: Path) -> None:
@@ -191,7 +280,7 @@ def test_an_export_into_a_file_is_refused(results: Results, tmp_path: Path, form
     with pytest.raises(hammerbeam.ExportError):
         results.export(format, tmp_path / "file")
     with pytest.raises(hammerbeam.BadInput, match="orbits"):
-        results.export_orbits(results.orbits(0.25)[:1], format, tmp_path)  # type: ignore[arg-type]
+        results.export_orbits(list(results.orbits(0.25)), format, tmp_path)  # type: ignore[arg-type]
 
 
 def test_folders_to_start_from_are_a_list(duffing: hammerbeam.Study, tmp_path: Path) -> None:

@@ -2,8 +2,8 @@
 //! `mutations [SECONDS] [SEED] [READER]`.
 //!
 //! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit
-//! code 1; so it does if reading has taken more than 1 GiB of memory. Ended by the system (memory, a signal), the
-//! last input is in the folder named at the beginning.
+//! code 1; so it does if reading has taken more than 1 GiB of memory. Ended by the system (memory, a signal),
+//! the last input is in the folder named at the beginning.
 #![allow(clippy::print_stdout, reason = "the counts are what it is for")]
 
 use std::{

@@ -1,8 +1,11 @@
 //! The book says what the command does: tutorials are followed to the letter, and its commands exist.
 //!
-//! `HAMMERBEAM_UPDATE=1` writes the pictures of the tutorials and the page of commands anew.
+//! `HAMMERBEAM_UPDATE=1` writes the pictures of the tutorials, the page of commands and the tables of keys
+//! anew.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod commands;
+mod keys;
 mod readers;
 mod snippets;
 
@@ -13,7 +16,7 @@ use std::{
 };
 
 use crate::common::{Workshop, assert_success, stdout};
-use snippets::{Snippet, blocks, missing, pictures, snippets};
+use snippets::{Snippet, blocks, is_same, missing, pictures, snippets};
 
 /// The head of the page of commands; what follows is what the command says of itself.
 const COMMANDS: &str = "\
@@ -75,7 +78,7 @@ fn follow(workshop: &Workshop, page: &str, name: &str) {
                 printed = commands.iter().map(|command| output(workshop, command)).collect();
             }
             Snippet::Output(lines) => {
-                let line = missing(&lines, &printed);
+                let line = missing(&lines, &printed, is_same);
                 assert!(line.is_none(), "{name}: \"{}\" is not in\n{printed}", line.unwrap_or_default());
             }
         }

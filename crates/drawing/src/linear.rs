@@ -7,7 +7,7 @@ use hammerbeam_figure::{
     DrawnMode, ExcitationDiagram, Figure, FigureError, MeshMode, MeshModeDiagram, ModeDiagram, ReducedMode,
     ReductionDiagram, Style,
 };
-use hammerbeam_structure::{FrequencyError, MeshShape, ModeTables};
+use hammerbeam_structure::{FrequencyError, MeshShape, ModeTables, OutlinePoint, Plane};
 use hammerbeam_study::{
     Model, Study, StudyFile,
     file::{
@@ -70,28 +70,27 @@ fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureEr
     };
     let stops = study.stops.iter().flat_map(|stop| {
         let name = match &stop.place {
-            Place::At { point, .. } | Place::Between { first: point, .. } => point,
+            Place::At { point, .. }
+            | Place::Around { first: point, .. }
+            | Place::Between { first: point, .. } => point,
         };
         let place = at(name);
         sides(&stop.law).iter().filter_map(move |above| place.map(|place| (place, *above)))
     });
     let reduced = &model.tables.frequency_errors;
     let rates = model.system.model().natural_frequencies.iter();
+    let (places, shapes) = deflections(&model.outline);
     let mode = |(number, rate): (usize, &f64)| DrawnMode {
         frequency_hz: rate / TAU,
         unreduced_hz: (!model.tables.reduced_hz.is_empty())
             .then(|| reduced.get(number).map(|error| error.full_hz))
             .flatten(),
-        shape: model
-            .outline
-            .iter()
-            .map(|place| place.shape.get(number).copied().unwrap_or(f64::NAN))
-            .collect(),
+        shape: shapes.iter().map(|shape| shape.get(number).copied().unwrap_or(f64::NAN)).collect(),
     };
     let diagram = ModeDiagram {
         title: study.title.clone(),
         is_beam: matches!(study.structure, StructureTable::Beam(_)),
-        places: model.outline.iter().map(|place| place.at).collect(),
+        places,
         ends: match &study.structure {
             StructureTable::Beam(beam) => [beam.left, beam.right].map(held),
             StructureTable::Lumped(_) | StructureTable::Matrices(_) => [(false, false); 2],
@@ -101,6 +100,18 @@ fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureEr
         modes: rates.enumerate().map(mode).collect(),
     };
     diagram.draw(style)
+}
+
+/// The places of an outline, and the deflection of each in every mode: of two planes that in which the mode
+/// lies.
+fn deflections(outline: &[OutlinePoint]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let (first, second): (Vec<_>, Vec<_>) = outline.iter().partition(|place| place.plane == Plane::Y);
+    let sum = |(index, place): (usize, &&OutlinePoint)| {
+        let across = second.get(index).map_or(&[][..], |place| place.shape.as_slice());
+        let own = place.shape.iter().enumerate();
+        own.map(|(mode, own)| own + across.get(mode).copied().unwrap_or(0.0)).collect()
+    };
+    (first.iter().map(|place| place.at).collect(), first.iter().enumerate().map(sum).collect())
 }
 
 /// Whether an end is held, and whether it cannot turn.
@@ -118,7 +129,7 @@ fn sides(law: &StopLaw) -> &'static [bool] {
     match law.rest() {
         StopRest::OneSided { side: StopSide::Above, .. } => &[true],
         StopRest::OneSided { side: StopSide::Below, .. } => &[false],
-        StopRest::TwoSided { .. } => &[true, false],
+        StopRest::TwoSided { .. } | StopRest::Around { .. } => &[true, false],
         StopRest::Always => &[],
     }
 }
@@ -131,11 +142,7 @@ fn position(study: &Study, name: &str) -> Option<f64> {
         (StructureTable::Matrices(matrices), _) => {
             matrices.points.iter().position(|point| point.name == name).map(|k| k as f64)
         }
-        (StructureTable::Beam(_), "left") => Some(0.0),
-        (StructureTable::Beam(beam), "right") => Some(beam.length_m),
-        (StructureTable::Beam(beam), _) => {
-            beam.points.iter().find(|point| point.name == name).map(|point| point.at_m)
-        }
+        (StructureTable::Beam(beam), _) => beam.place_of(name),
     }
 }
 

@@ -7,6 +7,7 @@ use hammerbeam_figure::{
     SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
 };
 use hammerbeam_motion::law::LawSymbol;
+use hammerbeam_structure::Plane;
 use hammerbeam_study::{
     Study,
     file::{
@@ -34,13 +35,13 @@ pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError>
             (SketchLayout::Lumped(layout), Style::double_column())
         }
     };
-    let mut forces: Vec<String> = study.force_points().map(str::to_owned).collect();
+    let mut forces: Vec<String> = study.force_points().map(|name| place_name(study, name)).collect();
     forces.sort_unstable();
     forces.dedup();
     let diagram = StructureDiagram {
         title: study.title.clone(),
         layout,
-        stops: study.stops.iter().map(sketched_stop).collect(),
+        stops: study.stops.iter().map(|stop| sketched_stop(study, stop)).collect(),
         moving: moving(study),
         forces,
         words: words::of(study, unit),
@@ -48,10 +49,17 @@ pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError>
     diagram.draw(&style)
 }
 
+/// What a point is called in the sketch: a beam that bends in two planes is drawn in one.
+fn place_name(study: &Study, name: &str) -> String {
+    let in_two = matches!(&study.structure, StructureTable::Beam(beam) if !beam.planes.is_one());
+    Plane::split(name).filter(|_| in_two).map_or(name, |(point, _)| point).to_owned()
+}
+
 /// The places that move, each with its support.
 fn moving(study: &Study) -> Vec<SketchMotion> {
     let of_support = |(support, places): (usize, &[String])| -> Vec<SketchMotion> {
-        places.iter().map(|place| SketchMotion { place: place.clone(), support }).collect()
+        let motion = |place: &String| SketchMotion { place: place_name(study, place), support };
+        places.iter().map(motion).collect()
     };
     study.excitation.supports().into_iter().enumerate().flat_map(of_support).collect()
 }
@@ -97,13 +105,19 @@ fn sketched_masses(lumped: &LumpedTable) -> SketchLumped {
     }
 }
 
-fn sketched_stop(stop: &Stop) -> SketchStop {
+fn sketched_stop(study: &Study, stop: &Stop) -> SketchStop {
     let (point, carrier) = match &stop.place {
         Place::At { point, fixed_to: FixedTo::Support(support) } => (point, SketchCarrier::Support(*support)),
         Place::At { point, fixed_to: FixedTo::Space } => (point, SketchCarrier::Space),
-        Place::Between { first, second } => (first, SketchCarrier::Point(second.clone())),
+        Place::Around { first, fixed_to: [FixedTo::Support(support), _], .. } => {
+            (first, SketchCarrier::Support(*support))
+        }
+        Place::Around { first, .. } => (first, SketchCarrier::Space),
+        Place::Between { first, second } => (first, SketchCarrier::Point(place_name(study, second))),
     };
     let kind = match stop.law.description().symbol {
+        // In the plane of the drawing it is one.
+        _ if matches!(stop.law.rest(), StopRest::Around { .. }) => StopKind::TwoSided,
         LawSymbol::Sphere => StopKind::Sphere { loses: false },
         LawSymbol::LossySphere => StopKind::Sphere { loses: true },
         LawSymbol::Spring => StopKind::Spring,
@@ -118,7 +132,8 @@ fn sketched_stop(stop: &Stop) -> SketchStop {
         StopRest::TwoSided { gap_above_m, gap_below_m, .. } => {
             (StopSide::Above, gap_above_m.max(gap_below_m) > 0.0)
         }
+        StopRest::Around { .. } => (StopSide::Above, true),
         StopRest::Always => (StopSide::Below, false),
     };
-    SketchStop { point: point.clone(), carrier, kind, above: side == StopSide::Above, has_gap }
+    SketchStop { point: place_name(study, point), carrier, kind, above: side == StopSide::Above, has_gap }
 }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use crate::System;
+use crate::{LocalElement, System};
 
 impl System {
     /// Displacement of each support and its first two derivatives by time at a phase.
@@ -80,9 +80,20 @@ impl System {
             let (load, turned) = (self.modal_load(index, TAU * frequency_hz), rotation(order, phase));
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * turned).re);
         }
-        for element in self.elements() {
+        let along = |element: &LocalElement| {
             let u = self.carried(&element.support_ratios, frequency_hz, phase);
-            let [r, speed] = [(q, u[0]), (v, u[1])].map(|(z, u)| dot(&element.shape, z) + u);
+            [(q, u[0]), (v, u[1])].map(|(z, u)| dot(&element.shape, z) + u)
+        };
+        for (e, element) in self.elements().iter().enumerate() {
+            if let Some(hole) = element.law.round_hole() {
+                let both = &self.elements()[e..e + 2];
+                let force = hole.force_at([0, 1].map(|k: usize| along(&both[k])[0]));
+                for (element, force) in both.iter().zip(force.value) {
+                    (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
+                }
+                continue;
+            }
+            let [r, speed] = along(element);
             let force = element.law.force(r, speed).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
@@ -104,6 +115,19 @@ impl System {
         std::array::from_fn(|k| dot(&element.shape, parts[k]) + u[k])
     }
 
+    /// What tells of the contact of an element, and its first two derivatives by time at a phase: its
+    /// relative displacement, or the reading of a round hole ([`RoundHole`](crate::law::RoundHole)).
+    ///
+    /// * as for [`System::relative_motion`].
+    #[must_use]
+    pub fn contact_motion(&self, element: usize, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+        let along = |element: usize| self.relative_motion(element, frequency_hz, phase, state);
+        match self.elements()[element].law.round_hole() {
+            Some(hole) => hole.reading(along(element), along(element + 1)),
+            None => along(element),
+        }
+    }
+
     /// How deeply a state lies behind the level of an element's contact, `sign (r - level)` [m]: of the
     /// deepest of its contacts, negative in front of all of them.
     ///
@@ -119,7 +143,7 @@ impl System {
         phase: f64,
         state: &[f64],
     ) -> Option<f64> {
-        let [r, ..] = self.relative_motion(element, frequency_hz, phase, state);
+        let [r, ..] = self.contact_motion(element, frequency_hz, phase, state);
         let contacts = self.elements()[element].law.contacts().iter();
         contacts.map(|contact| contact.sign * (r - contact.level)).reduce(f64::max)
     }

@@ -30,6 +30,11 @@
 //! A Hertz force begins like `t^1.5`: in the graded variable `t = h s^2` it is smooth, so a contact takes a
 //! step up to its middle and one down to its release, whose time is part of the solution.
 //!
+//! **Round holes** push back along the radius of two displacements, `F = f(rho) (y, z)/rho`. They are two
+//! elements with an output and an input each. At the nodes `F_k = F(y_k, z_k)`, so `f'` has blocks of two.
+//! Contacts are those of the reading `c/2 + (y^2 + z^2)/(2 c)`, whose derivatives have bounds from those of y
+//! and z ([`law::RoundHole`], `exact/hole.rs`).
+//!
 //! **Laws that lose energy** depend on the relative velocity, too, which is known as exactly: `r'_k =
 //! r'_particular(t_k) + X'_k x + sum_l W'_kl F_l`, where `W'` and `X'` have `C A` in the place of C. Newton's
 //! matrix is `1 - f_r W - f_v W'`. Such a contact pushes or is idle: its force ends where the penetration or
@@ -92,7 +97,8 @@
 //! ```
 //!
 //! # Limits
-//! No friction. While forces act, the end of a hold is looked for on polynomials through twelve nodes, which
+//! No friction. Round holes are elastic, and nothing beside them is rigid or loses energy. While forces act,
+//! the end of a hold is looked for on polynomials through twelve nodes, which
 //! resolve it to some 1e-9 of its parts, not with the bounds of a flight. Stops that throw one another off
 //! beside such forces leave errors of up to 2e-6 in the sensitivities. A stretch cannot start in a contact
 //! whose law remembers its impact, since a state `[q; q']` does not tell how the contact began; motions and

@@ -15,7 +15,11 @@ use hammerbeam_structure::ReducedModel;
 
 use driven::{DrivenLoad, DrivenLoads};
 
-use crate::{DampingPart, FrequencyFactor, Harmonic, Law, Load, SupportHarmonic, parameter::Kin};
+use crate::{
+    DampingPart, FrequencyFactor, Harmonic, Law, Load, SupportHarmonic,
+    law::{AcrossHole, RoundHole},
+    parameter::Kin,
+};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -36,6 +40,14 @@ pub enum SystemError {
     #[error("{what} holds {found}, must be finite")]
     #[expect(missing_docs, reason = "the message names its fields")]
     NotFinite { what: String, found: f64 },
+    /// The two directions of a hole are two elements, one after the other.
+    #[error("element {name} is one direction of a round hole without the other beside it")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    HalfHole { name: String },
+    /// Rigid stops, and forces that depend on the velocity, cannot act beside a hole.
+    #[error("element {name} is rigid or loses energy, which does not go beside the round hole {hole}")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    BesideHole { name: String, hole: String },
     /// A constant load has no amplitude over the frequency.
     #[error("a load of order 0 cannot have an amplitude over the frequency")]
     ConstantOverFrequency,
@@ -53,6 +65,21 @@ pub struct LocalElement {
     pub support_ratios: Vec<f64>,
     /// The force law.
     pub law: Law,
+}
+
+impl LocalElement {
+    /// The two elements of a round hole, from the displacements of a point in two directions across its axis.
+    ///
+    /// * `directions`: shape and support ratios of each.
+    #[must_use]
+    pub fn round_hole(name: &str, directions: [(Vec<f64>, Vec<f64>); 2], hole: RoundHole) -> [Self; 2] {
+        let [first, second] = directions;
+        let element = |name: String, (shape, support_ratios), law| Self { name, shape, support_ratios, law };
+        [
+            element(name.to_owned(), first, hole.into()),
+            element(format!("{name} (across)"), second, AcrossHole.into()),
+        ]
+    }
 }
 
 /// A reduced structure with its load and its local elements.
@@ -308,7 +335,29 @@ fn check(model: &ReducedModel, load: &Load, elements: &[LocalElement]) -> Result
             return Err(SystemError::NoSuchSupport { what, number: count + index + 1, count });
         }
     }
-    Ok(())
+    check_holes(elements)
+}
+
+/// Holes have two directions, and only elastic elements beside them.
+fn check_holes(elements: &[LocalElement]) -> Result<(), SystemError> {
+    let is_first =
+        |index: usize| elements.get(index).is_some_and(|element| element.law.round_hole().is_some());
+    let is_second = |index: usize| elements.get(index).is_some_and(|element| element.law.is_across_hole());
+    for (index, element) in elements.iter().enumerate() {
+        let half = is_first(index) && !is_second(index + 1)
+            || is_second(index) && !(index > 0 && is_first(index - 1));
+        if half {
+            return Err(SystemError::HalfHole { name: element.name.clone() });
+        }
+    }
+    let Some(hole) = elements.iter().find(|element| element.law.round_hole().is_some()) else {
+        return Ok(());
+    };
+    let loses = |element: &&LocalElement| element.law.rigid().is_some() || element.law.depends_on_velocity();
+    match elements.iter().find(loses) {
+        Some(other) => Err(SystemError::BesideHole { name: other.name.clone(), hole: hole.name.clone() }),
+        None => Ok(()),
+    }
 }
 
 fn finite(what: String, values: &[f64]) -> Result<(), SystemError> {

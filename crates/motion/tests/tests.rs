@@ -39,6 +39,7 @@ mod pressed_at_start;
 mod resting_contacts;
 mod rigid;
 mod rigid_recursion;
+mod round_hole;
 mod stick_at_speed;
 mod stiff_contacts;
 mod work;

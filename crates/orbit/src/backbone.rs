@@ -166,7 +166,7 @@ fn missing_share(element: &LocalElement, place: f64, reach: f64) -> f64 {
 fn describing_function(element: &LocalElement, place: f64, (phi, amplitude): (f64, f64)) -> f64 {
     let sample = |k: u32| {
         let cos = (TAU * (f64::from(k) + 0.5) / f64::from(SAMPLES)).cos();
-        element.law.force(place + phi * amplitude * cos, 0.0).value * cos
+        element.law.force_along(place + phi * amplitude * cos) * cos
     };
     let mean = (0..SAMPLES).map(sample).sum::<f64>() / f64::from(SAMPLES);
     -2.0 * phi * mean / amplitude

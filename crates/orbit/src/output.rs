@@ -57,6 +57,11 @@ pub enum OrbitSignal {
         /// Numbers of the elements with their signs.
         elements: Vec<(usize, f64)>,
     },
+    /// Magnitude of the force on a round hole [N].
+    PressingAround {
+        /// Number of the element of its first direction.
+        first: usize,
+    },
 }
 
 /// Reads signals off an orbit.
@@ -106,6 +111,7 @@ pub fn read_orbit(
 enum Reader<'a> {
     Motion { motion: PointMotion, shape: &'a [f64], derivative: TimeDerivative },
     Pressing(&'a [(usize, f64)]),
+    PressingAround(usize),
 }
 
 impl<'a> Reader<'a> {
@@ -117,6 +123,7 @@ impl<'a> Reader<'a> {
                 derivative: *derivative,
             },
             OrbitSignal::Pressing { elements } => Self::Pressing(elements),
+            OrbitSignal::PressingAround { first } => Self::PressingAround(*first),
         }
     }
 
@@ -135,6 +142,7 @@ impl<'a> Reader<'a> {
             Self::Pressing(elements) => {
                 elements.iter().map(|(element, sign)| -sign * panel.forces[k][*element]).sum()
             }
+            Self::PressingAround(first) => panel.forces[k][*first].hypot(panel.forces[k][first + 1]),
         })
     }
 
@@ -147,7 +155,7 @@ impl<'a> Reader<'a> {
                 let change = |i: usize| jump.state[n + i] - touch.state[n + i];
                 shape.iter().enumerate().map(|(i, p)| p * change(i)).sum()
             }
-            Self::Motion { .. } => 0.0,
+            Self::Motion { .. } | Self::PressingAround(_) => 0.0,
             Self::Pressing(elements) => {
                 let own = elements.iter().filter(|(element, _)| *element == contact.element);
                 own.map(|(_, sign)| sign * jump.impulse).sum()

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use hammerbeam_orbit::{
-    BranchEventKind, ContactChange, EventStatus, LocatedEvent, Side, SignalStatistics, Stability,
+    BranchEventKind, ContactChange, EventSet, EventStatus, LocatedEvent, Side, SignalStatistics, Stability,
 };
 use hammerbeam_study::file::OutputEntry;
 
@@ -112,13 +112,17 @@ impl OwnedBranch<'_> {
             let number = next;
             next += 1;
             let key = solution_key(self.branch.start, placed.side, placed.number);
-            let Some(event) = store.event(key)? else { return Ok(()) };
+            // These are no events.
+            let marks = [BranchEventKind::Start, BranchEventKind::End];
+            let events = marks.into_iter().fold(placed.row.events, EventSet::without);
+            let Some(event) = store.event(key)?.filter(|_| events != EventSet::default()) else {
+                return Ok(());
+            };
             // It was walked the other way than rows are counted.
             let event = if placed.side == Side::Down { event.backwards() } else { event };
             let mut row = placed.row;
             if self.piece.is_none() {
-                // These are no events.
-                row.events = row.events.without(BranchEventKind::Start).without(BranchEventKind::End);
+                row.events = events;
             }
             let point = Point { multipliers: store.multipliers(key)?, ..Point::default() };
             take(&Line { number, event: Some(event), point: Some(point), ..self.line(row) })

@@ -68,6 +68,7 @@ mod lumped;
 mod modes;
 mod names;
 mod orient;
+mod plane;
 mod plausible;
 mod reduce;
 mod reduced_model;
@@ -77,12 +78,14 @@ mod sparse;
 mod strain;
 mod structure;
 mod tables;
+mod two_planes;
 
 pub use beam::{Beam, BeamChange, BeamPoint, BeamSpan, Boundary, End, PointChange, Shear, SteppedBeam};
 pub use damping::{Damping, ModalRatios};
 pub use error::StructureError;
 pub use export::ExportedMatrices;
 pub use lumped::{Connection, GROUND, Lumped, LumpedMass};
+pub use plane::Plane;
 pub use plausible::{PLAUSIBLE_DENSITY, PLAUSIBLE_YOUNGS_MODULUS};
 pub use reduce::{OutlinePoint, Reduced};
 pub use reduced_model::{PointOutput, ReducedModel, SupportInput};
@@ -94,3 +97,4 @@ pub use sparse::{
 };
 pub use structure::Structure;
 pub use tables::{FlexibilityError, FrequencyError, ModeTables};
+pub use two_planes::TwoPlanes;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use faer::Mat;
 
 use crate::{
-    Damping, FlexibilityError, MeshShape, ModeTables, PointOutput, ReducedModel, Reduction, Structure,
+    Damping, FlexibilityError, MeshShape, ModeTables, Plane, PointOutput, ReducedModel, Reduction, Structure,
     StructureError, SupportInput,
     assembly::times,
     error::finite,
@@ -35,6 +35,8 @@ pub struct Reduced {
 pub struct OutlinePoint {
     /// Distance from the left end [m]; of a lumped structure the number of the mass, from 0.
     pub at: f64,
+    /// Plane of bending; the first of a structure that has one.
+    pub plane: Plane,
     /// Displacement in each mode [kg^-1/2], length n.
     pub shape: Vec<f64>,
     /// Displacement per unit static motion of each support [-].
@@ -78,6 +80,7 @@ impl Structure {
     fn outline(&self, shapes: &Mat<f64>, support_shapes: &Mat<f64>) -> Vec<OutlinePoint> {
         let point = |place: &Place| OutlinePoint {
             at: place.at,
+            plane: Plane::Y,
             shape: shapes.row(place.coordinate).iter().copied().collect(),
             support_ratios: support_shapes.row(place.coordinate).iter().copied().collect(),
         };

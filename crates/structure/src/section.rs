@@ -67,6 +67,14 @@ impl Section {
         Ok(Self { form: SectionForm::Round { bore: inner / outer }, ..section })
     }
 
+    /// Whether it is a rectangle that is not a square, and so bends in one direction more easily than in the
+    /// other.
+    #[must_use]
+    pub fn is_oblong(&self) -> bool {
+        let is_square = (12.0 * self.second_moment / (self.area * self.area) - 1.0).abs() < 1e-9;
+        self.form == SectionForm::Rectangle && !is_square
+    }
+
     /// Section of any form.
     ///
     /// * `area`: A [m^2].

@@ -31,7 +31,9 @@ impl Study {
         for stop in &self.stops {
             match &stop.place {
                 Place::At { point, .. } => used.push(point),
-                Place::Between { first, second } => used.extend([first.as_str(), second]),
+                Place::Around { first, second, .. } | Place::Between { first, second } => {
+                    used.extend([first.as_str(), second]);
+                }
             }
         }
         let is_used = |point: &MatrixPointEntry| used.contains(&point.name.as_str());

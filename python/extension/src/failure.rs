@@ -1,10 +1,18 @@
 //! Errors as exceptions: of the name of the Rust error, with the numbers that it carries.
 
+use std::fmt::Debug;
+
 use hammerbeam::{
-    Error, FailureKind, StudyError, drawing::DrawingError, results::StoreError, study_file::FaultReport,
+    Error, FailureKind, InitialStateError, StudyError,
+    attractor::AttractorError,
+    drawing::DrawingError,
+    results::{StoreError, export::ExportError},
+    run::RunError,
 };
 use pyo3::{IntoPyObjectExt, prelude::*, types::PyDict};
 use serde_json::{Value, json};
+
+use crate::numbers;
 
 /// What is raised: the name of a class of `hammerbeam._errors`, the message, its exit code and its numbers.
 struct Raised {
@@ -19,7 +27,7 @@ struct Raised {
 /// The exception of an error.
 pub fn exception(py: Python<'_>, error: Error) -> PyErr {
     let exit_code = error.kind().exit_code();
-    let (class, numbers) = described(&error);
+    let (class, numbers) = (class_of(&error), numbers::of(&error));
     raised(py, Raised { class, message: error.to_string(), exit_code, name: variant(&error), numbers })
 }
 
@@ -45,17 +53,23 @@ pub fn drawing_exception(py: Python<'_>, error: DrawingError) -> PyErr {
                 class: "DrawingError",
                 message: other.to_string(),
                 exit_code: if matches!(other, DrawingError::Interrupted { .. }) { 130 } else { 1 },
-                name: name_of(&format!("{other:?}")),
-                numbers: json!({}),
+                name: name_of(&other),
+                numbers: numbers::of_drawing(&other),
             },
         ),
     }
 }
 
-/// The exception of something else that was given and is not right.
-pub fn bad_input(py: Python<'_>, class: &'static str, message: String) -> PyErr {
+/// The exception of something else that was given and is not right, with its numbers.
+pub fn bad_input(py: Python<'_>, class: &'static str, message: String, numbers: Value) -> PyErr {
     let exit_code = FailureKind::BadInput.exit_code();
-    raised(py, Raised { class, message, exit_code, name: class.to_owned(), numbers: json!({}) })
+    raised(py, Raised { class, message, exit_code, name: class.to_owned(), numbers })
+}
+
+/// The exception of a word that is none of those that are allowed.
+pub fn unknown(py: Python<'_>, what: &str, found: &str, allowed: &[String]) -> PyErr {
+    let message = format!("there is no {what} {found:?}; allowed: {}", allowed.join(", "));
+    bad_input(py, "BadInput", message, json!({ "found": found, "allowed": allowed }))
 }
 
 fn raised(py: Python<'_>, raised: Raised) -> PyErr {
@@ -78,73 +92,59 @@ fn loads<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (value.to_string(),))
 }
 
-/// The class of an error, and its numbers.
-fn described(error: &Error) -> (&'static str, Value) {
+/// The class of an error.
+fn class_of(error: &Error) -> &'static str {
     match error {
-        Error::Study(StudyError::Invalid(report)) => ("StudyError", problems(report)),
-        Error::Study(_) => ("StudyError", json!({})),
-        Error::Store(StoreError::OtherStudy { differences, .. }) => {
-            ("StoreError", json!({ "differences": differences }))
-        }
-        Error::Store(_) => ("StoreError", json!({})),
-        Error::Export(_) => ("ExportError", json!({})),
-        Error::Write(_) => ("WriteError", json!({})),
-        Error::Run(_) => ("RunError", json!({})),
-        Error::Motion(_) => ("AttractorError", json!({})),
-        Error::Initial(_) => ("InitialStateError", json!({})),
-        Error::FallingFrequencies { from_hz, to_hz } => {
-            ("FallingFrequencies", json!({ "from_hz": from_hz, "to_hz": to_hz }))
-        }
-        Error::Coordinate(_) => ("CoordinateError", json!({})),
-        Error::TooLarge(_) => ("SimulationTooLarge", json!({})),
-        Error::Drifts(drift) => ("Drifts", json!({ "held_by_stops": drift.held_by_stops })),
-        Error::FrequencyNotResolved { high_hz, resolved_hz } => {
-            ("FrequencyNotResolved", json!({ "high_hz": high_hz, "resolved_hz": resolved_hz }))
-        }
-        Error::SweepWithoutParts => ("BadInput", json!({})),
-        Error::NoSearch { .. } => ("NoSearch", json!({})),
-        Error::Stopped { source, done } => {
-            let (class, mut numbers) = described(source);
-            numbers["done"] = json!(done);
-            (class, numbers)
-        }
-        Error::Interrupted { done, part_s } => ("Interrupted", json!({ "done": done, "part_s": part_s })),
-        Error::TablesInterrupted => ("Interrupted", json!({})),
-        _ => ("HammerbeamError", json!({})),
+        Error::Study(_) => "StudyError",
+        Error::Store(_) => "StoreError",
+        Error::Export(_) => "ExportError",
+        Error::Write(_) => "WriteError",
+        Error::Run(_) => "RunError",
+        Error::Motion(_) => "AttractorError",
+        Error::Initial(_) => "InitialStateError",
+        Error::FallingFrequencies { .. } => "FallingFrequencies",
+        Error::Coordinate(_) => "CoordinateError",
+        Error::TooLarge(_) => "SimulationTooLarge",
+        Error::Drifts(_) => "Drifts",
+        Error::FrequencyNotResolved { .. } => "FrequencyNotResolved",
+        Error::NoSpecialPoint { .. } | Error::SweepWithoutParts => "BadInput",
+        Error::NoSearch { .. } => "NoSearch",
+        Error::Stopped { source, .. } => class_of(source),
+        Error::Interrupted { .. } | Error::TablesInterrupted => "Interrupted",
+        _ => "HammerbeamError",
     }
-}
-
-/// The faults of a study, as `--json` has them.
-fn problems(report: &FaultReport) -> Value {
-    let one = |problem: &hammerbeam::study_file::Problem| {
-        let position = report.position(problem);
-        json!({
-            "file": report.name,
-            "line": position.map(|(line, _)| line),
-            "column": position.map(|(_, column)| column),
-            "key": problem.key,
-            "message": problem.message,
-            "help": problem.help,
-        })
-    };
-    json!({ "problems": report.problems.iter().map(one).collect::<Vec<_>>() })
 }
 
 /// Name of the innermost variant that an error is made of.
 fn variant(error: &Error) -> String {
     match error {
-        Error::Study(error) => name_of(&format!("{error:?}")),
-        Error::Store(error) => name_of(&format!("{error:?}")),
-        Error::Motion(error) => name_of(&format!("{error:?}")),
-        Error::Initial(error) => name_of(&format!("{error:?}")),
-        Error::Coordinate(error) => name_of(&format!("{error:?}")),
-        Error::TooLarge(error) => name_of(&format!("{error:?}")),
+        Error::Study(StudyError::Setting(error)) => name_of(error),
+        Error::Study(error) => name_of(error),
+        Error::Store(error) | Error::Run(RunError::Store(error)) => name_of(error),
+        Error::Export(ExportError::Store(error)) => name_of(error),
+        Error::Export(ExportError::Write(error)) => name_of(error),
+        Error::Motion(error) => of_attractor(error),
+        Error::Initial(InitialStateError::NotInFront { source, .. }) => of_attractor(source),
+        Error::Initial(InitialStateError::Points(error)) => name_of(error),
+        Error::Initial(InitialStateError::Orbit(error)) => name_of(error),
+        Error::Initial(error) => name_of(error),
+        Error::Coordinate(error) => name_of(error),
+        Error::TooLarge(error) => name_of(error),
         Error::Stopped { source, .. } => variant(source),
-        other => name_of(&format!("{other:?}")),
+        other => name_of(other),
+    }
+}
+
+fn of_attractor(error: &AttractorError) -> String {
+    match error {
+        AttractorError::Motion(error) => name_of(error),
+        AttractorError::General(error) => name_of(error),
+        other => name_of(other),
     }
 }
 
 /// The name in front of the fields of what is shown for debugging.
-fn name_of(debug: &str) -> String {
-    debug.split(|letter: char| !letter.is_alphanumeric()).next().unwrap_or_default().to_owned()
+fn name_of(error: &impl Debug) -> String {
+    let shown = format!("{error:?}");
+    shown.split(|letter: char| !letter.is_alphanumeric()).next().unwrap_or_default().to_owned()
 }

@@ -6,16 +6,19 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `study.rs` | a study and what can be asked of it |
+//! | `study.rs`, `asked.rs` | a study and what can be asked of it; what Python gives, as jobs take it |
+//! | `bin/stubs.rs` | the program that writes the types of all this for Python |
 //! | `matrix.rs` | matrices as files |
 //! | `stored.rs` | a results folder |
 //! | `orbits.rs` | periodic solutions |
 //! | `records.rs` | tables as bytes |
 //! | `observer.rs` | progress, Ctrl-C |
-//! | `failure.rs` | errors as exceptions |
+//! | `failure.rs`, `numbers.rs` | errors as exceptions; what their messages say, as values |
 
+mod asked;
 mod failure;
 mod matrix;
+mod numbers;
 mod observer;
 mod orbits;
 mod records;

@@ -56,9 +56,16 @@ impl NativeOrbits {
         Ok(all_packed(py, &tables))
     }
 
+    /// Some of them, in the order that is given.
+    fn chosen(&self, indices: Vec<usize>) -> PyResult<Self> {
+        let one = |index: usize| self.orbits.get(index).cloned().ok_or_else(no_such_orbit);
+        let orbits = indices.into_iter().map(one).collect::<PyResult<_>>()?;
+        Ok(Self { study: self.study.clone(), orbits })
+    }
+
     /// The motion of one of them over its period.
     fn waveform<'py>(&self, py: Python<'py>, index: usize, samples: usize) -> PyResult<PackedTable<'py>> {
-        let orbit = self.orbits.get(index).ok_or_else(|| PyIndexError::new_err("no such orbit"))?;
+        let orbit = self.orbits.get(index).ok_or_else(no_such_orbit)?;
         let tables = py.detach(|| orbit_tables(&self.study.model, std::slice::from_ref(orbit), samples));
         let [_, waveform] = tables.map_err(|error| exception(py, error))?;
         Ok(packed(py, &waveform))
@@ -66,7 +73,11 @@ impl NativeOrbits {
 
     /// Shooting nodes of one of them.
     fn nodes(&self, index: usize) -> PyResult<Vec<Vec<f64>>> {
-        let orbit = self.orbits.get(index).ok_or_else(|| PyIndexError::new_err("no such orbit"))?;
+        let orbit = self.orbits.get(index).ok_or_else(no_such_orbit)?;
         Ok(orbit.solution.nodes.clone())
     }
+}
+
+fn no_such_orbit() -> PyErr {
+    PyIndexError::new_err("no such orbit")
 }

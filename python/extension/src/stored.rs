@@ -19,9 +19,10 @@ use hammerbeam::{
     },
 };
 use pyo3::prelude::*;
+use serde_json::json;
 
 use crate::{
-    failure::{bad_input, drawing_exception, exception, store_exception},
+    failure::{bad_input, drawing_exception, exception, store_exception, unknown},
     observer::PythonObserver,
     orbits::NativeOrbits,
     records::{PackedTable, all_packed},
@@ -38,6 +39,9 @@ pub struct NativeResults {
     /// `None` when it was closed.
     store: Mutex<Option<Store>>,
 }
+
+/// Names of tables.
+const TABLES: [&str; 7] = ["branches", "events", "ends", "states", "outputs", "varied", "motions"];
 
 /// Which tables are meant.
 fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<ArrayTable>>, StoreError> {
@@ -72,14 +76,16 @@ impl NativeResults {
         }
     }
 
-    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait for it.
+    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait for
+    /// it.
     fn check_open(&self, py: Python<'_>) -> PyResult<()> {
         if py.detach(|| self.store().is_none()) { Err(self.closed(py)) } else { Ok(()) }
     }
 
     fn closed(&self, py: Python<'_>) -> PyErr {
         let message = format!("the results of {} are closed", self.folder.display());
-        bad_input(py, "ClosedResults", message)
+        let folder = self.folder.display().to_string();
+        bad_input(py, "ClosedResults", message, json!({ "folder": folder }))
     }
 }
 
@@ -129,7 +135,7 @@ impl NativeResults {
         let found = self.ask(py, |store| tables(store, name, &branches))?;
         match found {
             Some(tables) => Ok(all_packed(py, &tables)),
-            None => Err(bad_input(py, "BadInput", format!("there is no table {name:?}"))),
+            None => Err(unknown(py, "table", name, &TABLES.map(String::from))),
         }
     }
 
@@ -162,8 +168,8 @@ impl NativeResults {
         self.check_open(py)?;
         let kind = |name: &String| {
             BranchEventKind::of_branches(name).ok_or_else(|| {
-                let known = BranchEventKind::OF_BRANCHES.map(BranchEventKind::name).join(", ");
-                bad_input(py, "BadInput", format!("there is no event {name:?}; allowed: {known}"))
+                let known = BranchEventKind::OF_BRANCHES.map(|kind| kind.name().to_owned());
+                unknown(py, "event", name, &known)
             })
         };
         let events = events.iter().map(kind).collect::<PyResult<_>>()?;
@@ -196,8 +202,7 @@ impl NativeResults {
             kinds.iter().find(|kind| !FigureKind::ALL.iter().any(|known| named(known) == **kind))
         {
             let known: Vec<String> = FigureKind::ALL.iter().map(named).collect();
-            let message = format!("there is no figure {kind:?}; allowed: {}", known.join(", "));
-            return Err(bad_input(py, "BadInput", message));
+            return Err(unknown(py, "figure", kind, &known));
         }
         if !kinds.is_empty() {
             selection.kinds.retain(|kind| kinds.contains(&named(kind)));
@@ -238,15 +243,13 @@ impl NativeResults {
 /// A format by its name.
 fn table_format(py: Python<'_>, name: &str) -> PyResult<TableFormat> {
     let found = TableFormat::ALL.into_iter().find(|format| format.name() == name);
-    found.ok_or_else(|| {
-        bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: csv, json, npz"))
-    })
+    let known = || TableFormat::ALL.map(|format| format.name().to_owned());
+    found.ok_or_else(|| unknown(py, "format", name, &known()))
 }
 
 /// A format of figures by its name.
 fn figure_format(py: Python<'_>, name: &str) -> PyResult<FigureFormat> {
     let found = FigureFormat::ALL.into_iter().find(|format| format.suffix() == name);
-    found.ok_or_else(|| {
-        bad_input(py, "BadInput", format!("there is no format {name:?}; allowed: svg, png, pdf"))
-    })
+    let known = || FigureFormat::ALL.map(|format| format.suffix().to_owned());
+    found.ok_or_else(|| unknown(py, "format", name, &known()))
 }

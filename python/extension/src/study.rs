@@ -6,9 +6,7 @@ use std::{
 };
 
 use hammerbeam::{
-    Error, FrequencySeries, InitialState, JobFolders, JobPart, JobPartError, Quiet, Study, StudyError,
-    StudyFile,
-    attractor::{Effort, Patience},
+    Error, FrequencySeries, Quiet, Study, StudyError, StudyFile,
     basins::{BasinAxis, BasinsRequest, basins_with_parts},
     basins_part,
     check::check,
@@ -24,53 +22,15 @@ use hammerbeam::{
     sweep::{SweepRequest, SweepStarts, sweep_part, sweep_with_parts},
 };
 use pyo3::prelude::*;
-use serde::Serialize;
+use serde_json::json;
 
 use crate::{
+    asked::{Callback, EffortNumbers, ForcedTime, Parts, document, effort, folders, initial, job_part},
     failure::{bad_input, drawing_exception, exception, study_exception},
+    numbers,
     observer::PythonObserver,
     orbits::NativeOrbits,
 };
-
-type Callback = Option<Py<PyAny>>;
-
-fn json(report: &impl Serialize) -> String {
-    serde_json::to_string(report).expect("reports are plain data with text keys")
-}
-
-fn folders<'a>(results: &'a Option<PathBuf>, out: &'a Option<PathBuf>) -> JobFolders<'a> {
-    JobFolders { results: results.as_deref(), out: out.as_deref() }
-}
-
-fn job_part(py: Python<'_>, text: &str) -> PyResult<JobPart> {
-    text.parse().map_err(|error: JobPartError| bad_input(py, "BadInput", error.to_string()))
-}
-
-fn initial(py: Python<'_>, text: &str, study: &Study) -> PyResult<InitialState> {
-    let state = InitialState::parse(text, 2 * study.dof());
-    state.map_err(|error| bad_input(py, "InitialStateError", format!("initial: {error}")))
-}
-
-/// What is spent on the kind of a motion: periods that are skipped, that it has to repeat in, that a period
-/// has at most, and that are averaged over.
-type EffortNumbers = (u64, u64, usize, u64);
-
-/// Of a job by parts: the part to compute, as `2/4`, or the folders that the whole is put together from.
-type Parts = (Option<String>, Vec<PathBuf>);
-
-/// How long a forced motion is, from attributes of these names; the duration [s] outranks the periods.
-#[derive(FromPyObject)]
-struct ForcedTime {
-    frequency_hz: f64,
-    transient: u64,
-    periods: u64,
-    duration_s: Option<f64>,
-    samples: u32,
-}
-
-fn effort((skipped, periods, longest, averaged): EffortNumbers) -> Effort {
-    Effort { patience: Patience { skipped, periods, longest }, averaged, ..Effort::default() }
-}
 
 /// A run without its drawing, or with it.
 fn run(
@@ -90,7 +50,7 @@ fn run(
     });
     store.finish().map_err(Error::from)?;
     report.figures = figures.transpose()?.map(|files| files.names).unwrap_or_default();
-    Ok((json(&report), is_interrupted))
+    Ok((document(&report), is_interrupted))
 }
 
 /// A study with its model.
@@ -166,7 +126,7 @@ impl NativeStudy {
     /// What `check --json` says.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
         let report = check(&self.study, &mut Quiet).map_err(|error| exception(py, error))?;
-        Ok(json(&report))
+        Ok(document(&report))
     }
 
     /// What `modes --json` says.
@@ -206,7 +166,7 @@ impl NativeStudy {
     }
 
     /// A motion in time: of a study with an excitation `(frequency_hz, transient, periods, duration_s,
-    /// samples)`, where a duration counts before periods, of one without `(duration_s, sampling_hz)`.
+    /// samples)`, where a duration counts before periods; of one without `(duration_s, sampling_hz)`.
     fn simulate(
         &self,
         py: Python<'_>,
@@ -218,27 +178,28 @@ impl NativeStudy {
         let (forced, free) = asked;
         let (section_phase, start) = motion;
         let (results, out) = kept_in;
-        let too_long = |error: DurationTooLong| bad_input(py, "SimulationTooLarge", error.to_string());
+        let too_long = |error: DurationTooLong| {
+            bad_input(py, "SimulationTooLarge", error.to_string(), numbers::of_duration(&error))
+        };
         let time = match (forced, free) {
             (_, Some((duration, sampling))) => {
                 SimulationTime::free(duration, sampling, &self.study.model).map_err(too_long)?
             }
-            (Some(asked), None) => {
-                let hz = asked.frequency_hz;
+            (Some((hz, transient, periods, duration, samples)), None) => {
                 let whole = |duration| SimulationTime::periods_in(duration, hz).map_err(too_long);
-                let periods = asked.duration_s.map_or(Ok(asked.periods), whole)?;
-                SimulationTime::periods(hz, asked.transient, periods, asked.samples)
+                let periods = duration.map_or(Ok(periods), whole)?;
+                SimulationTime::periods(hz, transient, periods, samples)
             }
             (None, None) => {
                 let message = "neither periods nor a duration are given".to_owned();
-                return Err(bad_input(py, "BadInput", message));
+                return Err(bad_input(py, "BadInput", message, json!({})));
             }
         };
         let request = SimulationRequest { time, section_phase, initial: initial(py, start, &self.study)? };
         let report = PythonObserver::run(py, callbacks, |observer| {
             simulate(&self.study, &request, folders(&results, &out), observer)
         })?;
-        Ok(json(&report.map_err(|error| exception(py, error))?))
+        Ok(document(&report.map_err(|error| exception(py, error))?))
     }
 
     /// Settled motions over `(from_hz, to_hz, step_hz)`: carried over from a state, or from so many states;
@@ -267,12 +228,12 @@ impl NativeStudy {
         let report = PythonObserver::run(py, callbacks, |observer| match part {
             Some(part) => {
                 let report = sweep_part(&self.study, (&request, part), folders, threads(jobs), observer);
-                report.map(|report| json(&report))
+                report.map(|report| document(&report))
             }
             None => {
                 let asked = (&request, parts.as_slice());
                 let report = sweep_with_parts(&self.study, asked, folders, threads(jobs), observer);
-                report.map(|report| json(&report))
+                report.map(|report| document(&report))
             }
         })?;
         report.map_err(|error| exception(py, error))
@@ -300,7 +261,7 @@ impl NativeStudy {
         let report = PythonObserver::run(py, callbacks, |observer| {
             exponents(&self.study, &request, folders(&results, &out), observer)
         })?;
-        Ok(json(&report.map_err(|error| exception(py, error))?))
+        Ok(document(&report.map_err(|error| exception(py, error))?))
     }
 
     /// Basins over a grid of two coordinates `(name, low, high)`, or a part of them.
@@ -323,12 +284,12 @@ impl NativeStudy {
         let report = PythonObserver::run(py, callbacks, |observer| match part {
             Some(part) => {
                 let report = basins_part(&self.study, (&request, part), folders, threads(jobs), observer);
-                report.map(|report| json(&report))
+                report.map(|report| document(&report))
             }
             None => {
                 let asked = (&request, parts.as_slice());
                 let report = basins_with_parts(&self.study, asked, folders, threads(jobs), observer);
-                report.map(|report| json(&report))
+                report.map(|report| document(&report))
             }
         })?;
         report.map_err(|error| exception(py, error))

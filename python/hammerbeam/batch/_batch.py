@@ -67,9 +67,9 @@ class Batch:
         `StudyError` here. A folder that holds the same batch already is opened.
         """
         if not isinstance(parameters, Parameters):
-            raise BadInput(f"parameters: found {parameters!r}, must be Parameters")
+            raise _check.refused("parameters", parameters, "must be Parameters")
         if task is not None and not isinstance(task, Task):
-            raise BadInput(f"task: found {task!r}, must be a Task")
+            raise _check.refused("task", task, "must be a Task")
         place = _check.folder("folder", folder).absolute()
         if any(path.is_file() for path in (place, *place.parents)):
             raise BadInput(f"folder: {place} is a file, or lies in one; must be a folder")
@@ -104,19 +104,22 @@ class Batch:
 
     def row(self, number: int) -> int:
         """The row of the table, counted from 1, that an item belongs to."""
-        return (number - 1) // self.task.parts + 1
+        return (_check.whole("item", number, 1, len(self)) - 1) // self.task.parts + 1
 
     def part(self, number: int) -> int:
         """Which part of its study an item is, counted from 1."""
-        return (number - 1) % self.task.parts + 1
+        return (_check.whole("item", number, 1, len(self)) - 1) % self.task.parts + 1
 
     def numbers_of(self, row: int) -> range:
         """The items of a row of the table, counted from 1."""
-        return range((row - 1) * self.task.parts + 1, row * self.task.parts + 1)
+        place = _check.whole("row", row, 1, len(self.parameters))
+        return range((place - 1) * self.task.parts + 1, place * self.task.parts + 1)
 
     def whole(self, row: int) -> ItemFolder:
         """The folder of a row's result: its item, or what its parts are put together to."""
-        return self.item(row) if self.task.parts == 1 else ItemFolder.of(self.folder / "merged", row)
+        if self.task.parts == 1:
+            return self.item(row)
+        return ItemFolder.of(self.folder / "merged", _check.whole("row", row, 1, len(self.parameters)))
 
     def statuses(self) -> list[Status]:
         """How far each item is."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from .._errors import BadInput
+from .. import _check
 from .._tables import needed
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ class Dask:
 
     def __init__(self, client: Any) -> None:
         if not all(hasattr(client, name) for name in ("map", "cancel")):
-            raise BadInput(f"client: found {client!r}, must be a distributed.Client")
+            raise _check.refused("client", client, "must be a distributed.Client")
         self.client = client
 
     def compute(self, batch: "Batch", numbers: Sequence[int]) -> None:

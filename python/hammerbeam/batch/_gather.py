@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._errors import BadInput, WriteError
-from .._plot import axes, framed
+from .._look import axes, framed
 from .._results import Results
 from .._tables import Array, frame
 from ._folder import Status, read_json, write_whole
@@ -104,7 +104,7 @@ class Gathered:
             else quantity
         )
         if not isinstance(chosen, str) or chosen not in self.quantities:
-            raise BadInput(f"there is no quantity {chosen!r}; found: {', '.join(self.quantities) or 'none'}")
+            raise _check.unknown("quantity", chosen, self.quantities)
         drawn, values = axes(ax), self.table[chosen]
         varied = [key for key in self.batch.parameters.keys if len(set(self.table[key].tolist())) > 1]
         keys = (varied or list(self.batch.parameters.keys) or ["row"])[:2]

@@ -3,7 +3,9 @@
 import shutil
 import subprocess
 import sys
+import uuid
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +25,9 @@ class HyperQueue:
     Where the command `hq` is there, it submits a file with one entry for each item, `hq submit
     --from-json`. Without it the package `hyperqueue` does; it needs `client`, or finds the server by
     `server_dir` as the command does.
+
+    On Ctrl-C, or an error, tasks that are left are cancelled. Without `hq` those that are computed just then
+    are finished, since the package cannot cancel a job.
 
     * `server_dir`: the folder of the server.
     * `client`: a `hyperqueue.Client`, as from its `LocalCluster`; then the command is not used.
@@ -57,15 +62,20 @@ class HyperQueue:
         entries = logs / "items.json"
         write_whole(entries, json_text([{"item": number} for number in numbers]))
         server = [] if self.server_dir is None else [f"--server-dir={self.server_dir}"]
+        hq = [command, *server, "--output-mode=quiet"]
         submit = ["submit", f"--from-json={entries}", f"--name={batch.folder.name}", f"--cpus={self.cpus}"]
-        files = ["--stdout=none", f"--stderr={logs}/%{{JOB_ID}}-%{{TASK_ID}}.txt:rm-if-finished", "--wait"]
+        files = ["--stdout=none", f"--stderr={logs}/%{{JOB_ID}}-%{{TASK_ID}}.txt:rm-if-finished"]
         task = item_command(batch, self.cpus, "--entry")
-        done = subprocess.run(
-            [command, *server, *submit, *files, *self.options, "--", *task], capture_output=True, text=True
-        )
-        # One is also the answer when tasks failed: then the items say so.
-        if done.returncode != 0 and "submitted" not in done.stdout:
-            raise BadInput(f"hq submit: {(done.stderr or done.stdout).strip()}")
+        with ThreadPoolExecutor(1) as pool:
+            # By another thread: on Ctrl-C, which raises in this one, the number of the job is still wanted.
+            submitted = pool.submit(_said, [*hq, *submit, *files, *self.options, "--", *task])
+            try:
+                # One is also the answer when tasks failed: then the items say so.
+                subprocess.run([*hq, "job", "wait", submitted.result()], capture_output=True)
+            except BaseException:
+                if submitted.exception() is None:
+                    _said([*hq, "job", "cancel", submitted.result()])
+                raise
 
     def _by_package(self, batch: "Batch", numbers: Sequence[int], logs: Path) -> None:
         package, output = needed("hyperqueue", "hyperqueue"), needed("hyperqueue.output", "hyperqueue")
@@ -75,17 +85,37 @@ class HyperQueue:
         except Exception as error:
             place = "" if self.server_dir is None else f" in {self.server_dir}"
             words = str(error).strip().splitlines()
-            raise BadInput(f"there is no HyperQueue server{place}: {words[0] if words else error!r}") from None
+            said = words[0] if words else repr(error)
+            raise BadInput(f"there is no HyperQueue server{place}: {said}") from None
         job = package.Job(name=batch.folder.name, max_fails=None)
+        stop = logs / f"stop-{uuid.uuid4().hex}"
         for number in numbers:
             job.program(
-                item_command(batch, self.cpus, str(number)),
+                ["sh", "-c", _UNLESS, str(stop), *item_command(batch, self.cpus, str(number))],
                 cwd=batch.folder,
                 stdout=None,
                 stderr=output.StdioDef.remove_if_finished(logs / f"%{{JOB_ID}}-{number}.txt"),
                 resources=resources,
             )
-        client.wait_for_jobs([client.submit(job)], raise_on_error=False)
+        try:
+            client.wait_for_jobs([client.submit(job)], raise_on_error=False)
+        except BaseException:
+            # The package cannot cancel a job: its tasks look for this file before they start.
+            stop.touch()
+            raise
+
+
+_UNLESS = 'test -e "$0" || exec "$@"'
+"""Script of a shell: a command, unless a file is there."""
+
+
+def _said(command: Sequence[str]) -> str:
+    """What `hq` answers. In a session of its own, Ctrl-C from a terminal does not reach it."""
+    done = subprocess.run(command, capture_output=True, text=True, start_new_session=True)
+    if done.returncode != 0:
+        words = [word for word in command if not word.startswith("-")][1]
+        raise BadInput(f"hq {words}: {(done.stderr or done.stdout).strip()}")
+    return done.stdout.strip()
 
 
 def item_command(batch: "Batch", jobs: int, *which: str) -> list[str]:

@@ -24,32 +24,29 @@ class Parameters:
 
     def __init__(self, keys: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
         self.keys = tuple(_check.words("keys", keys))
-        self.rows = [tuple(_text(key, value) for key, value in self._paired(row)) for row in rows]
+        given = _check.entries("rows", rows, "must be a list of rows", MOST_ROWS)
+        self.rows = [tuple(_text(key, value) for key, value in self._paired(row)) for row in given]
         if not self.rows:
             raise BadInput("the table of parameters has no row")
-        if len(self.rows) > MOST_ROWS:
-            raise BadInput(
-                f"the table of parameters has {len(self.rows)} rows, at most {MOST_ROWS} are allowed"
-            )
         if len(set(self.keys)) < len(self.keys):
             raise BadInput("two columns of the table of parameters have the same key")
 
     def _paired(self, row: Sequence[Any]) -> Iterable[tuple[str, Any]]:
-        if len(row) != len(self.keys):
-            raise BadInput(
-                f"a row of the table of parameters has {len(row)} values, its columns are {len(self.keys)}"
-            )
-        return zip(self.keys, row, strict=True)
+        values = _check.entries("rows", row, "must have a list of values in each row")
+        if len(values) != len(self.keys):
+            message = f"a row of the table of parameters has {len(values)} values, "
+            numbers = {"found": len(values), "expected": len(self.keys)}
+            raise BadInput(message + f"its columns are {len(self.keys)}", numbers=numbers)
+        return zip(self.keys, values, strict=True)
 
     @classmethod
     def grid(cls, values: Mapping[str, Iterable[Any]]) -> "Parameters":
         """All combinations of values, the last key changing fastest."""
         if not isinstance(values, Mapping):
-            raise BadInput(f"values: found {values!r}, must be a dictionary of lists by keys")
-        for key, column in values.items():
-            if isinstance(column, (str, bytes)) or not isinstance(column, Iterable):
-                raise BadInput(f"{key}: found {column!r}, must be a list of values")
-        return cls(list(values), itertools.product(*(list(column) for column in values.values())))
+            raise _check.refused("values", values, "must be a dictionary of lists by keys")
+        must = "must be a list of values"
+        columns = [_check.entries(str(key), column, must, MOST_ROWS) for key, column in values.items()]
+        return cls(list(values), itertools.product(*columns))
 
     @classmethod
     def latin_hypercube(
@@ -61,10 +58,12 @@ class Parameters:
         with the same version of NumPy; the batch folder keeps the values themselves.
         """
         rows = _check.whole("count", count, 1, MOST_ROWS)
+        if not isinstance(ranges, Mapping):
+            raise _check.refused("ranges", ranges, "must be a dictionary of (LOW, HIGH) by keys")
         random = np.random.default_rng(_check.whole("seed", seed, 0, 2**63 - 1))
         columns = []
         for key, ends in ranges.items():
-            low, high = _range(key, ends)
+            low, high = _check.rising(key, ends)
             part = (random.permutation(rows) + random.random(rows)) / rows
             columns.append((low + (high - low) * part).tolist())
         return cls(list(ranges), zip(*columns, strict=True))
@@ -85,7 +84,7 @@ class Parameters:
     def parse(cls, text: str) -> "Parameters":
         """The same from a text."""
         if not isinstance(text, str):
-            raise BadInput(f"text: found {text!r}, must be a text of comma-separated values")
+            raise _check.refused("text", text, "must be a text of comma-separated values")
         lines = [row for row in csv.reader(StringIO(text), skipinitialspace=True) if row]
         if not lines:
             raise BadInput("the table of parameters is empty; its first line has the keys")
@@ -96,12 +95,13 @@ class Parameters:
 
     def settings(self, row: int) -> dict[str, str]:
         """Values of a row, counted from 0, by keys."""
-        return dict(zip(self.keys, self.rows[row], strict=True))
+        place = _check.whole("row", row, 0, len(self) - 1)
+        return dict(zip(self.keys, self.rows[place], strict=True))
 
     def column(self, key: str) -> "np.ndarray[Any, np.dtype[Any]]":
         """The values of a key: numbers if all are, else texts."""
-        if key not in self.keys:
-            raise BadInput(f"there is no column {key!r}; allowed: {', '.join(self.keys)}")
+        if not isinstance(key, str) or key not in self.keys:
+            raise _check.unknown("column", key, self.keys)
         texts = [row[self.keys.index(key)] for row in self.rows]
         try:
             return np.array([float(text) for text in texts])
@@ -118,14 +118,3 @@ def _text(key: str, value: Any) -> str:
     if not key or not text:
         raise BadInput(f"{key or 'a column without a key'}: found no value in the table of parameters")
     return text
-
-
-def _range(key: str, ends: Any) -> tuple[float, float]:
-    try:
-        low, high = ends
-    except (TypeError, ValueError):
-        raise BadInput(f"{key}: found {ends!r}, must be (LOW, HIGH)") from None
-    low, high = _check.number(key, low), _check.number(key, high)
-    if high <= low:
-        raise BadInput(f"{key}: the range {low}..{high} is empty; LOW must be below HIGH")
-    return low, high

@@ -33,6 +33,11 @@ def slurm_script(
       more items than that a task computes several, one after the other.
     * `options`: lines for Slurm, such as `["--time=01:00:00", "--partition=long"]`.
     """
+    # Imported here: a batch is run by engines, and one of them is this.
+    from ._batch import Batch
+
+    if not isinstance(batch, Batch):
+        raise _check.refused("batch", batch, "must be a Batch")
     threads = _check.whole("cpus", cpus, 1, _check.MOST_JOBS)
     size = -(-len(batch) // _check.whole("tasks", tasks, 1, 4_000_000))
     wanted = sorted({(number - 1) // size for number in batch.missing()})

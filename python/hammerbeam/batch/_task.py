@@ -15,6 +15,7 @@ from .._errors import BadInput
 from .._results import Results
 from .._study import Study
 
+_METHODS = ("run", "simulate", "sweep", "lyapunov", "basins")
 _OWN = ("self", "out", "jobs", "progress", "parts", "part", "results")
 
 
@@ -33,8 +34,10 @@ class Task:
     parts: int = 1
 
     def __post_init__(self) -> None:
-        if self.method not in ("run", "simulate", "sweep", "lyapunov", "basins"):
-            raise BadInput(f"{self.method!r} cannot be computed for many studies")
+        if not isinstance(self.method, str) or self.method not in _METHODS:
+            raise _check.unknown("task", self.method, _METHODS)
+        if not isinstance(self.options, Mapping):
+            raise _check.refused("options", self.options, "must be a dictionary of keyword arguments")
         _check.whole("parts", self.parts, 1, 100_000)
         allowed = inspect.signature(getattr(Study, self.method)).parameters
         plain = {name: _plain(name, value) for name, value in self.options.items()}
@@ -49,7 +52,7 @@ class Task:
     @classmethod
     def run(cls, *, figures: bool = False) -> "Task":
         """Everything that the study asks for."""
-        return cls("run", {"figures": bool(figures)})
+        return cls("run", {"figures": _check.flag("figures", figures)})
 
     @classmethod
     def simulate(cls, frequency_hz: float | None = None, **options: Any) -> "Task":
@@ -72,12 +75,14 @@ class Task:
         for name, axis in (("x", x), ("y", y)):
             if isinstance(axis, str) or not isinstance(axis, Sequence):
                 must = "must be (NAME, LOW, HIGH), as in ('q1', -1e-3, 1e-3)"
-                raise BadInput(f"{name}: found {axis!r}, {must}")
+                raise _check.refused(name, axis, must)
         return cls("basins", {"frequency_hz": frequency_hz, "x": x, "y": y, **options}, parts)
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> "Task":
         """The task that `document` describes."""
+        if not isinstance(document, Mapping) or not {"method", "options", "parts"} <= set(document):
+            raise _check.refused("task", document, "must have method, options and parts")
         return cls(document["method"], document["options"], document["parts"])
 
     def document(self) -> dict[str, Any]:
@@ -127,5 +132,5 @@ def _plain(name: str, value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(name, entry) for entry in value]
     if isinstance(value, float) and not math.isfinite(value):
-        raise BadInput(f"{name}: found {value}, must be a finite number")
+        raise _check.refused(name, value, "must be a finite number")
     return value

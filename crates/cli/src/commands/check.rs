@@ -31,7 +31,7 @@ pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
 
 /// How to damp a mode.
 pub const UNDAMPED_ADVICE: &str =
-    "give `modal_ratio` in [damping], such as 0.01, or a damper in [[structure.damper]]";
+    "give `modal_ratio` in [damping], such as 0.01, or a damper to the structure";
 
 /// The modes without damping while stops are closed, and what that means.
 fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {
@@ -130,6 +130,9 @@ fn beam_text(beam: &BeamTable) -> String {
     for (index, span) in several.iter().enumerate() {
         let length = readable(span.length_m, "m");
         text.push_str(&format!("\nspan         {} of {length}, {}", index + 1, profile(span)));
+    }
+    if !beam.planes.is_one() {
+        text.push_str("\nplanes       2, with points NAME.y and NAME.z");
     }
     for point in &beam.points {
         let (at, mass) = (readable(point.at_m, "m"), readable(point.mass_kg, "kg"));
@@ -325,9 +328,26 @@ fn stop_text(stop: &Stop, excitation: &Excitation) -> String {
             format!("at {point}, riding on {}", support_text(excitation, *support))
         }
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
+        Place::Around { first, second, fixed_to } => {
+            let carrier = match fixed_to {
+                [FixedTo::Space, FixedTo::Space] => "fixed in space".to_owned(),
+                carriers => format!("riding on {}", carriers_text(excitation, *carriers)),
+            };
+            format!("around {first} and {second}, {carrier}")
+        }
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
     format!("\"{}\" {place}: {}", stop.name, law_text(&stop.law))
+}
+
+/// What carries a round hole in its two directions.
+fn carriers_text(excitation: &Excitation, carriers: [FixedTo; 2]) -> String {
+    let of = |carrier| match carrier {
+        FixedTo::Support(support) => support_text(excitation, support),
+        FixedTo::Space => "space".to_owned(),
+    };
+    let [first, second] = carriers.map(of);
+    if first == second { first } else { format!("{first} and {second}") }
 }
 
 /// A law by the words of its description, its values and how it rests.
@@ -342,6 +362,7 @@ fn law_text(law: &StopLaw) -> String {
                 format!(", gaps {} m above and {} m below ({})", gaps[0], gaps[1], word(&gap_measured));
             (" on both sides".to_owned(), rest)
         }
+        StopRest::Around { gap_m } => (" all around".to_owned(), format!(", clearance {} m", digits(gap_m))),
         StopRest::Always => (String::new(), String::new()),
     };
     let values: String = law.in_words().into_iter().map(|(key, value)| value_text(key, value)).collect();

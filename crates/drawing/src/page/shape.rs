@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::{PageLink, PageMesh, PagePlace, PageStop, PageStructure};
 use hammerbeam_motion::LocalElement;
-use hammerbeam_structure::MeshShape;
+use hammerbeam_structure::{MeshShape, Plane};
 use hammerbeam_study::{
     Model, Study, StudyFile,
     file::{FixedTo, MatrixPointEntry, Place, PointPlaceEntry, StructureTable},
@@ -20,7 +20,8 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
         StructureTable::Lumped(lumped) => lumped.masses.get(at as usize).map(|mass| &mass.name),
         StructureTable::Matrices(matrices) => matrices.points.get(at as usize).map(|point| &point.name),
     };
-    let places = model.outline.iter().map(|place| PagePlace {
+    let shown = model.outline.iter().filter(|place| place.plane == Plane::Y);
+    let places = shown.map(|place| PagePlace {
         name: name_at(place.at).cloned().unwrap_or_default(),
         at: place.at,
         shape: place.shape.clone(),
@@ -79,9 +80,13 @@ fn stops(file: &StudyFile, model: &Model) -> Vec<PageStop> {
         let of = |name: &str| {
             element.name == name || element.name.strip_prefix(name).is_some_and(|rest| rest.starts_with(" ("))
         };
+        if element.law.is_across_hole() {
+            continue;
+        }
         let Some(stop) = file.study.stops.iter().find(|stop| of(&stop.name)) else { continue };
         let (name, other, rides) = match &stop.place {
             Place::At { point, fixed_to } => (point, None, riding(*fixed_to)),
+            Place::Around { first, fixed_to: [fixed_to, _], .. } => (first, None, riding(*fixed_to)),
             Place::Between { first, second } => (first, Some(second), None),
         };
         let Some(place) = place(file, model, name) else { continue };
@@ -113,6 +118,9 @@ fn levels(element: &LocalElement, model: &Model, name: &str, other: Option<&Stri
     let along = |k: usize, own: f64| own - carrier.get(k).copied().unwrap_or(0.0);
     let relative = shape(name).into_iter().enumerate().map(|(k, own)| along(k, own));
     let sign = relative.zip(&element.shape).map(|(a, b)| a * b).sum::<f64>().signum();
+    if let Some(hole) = element.law.round_hole() {
+        return vec![(hole.clearance(), true), (-hole.clearance(), false)];
+    }
     let contacts = element.law.contacts().iter();
     contacts.map(|contact| (sign * contact.level, sign * contact.sign > 0.0)).collect()
 }
@@ -126,10 +134,10 @@ fn place(file: &StudyFile, model: &Model, name: &str) -> Option<u32> {
         (StructureTable::Matrices(matrices), _) => {
             matrices.points.iter().position(|point| point.name == name)? as f64
         }
-        (StructureTable::Beam(_), "left") => 0.0,
-        (StructureTable::Beam(beam), "right") => beam.length_m,
-        (StructureTable::Beam(beam), _) => beam.points.iter().find(|point| point.name == name)?.at_m,
+        (StructureTable::Beam(beam), _) => beam.place_of(name)?,
     };
-    let distance = |place: usize| (model.outline[place].at - at).abs();
-    (0..model.outline.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).map(|place| place as u32)
+    let shown: Vec<f64> =
+        model.outline.iter().filter(|place| place.plane == Plane::Y).map(|place| place.at).collect();
+    let distance = |place: usize| (shown[place] - at).abs();
+    (0..shown.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).map(|place| place as u32)
 }

@@ -103,6 +103,7 @@ fn stop_words(stop: &Stop, excitation: &Excitation) -> String {
         }
         Place::At { point, fixed_to: FixedTo::Support(_) } => format!("at {point}, on the moving support"),
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
+        Place::Around { first, second, .. } => format!("around {first} and {second}"),
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
     format!("{} {place}: {}.", stop.name, law_words(&stop.law))
@@ -120,6 +121,7 @@ fn law_words(law: &StopLaw) -> String {
             number(1e3 * gap_below_m),
             counted(gap_measured)
         ),
+        StopRest::Around { gap_m } => format!(" all around, clearance {} mm", number(1e3 * gap_m)),
         StopRest::Always => String::new(),
     };
     format!("{}{values}{rest}", law.description().words.caption)

@@ -60,7 +60,7 @@ pub(super) fn touches_at_nodes(system: &System, solution: &PeriodicSolution, mar
     for (k, node) in solution.nodes.iter().enumerate() {
         let phase = solution.phase + k as f64 * length;
         for (number, element) in system.elements().iter().enumerate() {
-            let [r, speed, _] = system.relative_motion(number, solution.frequency_hz, phase, node);
+            let [r, speed, _] = system.contact_motion(number, solution.frequency_hz, phase, node);
             let touched = element.law.contacts().iter().filter(|contact| (r - contact.level).abs() <= margin);
             speeds.extend(touched.map(|contact| contact.sign * speed).filter(|speed| *speed > 0.0));
         }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
+    drive::Jet,
+    hole,
     run::{ElementStart, Run},
     weights::StepWeights,
 };
@@ -20,10 +22,13 @@ impl ExactIntegrator {
         run.remaining = end - run.time;
         run.start.clear();
         for element in 0..self.laws.len() {
+            let owner = hole::owner(&self.laws, element);
+            let output = self.output_jet(&run.state, element, run.time);
             let start = ElementStart {
-                jet: self.output_jet(&run.state, element, run.time),
-                margin: self.bounds(&run.state, element, end).margin,
-                velocity: self.speed_bound(&run.state, element),
+                jet: self.reading_of(&run.state, element, (run.time, output)),
+                output,
+                margin: self.element_bounds(&run.state, element, (run.time, end)).margin,
+                velocity: self.element_speed(&run.state, owner),
             };
             run.start.push(start);
         }
@@ -113,6 +118,19 @@ impl ExactIntegrator {
         step.length = length;
     }
 
+    /// The force of an element after a time in which displacements go on with their present velocities.
+    fn force_straight_on(&self, run: &Run, element: usize, time: f64) -> f64 {
+        let straight = |e: usize| {
+            let Jet { value, slope, .. } = run.start[e].output;
+            value + slope * time
+        };
+        if self.laws[hole::owner(&self.laws, element)].round_hole().is_none() {
+            return self.laws[element].force(straight(element), 0.0).value;
+        }
+        let ahead = |e: usize| Jet { value: straight(e), ..Jet::default() };
+        hole::force_of(&self.laws, element, ahead).value
+    }
+
     /// First guess of the displacements: the present motion continued.
     ///
     /// `r + r' t + r'' t^2/2 + G f' r' t^3/6` with the forces in `r''`; after a touch the force sets in with
@@ -122,22 +140,22 @@ impl ExactIntegrator {
         self.step.velocity.clear();
         for a in 0..self.step.active.len() {
             let element = self.step.active[a];
-            let law = &self.laws[element];
             let mobility = self.mobility[element][element];
-            let mut jet = run.start[element].jet;
-            let stiffness = mobility * law.pressing_force(jet.value, jet.slope).slope * jet.slope;
+            let outputs = |e: usize| run.start[e].output;
+            let mut jet = run.start[element].output;
+            let stiffness = mobility * hole::force_of(&self.laws, element, outputs).slope * jet.slope;
             for &other in &self.step.active {
-                let start = run.start[other].jet;
-                let force = self.laws[other].pressing_force(start.value, start.slope).value;
-                jet.curvature += self.mobility[element][other] * force;
+                jet.curvature +=
+                    self.mobility[element][other] * hole::force_of(&self.laws, other, outputs).value;
             }
-            let onset = self.closed_contact(run, element).map(|contact| contact.onset_exponent);
+            let owner = hole::owner(&self.laws, element);
+            let onset = self.closed_contact(run, owner).map(|contact| contact.onset_exponent);
             for k in 0..NODES {
                 let t = self.step.node_time(k);
                 let mut guess = jet.value + t * (jet.slope + 0.5 * t * jet.curvature);
                 if let (Grading::Touch, Some(e)) = (self.step.grading(), onset) {
-                    guess += mobility * law.force(jet.value + jet.slope * t, 0.0).value * t * t
-                        / ((e + 1.0) * (e + 2.0));
+                    let force = self.force_straight_on(run, element, t);
+                    guess += mobility * force * t * t / ((e + 1.0) * (e + 2.0));
                 } else {
                     guess += stiffness * t * t * t / 6.0;
                 }

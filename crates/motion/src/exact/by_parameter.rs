@@ -7,6 +7,7 @@
 //!   `a`.
 //! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V -
 //!   level_g`. The gap of a rigid stop that holds the structure moves the particular solution (`held.rs`).
+//! - Clearance of a hole: the same with the normal, `dF = f' (dr - n)`, since `f' n = (df/drho) n`.
 //! - Another constant of a law: `f_p` by the law, as `F/k` for a stiffness (of forces that depend on the
 //!   velocity in `damped_step.rs`).
 //! - A number of a family: differences (`by_family.rs`).
@@ -19,6 +20,7 @@ use super::{
     collocation::NODES,
     drive::Drive,
     force_step::ForceStep,
+    hole,
     output::Output,
     run::Run,
     sensitivity::Sensitivity,
@@ -39,6 +41,11 @@ impl ForceStep {
         for (a, &e) in self.active.iter().enumerate() {
             let values: [f64; NODES] = match parameter {
                 Parameter::ExcitationScale => drive.values_by_scale(e, &outputs[e], span, c),
+                Parameter::OfLaw { element, constant: LawConstant::Gap }
+                    if element == hole::owner(laws, e) && laws[element].round_hole().is_some() =>
+                {
+                    self.normals(laws, a).map(|normal| -normal)
+                }
                 Parameter::OfLaw { element, constant: LawConstant::Gap } if element == e => {
                     std::array::from_fn(|k| -laws[e].level_by_gap(self.displacement[a * NODES + k]))
                 }
@@ -50,9 +57,15 @@ impl ForceStep {
                 Parameter::OfLaw { constant: LawConstant::Gap, .. } => continue,
                 Parameter::OfLaw { element, constant } => {
                     let Some(b) = self.active.iter().position(|&other| other == element) else { return };
-                    let (w, (part, of)) =
-                        (&self.weights.convolution[a * count + b], self.direct(b, constant, laws));
-                    std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * part[j] / of).sum())
+                    let mut values = [0.0; NODES];
+                    for b in b..=b + usize::from(laws[element].round_hole().is_some()) {
+                        let (w, (part, of)) =
+                            (&self.weights.convolution[a * count + b], self.direct(b, constant, laws));
+                        for (k, value) in values.iter_mut().enumerate() {
+                            *value += (0..NODES).map(|j| w[j][k] * part[j] / of).sum::<f64>();
+                        }
+                    }
+                    values
                 }
                 _ => continue,
             };
@@ -73,14 +86,25 @@ impl ForceStep {
         if constant == LawConstant::Gap {
             return;
         }
-        let (part, of) = self.direct(a, constant, laws);
-        let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
-        rows.zip(part).for_each(|(row, part)| row[column] += part / of);
+        for a in a..=a + usize::from(laws[element].round_hole().is_some()) {
+            let (part, of) = self.direct(a, constant, laws);
+            let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
+            rows.zip(part).for_each(|(row, part)| row[column] += part / of);
+        }
+    }
+
+    /// The normal of a hole at the nodes, in the direction of its element that is the a-th active one.
+    fn normals(&self, laws: &[Law], a: usize) -> [f64; NODES] {
+        let first = if laws[self.active[a]].is_across_hole() { a - 1 } else { a };
+        std::array::from_fn(|k| {
+            let [y, z] = [0, 1].map(|part| self.displacement[(first + part) * NODES + k]);
+            laws[self.active[first]].round_hole().map_or(0.0, |hole| hole.force_at([y, z]).normal[a - first])
+        })
     }
 
     /// `f_p` of the a-th active element at the nodes, times the second number.
     fn direct(&self, a: usize, constant: LawConstant, laws: &[Law]) -> ([f64; NODES], f64) {
-        let law = &laws[self.active[a]];
+        let law = &laws[hole::owner(laws, self.active[a])];
         if let Some(value) = law.proportional_to(constant) {
             return (std::array::from_fn(|k| self.force[a * NODES + k]), value);
         }

@@ -25,6 +25,7 @@ use super::{
     collocation::{Grading, NODES},
     event::{Event, Solved},
     flight::{Boundary, Touch, clearance_of},
+    hole,
     run::Run,
     touching::Unresolved,
 };
@@ -112,7 +113,7 @@ impl ExactIntegrator {
         let clearance = |jet| clearance_of(jet, contact.level, contact.sign);
         let speed = clearance(start.jet).slope;
         let is_rounding = speed <= AT_REST * start.velocity;
-        speed > 0.0 && (!is_rounding || clearance(self.jet_with_forces(run, element)).curvature > 0.0)
+        speed > 0.0 && (!is_rounding || clearance(self.element_jet_with_forces(run, element)).curvature > 0.0)
     }
 
     /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as
@@ -122,9 +123,8 @@ impl ExactIntegrator {
         let touch = Touch { element, contact, boundary: Boundary::Presses };
         let mut jet = run.start[element].jet;
         for other in (0..self.laws.len()).filter(|&e| self.acts(run, e)) {
-            let at = run.start[other].jet;
-            jet.curvature +=
-                self.mobility[element][other] * self.laws[other].pressing_force(at.value, at.slope).value;
+            let force = hole::force_of(&self.laws, other, |e| run.start[e].output);
+            jet.curvature += self.mobility[element][other] * force.value;
         }
         let missing = self.distance(jet, touch);
         let elastic = ClearanceBounds { second: 0.0, third: 0.0, margin: run.start[element].margin };
@@ -140,6 +140,9 @@ impl ExactIntegrator {
         self.step.start_anew();
         for element in 0..self.laws.len() {
             if self.acts(run, element) {
+                if self.laws[element].round_hole().is_some() {
+                    self.step.holes.push(self.step.active.len());
+                }
                 self.step.active.push(element);
             }
         }

@@ -10,6 +10,7 @@ use super::{
     collocation::{Grading, NODES},
     drive::Jet,
     flight::{Boundary, Touch, clearance_of},
+    hole,
     polynomial::first_below,
     run::Run,
 };
@@ -213,7 +214,7 @@ impl ExactIntegrator {
         if let Event::Lift(element) = event {
             return self.pressing_at_step_end(run, element);
         }
-        let jet = self.jet_at_step_end(run, event.element());
+        let jet = self.element_jet_at_step_end(run, event.element());
         self.distance_of(run, event, jet)
     }
 
@@ -240,6 +241,9 @@ impl ExactIntegrator {
 
     /// Reads it once for all who ask for it before another step is solved.
     pub(super) fn keep_step_end(&mut self, run: &Run, output: usize) {
+        if self.laws.get(output).is_some_and(|law| law.round_hole().is_some()) {
+            self.keep_step_end(run, output + 1);
+        }
         let jet = self.free_jet_at_step_end(run, output);
         self.step.known_ends.push((output, jet));
     }
@@ -261,12 +265,30 @@ impl ExactIntegrator {
     pub(super) fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
         let mut found = self.free_jet_at_step_end(run, output);
         let own = found;
+        let at = |e: usize| if e == output { own } else { self.free_jet_at_step_end(run, e) };
         for &other in &self.step.active {
-            let at = if other == output { own } else { self.free_jet_at_step_end(run, other) };
-            found.curvature +=
-                self.mobility[output][other] * self.laws[other].pressing_force(at.value, at.slope).value;
+            found.curvature += self.mobility[output][other] * hole::force_of(&self.laws, other, at).value;
         }
         found
+    }
+
+    /// The same of an element: of a hole its reading.
+    pub(super) fn element_jet_at_step_end(&self, run: &Run, element: usize) -> Jet {
+        let own = self.jet_at_step_end(run, element);
+        match self.laws[element].round_hole() {
+            Some(hole) => hole::reading(hole, own, self.jet_at_step_end(run, element + 1)),
+            None => own,
+        }
+    }
+
+    /// The relative displacement of an element at the end of the solved step, of a hole its reading, apart
+    /// from the direct part of the forces.
+    pub(super) fn free_element_jet_at_step_end(&self, run: &Run, element: usize) -> Jet {
+        let own = self.free_jet_at_step_end(run, element);
+        match self.laws[element].round_hole() {
+            Some(hole) => hole::reading(hole, own, self.free_jet_at_step_end(run, element + 1)),
+            None => own,
+        }
     }
 
     /// The first end of a closed contact, or lift of a held stop, within the solved step, and when, other
@@ -301,7 +323,7 @@ impl ExactIntegrator {
         let contact = self.closed_contact(run, event.element())?;
         let of_element = a * NODES..(a + 1) * NODES;
         let mut distance = [0.0; NODES];
-        for (distance, displacement) in distance.iter_mut().zip(&self.step.displacement[of_element.clone()]) {
+        for (distance, displacement) in distance.iter_mut().zip(self.step.nodal_readings(&self.laws, a)) {
             *distance = contact.sign * (displacement - contact.level);
         }
         if let (Event::Part(_), Some(pressure)) = (event, self.laws[event.element()].pressure()) {

@@ -4,6 +4,7 @@ use super::{
     ExactIntegrator, MotionError,
     clearance::{ClearanceBounds, Convex, Look, decide_convex, look},
     drive::Jet,
+    hole::{OutputBounds, reading_bounds},
     run::Run,
 };
 use crate::Law;
@@ -29,6 +30,14 @@ pub(crate) enum Boundary {
     Lifts,
     /// It is closed and comes to a kink of its force, with more penetration or with less.
     Kink { deeper: bool },
+}
+
+/// What an output can reach over a time ahead: bounds on its second and third derivative, and the sum of the
+/// magnitudes of its terms, which bounds it, and is what rounds.
+struct OutputReach {
+    second: f64,
+    third: f64,
+    magnitude: f64,
 }
 
 /// Looks allowed in one flight; about twenty are usual.
@@ -101,8 +110,9 @@ impl ExactIntegrator {
             let parted = run.parted[element];
             let held = self.has_rigid_stops && self.held_place(run, element).is_some();
             let watched = if held { self.watched_output(run, element, Boundary::Lifts) } else { element };
-            let jet = self.output_jet(&run.state, watched, run.time + time);
-            let elastic = self.bounds(&run.state, watched, run.time + horizon);
+            let jet = self.element_jet(&run.state, watched, run.time + time);
+            let span = (run.time + time, run.time + horizon);
+            let elastic = self.element_bounds(&run.state, watched, span);
             for touching in self.watched(element, parted) {
                 let boundary = if held { Boundary::Lifts } else { touching.boundary };
                 let touching = Touch { boundary, ..touching };
@@ -146,7 +156,7 @@ impl ExactIntegrator {
     /// is moved there.
     fn clearance_ahead(&self, run: &mut Run, time: f64, (output, touch): (usize, Touch)) -> Jet {
         self.place(run, time);
-        self.distance(self.output_jet(&run.state, output, run.time + time), touch)
+        self.distance(self.element_jet(&run.state, output, run.time + time), touch)
     }
 
     /// The boundaries of an element without force: of its open contacts, or of the one that has parted.
@@ -215,12 +225,45 @@ impl ExactIntegrator {
         }
     }
 
+    /// Bounds on a clearance of `element`, of a hole on its reading, over a time ahead from the homogeneous
+    /// state now.
+    pub(super) fn element_bounds(
+        &self,
+        state: &[f64],
+        element: usize,
+        (now, until): (f64, f64),
+    ) -> ClearanceBounds {
+        let Some(hole) = self.laws.get(element).and_then(Law::round_hole) else {
+            return self.bounds(state, element, until);
+        };
+        let both = [element, element + 1];
+        let jets = both.map(|output| self.output_jet(state, output, now));
+        let bounds = both.map(|output| {
+            let OutputReach { second, third, magnitude } = self.reach(state, output, until);
+            let resonant = !self.drive.secular.is_empty();
+            let first = if resonant { f64::INFINITY } else { self.speed_bound(state, output) };
+            OutputBounds { value: magnitude, first, second, third, margin: 8.0 * f64::EPSILON * magnitude }
+        });
+        reading_bounds(hole, jets, bounds, until - now)
+    }
+
     /// Bounds on a clearance of `element` until `until`, from the homogeneous state now.
     pub(super) fn bounds(&self, state: &[f64], element: usize, until: f64) -> ClearanceBounds {
-        let output = &self.outputs[element];
+        let OutputReach { second, third, magnitude } = self.reach(state, element, until);
+        // The pressing forces, after the elements, have no level.
+        let law = self.laws.get(element);
+        let levels = law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level);
+        let kinks = law.map_or([None; 2], Law::kinks).into_iter().flatten();
+        let level = levels.chain(kinks).map(f64::abs).fold(0.0, f64::max);
+        ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
+    }
+
+    /// What an output can reach until `until`, from the homogeneous state now.
+    fn reach(&self, state: &[f64], output: usize, until: f64) -> OutputReach {
+        let (index, output) = (output, &self.outputs[output]);
         let n = self.blocks.count();
-        let (mut second, mut third) = self.drive.bounds(element, output, until);
-        let mut magnitude = self.drive.magnitude(element) + self.drive.secular_magnitude(output, until);
+        let (mut second, mut third) = self.drive.bounds(index, output, until);
+        let mut magnitude = self.drive.magnitude(index) + self.drive.secular_magnitude(output, until);
         for i in 0..n {
             let (p, s) = (state[i], state[n + i]);
             let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
@@ -232,12 +275,7 @@ impl ExactIntegrator {
                 magnitude += (output.row[i] * s).abs() * until;
             }
         }
-        // The pressing forces, after the elements, have no level.
-        let law = self.laws.get(element);
-        let levels = law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level);
-        let kinks = law.map_or([None; 2], Law::kinks).into_iter().flatten();
-        let level = levels.chain(kinks).map(f64::abs).fold(0.0, f64::max);
-        ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
+        OutputReach { second, third, magnitude }
     }
 }
 

@@ -82,6 +82,26 @@ impl ExactIntegrator {
     }
 }
 
+/// Where Newton's method comes to a rest of a function of the time of a flight of that duration from near
+/// one, and the value there.
+///
+/// * `at`: the function and its first two derivatives.
+pub(super) fn turn_of(at: impl Fn(f64) -> (f64, f64, f64), near: f64, duration: f64) -> (f64, f64) {
+    let (mut time, mut value) = (near, at(near));
+    for _ in 0..NEWTON {
+        let step = -value.1 / value.2;
+        if !step.is_finite() {
+            break;
+        }
+        time += step;
+        value = at(time);
+        if step.abs() <= 1e-9 * duration {
+            break;
+        }
+    }
+    (time, value.0)
+}
+
 /// A function of the time of a flight: an output or its second derivative.
 pub(super) struct FlightFunction<'a> {
     integrator: &'a ExactIntegrator,
@@ -137,23 +157,6 @@ impl<'a> FlightFunction<'a> {
     pub fn places(&self, excess: f64) -> usize {
         let spacing = if self.bound > 0.0 { (8.0 * excess / self.bound).sqrt() } else { self.flown.duration };
         (self.flown.duration / spacing).ceil().max(1.0) as usize
-    }
-
-    /// Where Newton's method comes to a rest of the function from near one, and the value there.
-    pub fn turn(&self, near: f64) -> (f64, f64) {
-        let (mut time, mut value) = (near, self.at(near));
-        for _ in 0..NEWTON {
-            let step = -value.1 / value.2;
-            if !step.is_finite() {
-                break;
-            }
-            time += step;
-            value = self.at(time);
-            if step.abs() <= 1e-9 * self.flown.duration {
-                break;
-            }
-        }
-        (time, value.0)
     }
 
     /// Function and its first two derivatives at `time` after the start of the flight.

@@ -8,12 +8,13 @@ use super::{
     AtEnd, ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
     flight::{Boundary, Touch, clearance_of},
+    hole,
     impact::MOST_IMPACTS,
     maxima::closed_bits,
     run::Run,
     standstill::Standstill,
 };
-use crate::{Flow, Stretch};
+use crate::{Flow, Law, Stretch};
 
 impl ExactIntegrator {
     /// State at the end of a stretch, from `state` (`[q; q']`, length 2n) at its start.
@@ -135,14 +136,14 @@ impl ExactIntegrator {
     /// it.
     fn presses_at_start(&self, run: &Run, element: usize, contact: usize) -> bool {
         let touch = Touch { element, contact, boundary: Boundary::Presses };
-        let jet = self.output_jet(&run.state, element, 0.0);
+        let jet = self.element_jet(&run.state, element, 0.0);
         !self.laws[element].has_pressure() || self.distance(jet, touch).value < 0.0
     }
 
     /// The contact of an element that is closed at the start of a stretch.
     fn contact_at_start(&self, run: &Run, element: usize, duration: f64) -> Option<usize> {
-        let jet = self.output_jet(&run.state, element, 0.0);
-        let margin = self.bounds(&run.state, element, duration).margin;
+        let jet = self.element_jet(&run.state, element, 0.0);
+        let margin = self.element_bounds(&run.state, element, (0.0, duration)).margin;
         if self.laws[element].rigid().is_some() {
             return None;
         }
@@ -197,7 +198,7 @@ impl ExactIntegrator {
             noted.resize(first + law.contacts().len(), AtEnd::Open);
             if let Some(contact) = run.closed[element].or(run.parted[element]) {
                 let closing =
-                    law.contacts()[contact].sign * self.output_jet(&run.state, element, run.time).slope;
+                    law.contacts()[contact].sign * self.element_jet(&run.state, element, run.time).slope;
                 noted[first + contact] = if closing > 0.0 { AtEnd::Closing } else { AtEnd::Opening };
             }
         }
@@ -210,7 +211,8 @@ impl ExactIntegrator {
 
     /// Whether an element may have a force.
     pub(super) fn acts(&self, run: &Run, element: usize) -> bool {
-        run.closed[element].is_some() || self.laws[element].contacts().is_empty()
+        let owner = hole::owner(&self.laws, element);
+        run.closed[owner].is_some() || self.laws[owner].contacts().is_empty()
     }
 
     /// Notes that a contact without force crosses a boundary.
@@ -241,7 +243,7 @@ impl ExactIntegrator {
     /// Notes that an open contact closes.
     fn strike(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         if self.notes_course {
-            self.course.touch(self.output_jet(&run.state, touch.element, run.time).slope);
+            self.course.touch(self.element_jet(&run.state, touch.element, run.time).slope);
         }
         self.trace_touch(run, touch);
         self.jump_at_onset(run, touch);
@@ -270,6 +272,20 @@ impl ExactIntegrator {
             jet.curvature += o.acceleration_row[i] * x;
         }
         jet
+    }
+
+    /// The relative displacement of an element and its derivatives, of a hole its reading; apart from the
+    /// direct part of forces.
+    pub(super) fn element_jet(&self, state: &[f64], element: usize, time: f64) -> Jet {
+        self.reading_of(state, element, (time, self.output_jet(state, element, time)))
+    }
+
+    /// The same, from the output of the element.
+    pub(super) fn reading_of(&self, state: &[f64], element: usize, (time, own): (f64, Jet)) -> Jet {
+        match self.laws.get(element).and_then(Law::round_hole) {
+            Some(hole) => hole::reading(hole, own, self.output_jet(state, element + 1, time)),
+            None => own,
+        }
     }
 
     pub(super) fn modal_state(&self, run: &Run, time: f64) -> Vec<f64> {
@@ -325,12 +341,12 @@ impl ExactIntegrator {
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * rotation).re);
         }
         for (e, element) in self.system.elements().iter().enumerate() {
-            let jet = self.output_jet(&run.state, e, stretch.duration());
+            let jet = |e: usize| self.output_jet(&run.state, e, stretch.duration());
             // A law that depends on the velocity may jump at the level, where its contact is what counts.
             if self.laws[e].depends_on_velocity() && !self.acts(run, e) {
                 continue;
             }
-            let force = self.laws[e].pressing_force(jet.value, jet.slope).value;
+            let force = hole::force_of(&self.laws, e, jet).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
         if self.holding.is_some() {

@@ -42,6 +42,11 @@ pub(crate) struct ForceStep {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
+    /// Of each direction of a hole the derivative of its force by the displacement in the other one; empty
+    /// where no hole acts.
+    pub cross: Vec<f64>,
+    /// Places among the active elements of the first directions of holes.
+    pub(super) holes: Vec<usize>,
     /// Whether a law of an active element depends on the velocity: then velocities go with the displacements
     /// (`damped_step.rs`).
     pub damped: bool,
@@ -105,6 +110,8 @@ impl ForceStep {
     /// Forgets what was read of the state at the start of the last step.
     pub fn start_anew(&mut self) {
         self.active.clear();
+        self.holes.clear();
+        self.cross.clear();
         self.readings.clear();
         self.known_ends.clear();
     }
@@ -222,6 +229,16 @@ impl ForceStep {
         } else {
             self.lu.solve(&mut self.work, columns);
         }
+        self.turn_into_forces(columns);
+        if let Some((parameter, column)) = column {
+            self.add_direct_part(parameter, laws, (column, columns));
+        }
+        Ok(())
+    }
+
+    /// Multiplies sensitivities of displacements by the derivatives of the forces.
+    fn turn_into_forces(&mut self, columns: usize) {
+        let across = self.across_at_nodes(columns);
         vectorised(
             #[inline(always)]
             || {
@@ -230,10 +247,42 @@ impl ForceStep {
                 }
             },
         );
-        if let Some((parameter, column)) = column {
-            self.add_direct_part(parameter, laws, (column, columns));
+        for (first, added) in across {
+            let rows = &mut self.work[first * NODES * columns..(first + 2) * NODES * columns];
+            rows.iter_mut().zip(added).for_each(|(value, added)| *value += added);
         }
-        Ok(())
+    }
+
+    /// Of each hole the parts of the sensitivities of its forces that come from the other direction.
+    fn across_at_nodes(&self, columns: usize) -> Vec<(usize, Vec<f64>)> {
+        let of_hole = |&first: &usize| {
+            let row = |a: usize, k: usize| &self.work[(a * NODES + k) * columns..][..columns];
+            let mut added = Vec::with_capacity(2 * NODES * columns);
+            for (a, other) in [(first, first + 1), (first + 1, first)] {
+                for k in 0..NODES {
+                    let cross = self.cross[a * NODES + k];
+                    added.extend(row(other, k).iter().map(|value| cross * value));
+                }
+            }
+            (first, added)
+        };
+        self.holes.iter().map(of_hole).collect()
+    }
+
+    /// Whether a round hole acts.
+    pub fn has_holes(&self) -> bool {
+        !self.holes.is_empty()
+    }
+
+    /// Displacements at the nodes of the a-th active element; the readings of a hole, if it is its first
+    /// direction.
+    pub fn nodal_readings(&self, laws: &[Law], a: usize) -> [f64; NODES] {
+        let own = |a: usize, k: usize| self.displacement[a * NODES + k];
+        let hole = laws[self.active[a]].round_hole();
+        std::array::from_fn(|k| match hole {
+            Some(hole) => hole.reading([own(a, k), 0.0, 0.0], [own(a + 1, k), 0.0, 0.0])[0],
+            None => own(a, k),
+        })
     }
 
     /// Takes the sensitivities over the step, once those of its forces are solved for.

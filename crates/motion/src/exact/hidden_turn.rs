@@ -110,7 +110,7 @@ impl ExactIntegrator {
             let at = run.start[element].jet;
             let opens = clearance_of(at, contact.level, contact.sign).slope > 0.0;
             let rests = self.may_be_corner(run, (element, contact), at);
-            let jet = (opens || rests).then(|| self.jet_with_forces(run, element))?;
+            let jet = (opens || rests).then(|| self.element_jet_with_forces(run, element))?;
             let clearance = clearance_of(jet, contact.level, contact.sign);
             let turn = Turn { element, contact, jet, clearance };
             self.allowed_beside(&turn, (opens, rests), (first_node, length))
@@ -120,7 +120,7 @@ impl ExactIntegrator {
             let start = run.start[element];
             let behind = clearance_of(start.jet, contact.level, contact.sign).slope < 0.0;
             let is_slow = start.jet.slope.abs() < SLOW * start.velocity;
-            let jet = (behind && is_slow).then(|| self.jet_with_forces(run, element))?;
+            let jet = (behind && is_slow).then(|| self.element_jet_with_forces(run, element))?;
             let clearance = clearance_of(jet, contact.level, contact.sign);
             self.corner(&Turn { element, contact, jet, clearance })?.resolved_from(length, |_| 0.0)
         });
@@ -133,10 +133,10 @@ impl ExactIntegrator {
         let (length, grading) = (self.step.length, self.step.grading());
         let behind_nodes = (1.0 - grading.map(grading.rule().s[NODES - 1]).0) * length;
         let allowed = self.closed_contacts(run).filter_map(|(element, contact)| {
-            let at = self.free_jet_at_step_end(run, element);
+            let at = self.free_element_jet_at_step_end(run, element);
             let falls = clearance_of(at, contact.level, contact.sign).slope < 0.0;
             let rests = self.may_be_corner(run, (element, contact), at);
-            let jet = (falls || rests).then(|| self.jet_at_step_end(run, element))?;
+            let jet = (falls || rests).then(|| self.element_jet_at_step_end(run, element))?;
             let forwards = clearance_of(jet, contact.level, contact.sign);
             let clearance = Jet { slope: -forwards.slope, ..forwards };
             let turn = Turn { element, contact, jet, clearance };
@@ -149,10 +149,10 @@ impl ExactIntegrator {
     pub(super) fn corner_beyond_end(&self, run: &Run) -> Option<f64> {
         let length = self.step.length;
         let allowed = self.corners(run).filter_map(|(element, contact)| {
-            let at = self.free_jet_at_step_end(run, element);
+            let at = self.free_element_jet_at_step_end(run, element);
             let comes = clearance_of(at, contact.level, contact.sign).slope > 0.0;
             let is_slow = at.slope.abs() < SLOW * run.start[element].velocity;
-            let jet = (comes && is_slow).then(|| self.jet_at_step_end(run, element))?;
+            let jet = (comes && is_slow).then(|| self.element_jet_at_step_end(run, element))?;
             let forwards = clearance_of(jet, contact.level, contact.sign);
             let clearance = Jet { slope: -forwards.slope, ..forwards };
             let corner = self.corner(&Turn { element, contact, jet, clearance })?;

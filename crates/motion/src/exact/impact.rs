@@ -47,7 +47,7 @@
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009),
 //! 85-106 (chatter that ends).
 
-use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, run::Run};
+use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, hole, run::Run};
 
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
@@ -223,10 +223,19 @@ impl ExactIntegrator {
     pub(super) fn jet_from(&self, run: &Run, state: &[f64], output: usize, time: f64) -> Jet {
         let mut jet = self.output_jet(state, output, time);
         for other in (0..self.laws.len()).filter(|&e| self.acts(run, e)) {
-            let at = self.output_jet(state, other, time);
-            jet.curvature +=
-                self.mobility[output][other] * self.laws[other].pressing_force(at.value, at.slope).value;
+            let force = hole::force_of(&self.laws, other, |e| self.output_jet(state, e, time));
+            jet.curvature += self.mobility[output][other] * force.value;
         }
         jet
+    }
+
+    /// The relative displacement of an element and its derivatives, of a hole its reading, with the forces
+    /// that act now.
+    pub(super) fn element_jet_with_forces(&self, run: &Run, element: usize) -> Jet {
+        let own = self.jet_with_forces(run, element);
+        match self.laws[element].round_hole() {
+            Some(hole) => hole::reading(hole, own, self.jet_with_forces(run, element + 1)),
+            None => own,
+        }
     }
 }

@@ -10,6 +10,7 @@ use super::{
     collocation::NODES,
     course::{Course, CourseStep, Passage},
     flight_maximum::Flown,
+    hole,
     run::Run,
     step_maximum::Peaks,
 };
@@ -173,14 +174,14 @@ impl ExactIntegrator {
                     maxima.closed_throughout &= step.closed;
                     maxima.impulse += course.numbers(step.impulses).iter().sum::<f64>();
                     let forces = course.numbers(step.force);
-                    for ((element, law), force) in
-                        course.active(&step).iter().zip(forces.as_chunks::<NODES>().0)
-                    {
+                    let nodal = forces.as_chunks::<NODES>().0;
+                    for (place, (element, law)) in course.active(&step).iter().enumerate() {
                         if !law.contacts().is_empty() {
+                            let force = hole::magnitudes(law, nodal, place);
                             let impulse: f64 =
                                 (0..NODES).map(|j| step.grading.rule().at_end[0][j] * force[j]).sum();
                             maxima.impulse += (impulse * step.length).abs();
-                            observation.forces.note((piece, step), *element, force);
+                            observation.forces.note((piece, step), *element, &force);
                         }
                     }
                     observation.steps.push((piece, step));

@@ -21,6 +21,7 @@
 //!   chatter, stops that stick and lift.
 //! * `held.rs`, `hold.rs`, `structure.rs`: the structure that is left while rigid stops are held; going over
 //!   to it and back.
+//! * `hole.rs`: round holes, whose force turns with the displacement.
 //! * `pressing.rs`: what held stops press with, also while forces act, and where that ends.
 //! * `lu.rs`, `lanes.rs`, `elementary.rs`: small dense equations, loops on vectors, sines and exponentials on
 //!   them.
@@ -80,6 +81,7 @@ mod given_up;
 mod held;
 mod hidden_turn;
 mod hold;
+mod hole;
 mod impact;
 mod kink;
 mod lanes;

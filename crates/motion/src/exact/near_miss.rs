@@ -19,9 +19,10 @@
 use super::{
     ExactIntegrator,
     course::{Course, Passage},
-    flight_maximum::{FlightFunction, Flown},
+    flight_maximum::{FlightFunction, Flown, turn_of},
     valley::{Valley, lowest_valleys},
 };
+use crate::law::RoundHole;
 
 /// Turns within this share of the largest clearance of a flight are closed in.
 const NEAR: f64 = 0.1;
@@ -105,14 +106,14 @@ impl ExactIntegrator {
         let state = course.numbers(valley.step.state);
         let mut time = self.step.node_time(valley.node);
         for _ in 0..POLISHES {
-            let jet = self.jet_in_step(state, valley.element, time);
+            let jet = self.element_jet_in_step(state, valley.element, time);
             let next = (time - jet.slope / jet.curvature).clamp(0.0, valley.step.length);
             if next.is_nan() || next == time {
                 break;
             }
             time = next;
         }
-        let jet = self.jet_in_step(state, valley.element, time);
+        let jet = self.element_jet_in_step(state, valley.element, time);
         let rest = 0.5 * jet.slope * jet.slope / jet.curvature;
         let turn = jet.value - if rest.is_finite() { rest } else { 0.0 };
         let contacts = self.laws[valley.element].contacts().iter();
@@ -122,9 +123,8 @@ impl ExactIntegrator {
     /// Puts the clearance of the highest turn towards each contact in a flight among the smallest ones.
     fn put_turns(&self, flown: &Flown, smallest: &mut [f64; NEAREST]) {
         for (element, law) in self.laws.iter().enumerate().filter(|(_, law)| !law.contacts().is_empty()) {
-            let flight = FlightFunction::new(self, flown, (element, 0));
-            let size = self.flight_bound(flown, (element, 0));
-            let values = flight.on_grid(flight.places(EXCESS * size).min(MOST_PLACES));
+            let flight = FlightReading::new(self, flown, element);
+            let values = flight.on_grid(flight.places().min(MOST_PLACES));
             for contact in law.contacts() {
                 let clearances: Vec<f64> =
                     values.iter().map(|r| contact.sign * (contact.level - r)).collect();
@@ -133,6 +133,72 @@ impl ExactIntegrator {
                 }
             }
         }
+    }
+}
+
+/// What tells of contact in a flight: the relative displacement of an element, or the reading of a hole.
+enum FlightReading<'a> {
+    Output { size: f64, function: FlightFunction<'a> },
+    Hole { hole: &'a RoundHole, size: f64, both: [FlightFunction<'a>; 2] },
+}
+
+impl<'a> FlightReading<'a> {
+    fn new(integrator: &'a ExactIntegrator, flown: &'a Flown<'a>, element: usize) -> Self {
+        let function = |output: usize| FlightFunction::new(integrator, flown, (output, 0));
+        let size = |output: usize| integrator.flight_bound(flown, (output, 0));
+        match integrator.laws[element].round_hole() {
+            Some(hole) => {
+                let size = size(element).hypot(size(element + 1));
+                Self::Hole { hole, size, both: [function(element), function(element + 1)] }
+            }
+            None => Self::Output { size: size(element), function: function(element) },
+        }
+    }
+
+    fn duration(&self) -> f64 {
+        match self {
+            Self::Output { function, .. } => function.duration(),
+            Self::Hole { both: [first, _], .. } => first.duration(),
+        }
+    }
+
+    /// Number of intervals of the grid; the square of a displacement turns twice as often as that does.
+    fn places(&self) -> usize {
+        match self {
+            Self::Output { size, function } => function.places(EXCESS * size),
+            Self::Hole { size, both, .. } => {
+                2 * both.iter().map(|function| function.places(EXCESS * size)).max().unwrap_or(1)
+            }
+        }
+    }
+
+    fn on_grid(&self, count: usize) -> Vec<f64> {
+        match self {
+            Self::Output { function, .. } => function.on_grid(count),
+            Self::Hole { hole, both: [first, second], .. } => {
+                let pairs = first.on_grid(count).into_iter().zip(second.on_grid(count));
+                pairs.map(|(y, z)| hole.reading([y, 0.0, 0.0], [z, 0.0, 0.0])[0]).collect()
+            }
+        }
+    }
+
+    fn at(&self, time: f64) -> (f64, f64, f64) {
+        match self {
+            Self::Output { function, .. } => function.at(time),
+            Self::Hole { hole, both, .. } => {
+                let [y, z] = both.each_ref().map(|function| {
+                    let (value, slope, curvature) = function.at(time);
+                    [value, slope, curvature]
+                });
+                let [value, slope, curvature] = hole.reading(y, z);
+                (value, slope, curvature)
+            }
+        }
+    }
+
+    /// Where Newton's method comes to a turn from near one, and the value there.
+    fn turn(&self, near: f64) -> (f64, f64) {
+        turn_of(|time| self.at(time), near, self.duration())
     }
 }
 
@@ -147,7 +213,7 @@ struct Turn {
 }
 
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
-fn nearest_turn(flight: &FlightFunction, sign: f64, clearances: &[f64]) -> Option<f64> {
+fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64]) -> Option<f64> {
     let width = flight.duration() / (clearances.len() - 1) as f64;
     let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));
     let outer = [0, clearances.len() - 1].into_iter().filter_map(|node| {

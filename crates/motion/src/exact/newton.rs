@@ -117,6 +117,21 @@ impl ForceStep {
             let (force, slope) = (&mut self.force[nodes.clone()], &mut self.slope[nodes.clone()]);
             laws[e].elastic_forces(&self.displacement[nodes], force, slope);
         }
+        for place in 0..self.holes.len() {
+            self.evaluate_hole(laws, self.holes[place]);
+        }
+    }
+
+    /// Forces of a hole whose first direction is the a-th active element, and their derivatives.
+    fn evaluate_hole(&mut self, laws: &[Law], a: usize) {
+        let Some(hole) = laws[self.active[a]].round_hole() else { return };
+        self.cross.resize(self.free.len(), 0.0);
+        for (y, z) in (a * NODES..(a + 1) * NODES).map(|y| (y, y + NODES)) {
+            let force = hole.force_at([self.displacement[y], self.displacement[z]]);
+            [self.force[y], self.force[z]] = force.value;
+            [self.slope[y], self.slope[z]] = force.slopes;
+            [self.cross[y], self.cross[z]] = [force.cross; 2];
+        }
     }
 
     /// `r - r_free - W f(r)`.
@@ -135,6 +150,7 @@ impl ForceStep {
     /// Factorises `I - W f'`.
     pub(super) fn factorise(&mut self) -> Result<(), NotSolved> {
         let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
+        let (holes, cross) = (&self.holes, &self.cross);
         if count == 1 {
             let (convolution, slope) = (&weights.convolution[0], &slope[..NODES]);
             return self
@@ -166,6 +182,18 @@ impl ForceStep {
                 }
             }
             (0..size).for_each(|i| matrix[i * size + i] += 1.0);
+            // The derivative of one direction's force by the displacement in the other.
+            for (first, a) in holes.iter().flat_map(|hole| (0..count).map(move |a| (*hole, a))) {
+                for (b, other) in [(first, first + 1), (first + 1, first)] {
+                    let convolution = &weights.convolution[a * count + other];
+                    for k in 0..NODES {
+                        for j in 0..NODES {
+                            matrix[(a * NODES + k) * size + b * NODES + j] -=
+                                convolution[j][k] * cross[b * NODES + j];
+                        }
+                    }
+                }
+            }
         };
         self.lu.factorise(size, fill).ok_or(NotSolved)
     }

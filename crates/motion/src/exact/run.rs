@@ -47,10 +47,12 @@ pub(crate) struct Run {
 /// What is known of an element at the start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ElementStart {
-    /// Displacement and its derivatives, apart from the direct part of the forces.
+    /// Displacement and its derivatives, apart from the direct part of the forces; of a hole its reading.
     pub jet: Jet,
+    /// The same of the output of the element, which of the directions of a hole is not its reading.
+    pub output: Jet,
     /// Rounding margin of the displacement [m].
     pub margin: f64,
-    /// Largest relative velocity that the state can reach [m/s].
+    /// Largest relative velocity that the state can reach [m/s]; of a hole in any direction.
     pub velocity: f64,
 }

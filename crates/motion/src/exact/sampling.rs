@@ -1,9 +1,10 @@
 //! Reading outputs inside a force step, at any time.
 
 use super::{
-    ExactIntegrator, collocation::NODES, drive::Jet, lanes::vectorised, moments::Moments,
+    ExactIntegrator, collocation::NODES, drive::Jet, hole, lanes::vectorised, moments::Moments,
     recurrence::gauss_sixteen,
 };
+use crate::Law;
 
 /// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to
 /// rounding, and over which no term of the power series is larger than twice the impulse: what cancels is no
@@ -38,6 +39,15 @@ impl ExactIntegrator {
             jet.curvature += self.mobility[output][element] * step.interpolate(&step.force, a, end);
         }
         jet
+    }
+
+    /// The same of an element: of a hole its reading.
+    pub(super) fn element_jet_in_step(&self, state: &[f64], element: usize, time: f64) -> Jet {
+        let own = self.jet_in_step(state, element, time);
+        match self.laws.get(element).and_then(Law::round_hole) {
+            Some(hole) => hole::reading(hole, own, self.jet_in_step(state, element + 1, time)),
+            None => own,
+        }
     }
 
     /// Sixteen times of Gauss from one time in the last solved step to another: how long before the end they
@@ -116,5 +126,14 @@ impl ExactIntegrator {
             jet.curvature += self.mobility[output][element] * step.interpolate(&step.force, a, s);
         }
         jet
+    }
+
+    /// The same of an element: of a hole its reading.
+    pub(super) fn forced_element_jet(&self, state: &[f64], element: usize, time: f64) -> Jet {
+        let own = self.forced_jet(state, element, time);
+        match self.laws.get(element).and_then(Law::round_hole) {
+            Some(hole) => hole::reading(hole, own, self.forced_jet(state, element + 1, time)),
+            None => own,
+        }
     }
 }

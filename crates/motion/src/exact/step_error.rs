@@ -15,10 +15,10 @@
 //! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
 //! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,
 //! which is in resonance with it and resolved no better, the share `((z/4)^n/n!)^2`, each of its own, so that
-//! squares add. What U leaves of a velocity moves the release, up to which the sensitivities follow the force,
-//! so where they are wanted it counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without
-//! damping (`secular.rs`), and what an order is in the column by a parameter, have no part in U. The step is
-//! accepted if
+//! squares add. What U leaves of a velocity moves the release, up to which the sensitivities follow the
+//! force, so where they are wanted it counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode
+//! without damping (`secular.rs`), and what an order is in the column by a parameter, have no part in U. The
+//! step is accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
@@ -38,10 +38,10 @@ use std::{f64::consts::TAU, sync::Arc};
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
-    drive::Order,
+    drive::{Jet, Order},
+    hole,
     run::{ElementStart, Run},
 };
-use crate::{Contact, Force};
 
 /// Share of the velocity that a further column can reach: its scale where its own velocity is smaller.
 const LEAST_SHARE: f64 = 0.01;
@@ -131,6 +131,13 @@ impl ExactIntegrator {
             + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(state, i)).sum::<f64>()
     }
 
+    /// The same of an element: of a hole in any direction.
+    pub(super) fn element_speed(&self, state: &[f64], element: usize) -> f64 {
+        let own = self.speed_bound(state, element);
+        let is_hole = self.laws[element].round_hole().is_some();
+        if is_hole { own.hypot(self.speed_bound(state, element + 1)) } else { own }
+    }
+
     pub(super) fn energy_norm(&self, state: &[f64], block: usize) -> f64 {
         let (p, s) = (state[block], state[self.blocks.count() + block]);
         (self.blocks.stiffness[block] * p * p + s * s).sqrt()
@@ -147,13 +154,16 @@ impl ExactIntegrator {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
             let response = self.response(element);
             let impulse = step.length * response.mobility;
-            let ElementStart { jet, velocity, .. } = run.start[element];
-            let driven = jet.slope.abs() + jet.curvature.abs() * step.length;
+            let ElementStart { output, velocity, .. } = run.start[element];
+            let driven = output.slope.abs() + output.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
             let force = of_nodes(&step.force);
             let tail = impulse * force.highest / velocity;
             let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
+            if step.has_holes() {
+                dual += impulse * step.length * of_nodes(&step.cross).highest;
+            }
             if step.damped {
                 dual += impulse * of_nodes(&step.damping).highest;
             }
@@ -192,7 +202,10 @@ impl ExactIntegrator {
 
     /// The largest slopes of a force over nodes of the solved step.
     fn steepest(&self, nodes: std::ops::Range<usize>) -> Steepest {
-        let (step, stiffness) = (&self.step, largest_magnitude(&self.step.slope[nodes.clone()]));
+        let (step, mut stiffness) = (&self.step, largest_magnitude(&self.step.slope[nodes.clone()]));
+        if step.has_holes() {
+            stiffness += largest_magnitude(&step.cross[nodes.clone()]);
+        }
         let damping = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
         Steepest { stiffness, damping }
     }
@@ -213,8 +226,9 @@ impl ExactIntegrator {
         let (mut p, mut s) = (run.state[block], run.state[n + block]);
         if k > 0.0 {
             for &element in &self.step.active {
-                let (jet, force) = (run.start[element].jet, self.force_at_start(run, element));
-                let rate = force.slope * jet.slope + force.damping * jet.curvature;
+                let outputs = |e: usize| self.output_inside(run, e);
+                let force = hole::force_of(&self.laws, element, outputs);
+                let rate = hole::force_rate(&self.laws, element, outputs);
                 let input = &self.inputs[element];
                 // `-A^-1 B F - A^-2 B F'`.
                 let first = [(input[n + block] + c * input[block]) / k, -input[block]];
@@ -226,16 +240,20 @@ impl ExactIntegrator {
         (k * p * p + s * s).sqrt()
     }
 
-    /// The force of an element with which a step starts, with the slope that it has from there on: a touch is
-    /// located within rounding of its level, as often in front of it, where a stop has none.
-    fn force_at_start(&self, run: &Run, element: usize) -> Force {
-        let ElementStart { jet, margin, .. } = run.start[element];
-        let inside = |contact: Contact| {
-            let penetration = contact.sign * (jet.value - contact.level);
-            contact.level + contact.sign * penetration.max(margin)
+    /// The output of an element at the start of a step, within its contact by the rounding margin: a touch is
+    /// located within rounding of its level, as often in front of it, where a stop has no slope.
+    fn output_inside(&self, run: &Run, element: usize) -> Jet {
+        let output = run.start[element].output;
+        let owner = hole::owner(&self.laws, element);
+        let Some(contact) = self.closed_contact(run, owner) else { return output };
+        let ElementStart { jet, margin, .. } = run.start[owner];
+        let missing = (margin - contact.sign * (jet.value - contact.level)).max(0.0);
+        let value = if self.laws[owner].round_hole().is_some() {
+            output.value * (1.0 + missing / contact.level)
+        } else {
+            output.value + contact.sign * missing
         };
-        let displacement = self.closed_contact(run, element).map_or(jet.value, inside);
-        self.laws[element].pressing_force(displacement, jet.slope)
+        Jet { value, ..output }
     }
 
     pub(super) fn relative_to_bound(&self, errors: Errors) -> f64 {
@@ -304,7 +322,7 @@ impl ExactIntegrator {
     fn relative_rounding(&self, run: &Run, a: usize) -> f64 {
         let element = self.step.active[a];
         let Some(contact) = self.closed_contact(run, element) else { return 0.0 };
-        let nodes = &self.step.displacement[a * NODES..(a + 1) * NODES];
+        let nodes = self.step.nodal_readings(&self.laws, a);
         let depth = nodes.iter().fold(0.0_f64, |depth, r| depth.max((r - contact.level).abs()));
         run.start[element].margin / depth.max(f64::MIN_POSITIVE)
     }

@@ -25,6 +25,7 @@ use super::{
     ExactIntegrator,
     collocation::NODES,
     course::{Course, CourseStep},
+    hole,
 };
 
 /// Force steps that may hold the largest value.
@@ -243,7 +244,7 @@ impl ExactIntegrator {
         let mut time = self.recall_peak(course, peak);
         let mut largest = 0.0_f64;
         for _ in 0..POLISHES {
-            let jet = self.jet_in_step(state, output, time);
+            let jet = self.element_jet_in_step(state, output, time);
             largest = largest.max(magnitude(jet.value));
             let away = -jet.slope / jet.curvature;
             let next = (time + away).clamp(0.0, length);
@@ -282,14 +283,14 @@ impl ExactIntegrator {
             let place = grading.inverse(time / length);
             for (a, &element) in self.step.active.iter().enumerate() {
                 let polynomial = self.step.interpolate(&self.step.force, a, place);
-                let law = &self.laws[element];
-                let jet = if law.depends_on_velocity() {
-                    self.refined_jet(state, element, time)
-                } else {
-                    self.jet_in_step(state, element, time)
-                };
-                exact += self.mobility[response][element]
-                    * (law.pressing_force(jet.value, jet.slope).value - polynomial);
+                let force = hole::force_of(&self.laws, element, |e| {
+                    if self.laws[e].depends_on_velocity() {
+                        self.refined_jet(state, e, time)
+                    } else {
+                        self.jet_in_step(state, e, time)
+                    }
+                });
+                exact += self.mobility[response][element] * (force.value - polynomial);
             }
             exact.abs()
         })

@@ -53,6 +53,7 @@ use super::{
     event::Event,
     flight::{Boundary, Touch},
     force_bound::ForceBound,
+    hole::{OutputBounds, farthest, reading_bounds},
     run::Run,
 };
 
@@ -253,6 +254,8 @@ struct Search<'a> {
     is_closed: bool,
     forced: &'a Forced,
     direct: Direct,
+    /// Of the second direction of a hole.
+    direct_across: Option<Direct>,
     /// End of the search, counted from the start of the step [s].
     until: f64,
     /// Time of the last look, and the homogeneous state then.
@@ -274,11 +277,24 @@ impl<'a> Search<'a> {
             Sought::Closed(touch) => (touch, true),
         };
         let direct = Direct::new(integrator, forced, touch.element);
+        let is_hole = integrator.laws[touch.element].round_hole().is_some();
+        let direct_across = is_hole.then(|| Direct::new(integrator, forced, touch.element + 1));
         let mut state = run.state.clone();
         if from > 0.0 {
             integrator.carry_in_step(&mut state, 0.0, from);
         }
-        Self { integrator, touch, is_closed, forced, direct, until, time: from, state, looks: 0 }
+        Self {
+            integrator,
+            touch,
+            is_closed,
+            forced,
+            direct,
+            direct_across,
+            until,
+            time: from,
+            state,
+            looks: 0,
+        }
     }
 
     fn run(mut self) -> Found {
@@ -324,7 +340,7 @@ impl<'a> Search<'a> {
         let (mut free, mut window) = (0.0_f64, remaining);
         for _ in 0..WINDOWS {
             let bounds = self.bounds(window);
-            let cautious = self.cautious(clearance);
+            let cautious = self.cautious(clearance, window);
             match look(cautious, bounds) {
                 Look::Contact => return (0.0, true),
                 Look::FreeFor(step) => free = free.max(step.min(window)),
@@ -357,7 +373,7 @@ impl<'a> Search<'a> {
 
     /// What falls to zero at the boundary, in the step from the homogeneous state at `time`.
     fn clearance(&self, state: &[f64], time: f64) -> Jet {
-        let jet = self.integrator.forced_jet(state, self.touch.element, time);
+        let jet = self.integrator.forced_element_jet(state, self.touch.element, time);
         let distance = self.integrator.distance(jet, self.touch);
         if self.is_closed && self.touch.boundary == Boundary::Presses {
             return Jet { value: -distance.value, slope: -distance.slope, ..distance };
@@ -367,24 +383,57 @@ impl<'a> Search<'a> {
 
     /// The lowest derivatives with the jumps of the forces: `r''` may be lower by J, and so the rate of a
     /// pressure by J times its part of the velocity.
-    fn cautious(&self, clearance: Jet) -> Jet {
+    fn cautious(&self, clearance: Jet, window: f64) -> Jet {
         match self.integrator.laws[self.touch.element].pressure() {
             Some(pressure) if self.touch.boundary == Boundary::Presses => {
                 Jet { slope: clearance.slope - pressure.velocity * self.direct.jump, ..clearance }
             }
-            _ => Jet { curvature: clearance.curvature - self.direct.jump, ..clearance },
+            _ => Jet { curvature: clearance.curvature - self.jump(window), ..clearance },
         }
+    }
+
+    /// J over a window from the last look; of the reading of a hole, `P J/c` with the largest distance P from
+    /// its axis.
+    fn jump(&self, window: f64) -> f64 {
+        match (self.direct_across, self.integrator.laws[self.touch.element].round_hole()) {
+            (Some(across), Some(hole)) => {
+                let (now, bounds) = self.hole_bounds(across, window);
+                farthest(now, bounds, window) * self.direct.jump.hypot(across.jump) / hole.clearance()
+            }
+            _ => self.direct.jump,
+        }
+    }
+
+    /// The outputs of a hole now, and bounds on them over a window from the last look.
+    fn hole_bounds(&self, across: Direct, window: f64) -> ([Jet; 2], [OutputBounds; 2]) {
+        let (it, element) = (self.integrator, self.touch.element);
+        let bounds = [(element, self.direct), (element + 1, across)].map(|(output, direct)| {
+            let ClearanceBounds { second, third, margin } = self.output_bounds(output, direct, window);
+            OutputBounds { value: f64::INFINITY, first: f64::INFINITY, second, third, margin }
+        });
+        ([0, 1].map(|k| it.forced_jet(&self.state, element + k, self.time)), bounds)
     }
 
     /// Bounds over a window from the last look.
     fn bounds(&self, window: f64) -> ClearanceBounds {
         let (it, element) = (self.integrator, self.touch.element);
+        let (Some(across), Some(hole)) = (self.direct_across, it.laws[element].round_hole()) else {
+            let bounds = self.output_bounds(element, self.direct, window);
+            return it.boundary_bounds(bounds, &self.state, self.touch);
+        };
+        let (now, bounds) = self.hole_bounds(across, window);
+        reading_bounds(hole, now, bounds, window)
+    }
+
+    /// Bounds on an output over a window from the last look.
+    fn output_bounds(&self, element: usize, direct: Direct, window: f64) -> ClearanceBounds {
+        let it = self.integrator;
         let (output, until) = (&it.outputs[element], it.step.start + self.time + window);
         let vibration: Vec<f64> =
             self.state.iter().zip(&self.forced.rest).map(|(x, rest)| x - rest).collect();
         let mut bounds = it.bounds(&vibration, element, until);
-        bounds.second += self.direct.second;
-        bounds.third += self.direct.third;
+        bounds.second += direct.second;
+        bounds.third += direct.third;
         let mut margin = it.bounds(&self.state, element, until).margin / (8.0 * f64::EPSILON);
         for (i, gain) in self.forced.gain.iter().enumerate() {
             bounds.second += output.second_bound[i] * gain * window;
@@ -394,6 +443,6 @@ impl<'a> Search<'a> {
             margin += (output.value_bound[i] + rigid) * gain * window;
         }
         bounds.margin = margin * f64::EPSILON * (8 + self.looks) as f64;
-        it.boundary_bounds(bounds, &self.state, self.touch)
+        bounds
     }
 }

@@ -5,6 +5,7 @@ use super::{
     collocation::{Grading, NODES},
     flight::Touch,
     flight_maximum::Flown,
+    hole,
     panels::MotionSpan,
     run::Run,
     trace::{Jump, Touchdown, Tracing},
@@ -73,7 +74,7 @@ impl ExactIntegrator {
     pub(super) fn trace_touch(&mut self, run: &Run, touch: Touch) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        let velocity = self.output_jet(&run.state, touch.element, run.time).slope;
+        let velocity = self.element_jet(&run.state, touch.element, run.time).slope;
         let state = self.modal_state(run, run.time);
         tracing.begin(touch.element, touch.contact, Some(Touchdown { time: run.time, velocity, state }));
         self.tracing = Some(tracing);
@@ -96,7 +97,8 @@ impl ExactIntegrator {
             let (impulse, energy_lost) = self.work_of(run, a);
             piece.impulse += impulse.abs();
             piece.energy_lost += energy_lost;
-            let force = &self.step.force[a * NODES..(a + 1) * NODES];
+            let force = hole::magnitudes(&self.laws[element], self.step.force.as_chunks().0, a);
+            let force: &[f64; NODES] = &force;
             piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
         }
         if !run.stuck.is_empty() {
@@ -111,8 +113,22 @@ impl ExactIntegrator {
         self.tracing = Some(tracing);
     }
 
-    /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
+    /// Impulse of the force of the a-th active element in the solved step, and the energy that it took; of a
+    /// hole those of its magnitude, and of both directions.
     fn work_of(&self, run: &Run, a: usize) -> (f64, f64) {
+        let law = &self.laws[self.step.active[a]];
+        let (impulse, energy) = self.work_along(run, a);
+        if law.round_hole().is_none() {
+            return (impulse, energy);
+        }
+        let force: [f64; NODES] = hole::magnitudes(law, self.step.force.as_chunks().0, a);
+        let weights = &self.step.grading().rule().at_end[0];
+        let impulse: f64 = weights.iter().zip(force).map(|(weight, force)| weight * force).sum();
+        (impulse * self.step.length, energy + self.work_along(run, a + 1).1)
+    }
+
+    /// The same along the output of that element.
+    fn work_along(&self, run: &Run, a: usize) -> (f64, f64) {
         let (step, rule) = (&self.step, self.step.grading().rule());
         let force = &step.force[a * NODES..(a + 1) * NODES];
         let velocity = self.velocity_nodes(run, step.active[a]);
@@ -142,10 +158,8 @@ impl ExactIntegrator {
 
     /// Forces of the elements that act, from the homogeneous block state at a time.
     pub(super) fn forces_of(&self, run: &Run, state: &[f64], time: f64) -> Vec<f64> {
-        let force = |element: usize| {
-            let jet = self.output_jet(state, element, time);
-            self.laws[element].pressing_force(jet.value, jet.slope).value
-        };
+        let force =
+            |element: usize| hole::force_of(&self.laws, element, |e| self.output_jet(state, e, time)).value;
         let pressing = self.pressing_forces(run, state, time).into_iter().enumerate();
         pressing
             .map(|(element, held)| if self.acts(run, element) { force(element) } else { 0.0 - held })

@@ -3,6 +3,7 @@
 use super::{
     collocation::NODES,
     course::{Course, CourseStep, Passage},
+    hole,
 };
 
 /// A node of a force step that is pressed less than its neighbours.
@@ -42,7 +43,8 @@ pub(super) fn lowest_valleys(course: &Course, element: usize, most: usize) -> Ve
             (earlier, middle) = (f64::NAN, None);
             continue;
         };
-        let forces = &course.numbers(step.force).as_chunks::<NODES>().0[place];
+        let law = &course.active(step)[place].1;
+        let forces = hole::magnitudes(law, course.numbers(step.force).as_chunks::<NODES>().0, place);
         for (node, force) in forces.iter().map(|force| force.abs()).enumerate() {
             if let Some(middle) = middle.filter(|middle| earlier >= middle.force && middle.force < force)
                 && !valleys.iter().any(|known| known.is(&middle))

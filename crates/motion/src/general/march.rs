@@ -11,7 +11,6 @@ use faer::Mat;
 use super::{
     Counts, FieldFlow, GeneralError, GeneralSettings, VectorField,
     dense::Dense,
-    first_step::{doubling_time, first_step, negligible},
     stepper::Stepper,
     switching::{Region, Verdict},
     watch::{Accepted, Place, Watcher},
@@ -40,8 +39,6 @@ pub(super) struct March<'a, F> {
     /// error does not count.
     restart: f64,
     negligible: f64,
-    /// Length and error of the last step from there that was refused.
-    refused: Option<(f64, f64)>,
     failed: bool,
     unmoved: usize,
     pub(super) counts: Counts,
@@ -77,7 +74,6 @@ impl<'a, F: VectorField> March<'a, F> {
             finest,
             restart: start,
             negligible,
-            refused: None,
             failed: false,
             unmoved: 0,
             counts,
@@ -157,20 +153,9 @@ impl<'a, F: VectorField> March<'a, F> {
     ///
     /// Behind a boundary what was zero before may grow like `t^1.5`, and a step from its zero has the same
     /// relative error however short it is. What grows within `tolerance^(2/3)` of the last smooth step is
-    /// below the tolerance of what that step brings. But what is smooth on one side may change within a
-    /// hundred-thousandth of that on the other, as in a flight and a short contact behind it. So where a
-    /// shorter step has a smaller error it is taken, down to the tolerance times the smooth step.
+    /// below the tolerance of what that step brings.
     fn good_enough(&self, step: f64, error: f64) -> bool {
-        let is_negligible = || {
-            let least = self.negligible * self.settings.tolerance.cbrt();
-            step <= self.negligible && (step <= least || !self.shorter_is_better(step, error))
-        };
-        error <= 1.0 || error.is_finite() && self.time == self.restart && is_negligible()
-    }
-
-    /// Whether the error has fallen with the step since the last refusal, or is not known yet to stay.
-    fn shorter_is_better(&self, step: f64, error: f64) -> bool {
-        self.refused.is_none_or(|(longer, before)| error < before * (step / longer).sqrt())
+        error <= 1.0 || error.is_finite() && self.time == self.restart && step <= self.negligible
     }
 
     /// Time that rounding does not resolve, or in which crossings are not told apart.
@@ -197,7 +182,6 @@ impl<'a, F: VectorField> March<'a, F> {
             false => (0.9 * error.powf(-0.125)).max(0.2),
         };
         self.step = factor * step;
-        self.refused = (self.time == self.restart).then_some((step, error));
         self.failed = true;
         self.counts.rejected += 1;
     }
@@ -268,7 +252,6 @@ impl<'a, F: VectorField> March<'a, F> {
         self.stepper.jump(self.field, self.time, (&self.region.inside, &before));
         self.step = first_step.unwrap_or(self.step);
         self.restart = self.time;
-        self.refused = None;
         self.unmoved += 1;
         self.counts.crossings += 1;
         self.stepper.start(self.field, self.time, &self.region.inside);
@@ -303,4 +286,26 @@ impl<'a, F: VectorField> March<'a, F> {
         };
         watcher.step(self.field, &accepted);
     }
+}
+
+fn negligible(smooth_step: f64, settings: &GeneralSettings) -> f64 {
+    smooth_step * settings.tolerance.powf(2.0 / 3.0)
+}
+
+/// Shortest first step, in parts of the stretch: a velocity that is rounding alone, where the motion turns,
+/// doubles in no time. A step that is too long is done again.
+const SHORTEST_FIRST: f64 = 1e-6;
+
+/// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.
+fn first_step(field: &impl VectorField, stepper: &Stepper, duration: f64) -> f64 {
+    (0.01 * doubling_time(field, stepper)).min(0.1 * duration).max(SHORTEST_FIRST * duration)
+}
+
+/// The shortest time in which a part of the state would double; infinite at rest.
+fn doubling_time(field: &impl VectorField, stepper: &Stepper) -> f64 {
+    let part = stepper.state().len() / field.parts();
+    let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let parts = stepper.state().chunks_exact(part).zip(stepper.slope(0).chunks_exact(part));
+    let times = parts.map(|(value, slope)| norm(value) / norm(slope)).filter(|&time| time > 0.0);
+    times.fold(f64::INFINITY, f64::min)
 }

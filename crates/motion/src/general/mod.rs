@@ -27,7 +27,6 @@ mod dense;
 mod dip;
 mod error;
 mod field;
-mod first_step;
 mod march;
 mod observe;
 mod resting;

@@ -244,16 +244,13 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// Value and velocity of an output.
+    /// Value and velocity of an output; of a hole its reading and its rate.
     fn read(&self, field: &SystemField<'_>, output: Output, phase: f64, state: &[f64]) -> [f64; 2] {
-        let (shape, ratios) = match output {
-            Output::Response => (self.shape, self.support_ratios),
-            Output::Element(e) => {
-                let element = &field.system.elements()[e];
-                (element.shape.as_slice(), element.support_ratios.as_slice())
-            }
-        };
+        let (shape, ratios) = (self.shape, self.support_ratios);
         let (q, v) = state.split_at(shape.len());
+        if let Output::Element(e) = output {
+            return field.reading(e, (q, v), phase);
+        }
         let [u, velocity, _] = field.carried(ratios, phase);
         [dot(shape, q) + u, dot(shape, v) + velocity]
     }
@@ -322,6 +319,11 @@ impl<'a> Observer<'a> {
             flags = rest;
             if inside.is_empty() {
                 return 0.0;
+            }
+            if element.law.round_hole().is_some() {
+                let (q, _) = at.state.split_at(element.shape.len());
+                let force = field.hole_force(e, q, at.time, inside);
+                return force.map_or(0.0, |force| force.value[0].hypot(force.value[1]));
             }
             if element.law.rigid().is_some() {
                 return pressing.get(e).copied().unwrap_or(0.0).max(0.0);

@@ -11,6 +11,9 @@
 //! A law that depends on the velocity does so on `r' = phi_e . v + s_e . u'`, where `u'` at a fixed phase is
 //! proportional to f: `d(u')/df = u'/f`.
 //!
+//! A hole has the force of `law/round_hole.rs`, with derivatives by both displacements, and its reading takes
+//! the place of r.
+//!
 //! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a
 //! law that depends on the velocity. In contact a law is continued below its level by its tangent there; out
 //! of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes earlier by
@@ -28,7 +31,7 @@ use faer::c64;
 use region::force_in_region;
 
 use super::{Point, rigid::RigidStops};
-use crate::{Law, LocalElement, ModalLoad, System};
+use crate::{Law, LocalElement, ModalLoad, System, law::HoleForce};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
@@ -46,6 +49,9 @@ pub(super) struct SystemField<'a> {
     supports: Vec<Vec<c64>>,
     /// `df_e/dr` and `df_e/dr'` at the last point.
     pub(super) slopes: Vec<(f64, f64)>,
+    /// Of the first direction of each hole the derivative of its force by the other displacement, at the last
+    /// point.
+    cross: Vec<f64>,
     /// The laws, with the speeds of impact that they remember.
     pub(super) laws: Vec<Law>,
     /// `df_e/dv` by the remembered speed v at the last point, and the sensitivities of v.
@@ -78,6 +84,7 @@ impl<'a> SystemField<'a> {
             switches: system.elements().iter().map(switches_of).sum(),
             length: 1e-3 * shortest_length(system, frequency_hz),
             slopes: vec![(0.0, 0.0); system.elements().len()],
+            cross: vec![0.0; system.elements().len()],
             laws: system.elements().iter().map(|element| element.law.clone()).collect(),
             impacts: vec![(0.0, Vec::new()); system.elements().len()],
             rigid: RigidStops::of(system),
@@ -109,10 +116,13 @@ impl<'a> SystemField<'a> {
     pub(super) fn add_forces_in_region(&self, at: Point<'_>, rate: &mut [f64]) {
         let (q, v) = at.state.split_at(self.system.dof());
         let mut flags = at.inside;
-        for (law, element) in self.laws.iter().zip(self.system.elements()) {
+        for (e, (law, element)) in self.laws.iter().zip(self.system.elements()).enumerate() {
             let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
-            if law.rigid().is_none() {
+            if let Some(force) = self.hole_force(e, q, at.time, inside) {
+                add_scaled(rate, force.value[0], &element.shape);
+                add_scaled(rate, force.value[1], &self.system.elements()[e + 1].shape);
+            } else if law.rigid().is_none() {
                 let r = self.relative_displacement(element, q, at.time);
                 let speed = self.relative_velocity(element, v, at.time);
                 add_scaled(rate, force_in_region(law, (r, speed), inside).value, &element.shape);
@@ -175,17 +185,66 @@ impl<'a> SystemField<'a> {
         dot(&element.shape, q) + self.carried(&element.support_ratios, phase)[0]
     }
 
+    /// Relative displacement and velocity of an element; of a hole its reading and its rate.
+    pub(super) fn reading(&self, e: usize, (q, v): (&[f64], &[f64]), phase: f64) -> [f64; 2] {
+        let own = |e: usize| {
+            let element = &self.system.elements()[e];
+            [self.relative_displacement(element, q, phase), self.relative_velocity(element, v, phase), 0.0]
+        };
+        match self.laws[e].round_hole() {
+            Some(hole) => {
+                let [value, rate, _] = hole.reading(own(e), own(e + 1));
+                [value, rate]
+            }
+            None => [own(e)[0], own(e)[1]],
+        }
+    }
+
     fn relative_velocity(&self, element: &LocalElement, v: &[f64], phase: f64) -> f64 {
         dot(&element.shape, v) + self.carried(&element.support_ratios, phase)[1]
+    }
+
+    /// The force of a hole that is held closed or open, from its place among the elements.
+    pub(super) fn hole_force(
+        &self,
+        first: usize,
+        q: &[f64],
+        phase: f64,
+        inside: &[bool],
+    ) -> Option<HoleForce> {
+        let hole = self.laws[first].round_hole().filter(|_| inside.contains(&true))?;
+        let elements = self.system.elements();
+        Some(
+            hole.continued_force_at(
+                [0, 1].map(|k| self.relative_displacement(&elements[first + k], q, phase)),
+            ),
+        )
+    }
+
+    /// Adds the forces of a hole in both directions, and keeps their derivatives.
+    fn add_hole_force(&mut self, first: usize, (q, phase, inside): (&[f64], f64, &[bool]), rate: &mut [f64]) {
+        let force = self.hole_force(first, q, phase, inside);
+        for (k, element) in self.system.elements()[first..first + 2].iter().enumerate() {
+            self.slopes[first + k] = (force.map_or(0.0, |force| force.slopes[k]), 0.0);
+            add_scaled(rate, self.period * force.map_or(0.0, |force| force.value[k]), &element.shape);
+        }
+        self.cross[first] = force.map_or(0.0, |force| force.cross);
     }
 
     fn add_local_forces(&mut self, at: Point<'_>, rate: &mut [f64]) {
         let (q, v) = at.state.split_at(self.system.dof());
         let mut flags = at.inside;
         for (e, element) in self.system.elements().iter().enumerate() {
-            let r = self.relative_displacement(element, q, at.time);
             let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
+            if element.law.is_across_hole() {
+                continue;
+            }
+            if element.law.round_hole().is_some() {
+                self.add_hole_force(e, (q, at.time, inside), rate);
+                continue;
+            }
+            let r = self.relative_displacement(element, q, at.time);
             let damped = self.laws[e].depends_on_velocity();
             let speed = if damped { self.relative_velocity(element, v, at.time) } else { 0.0 };
             let force = force_in_region(&self.laws[e], (r, speed), inside);

@@ -103,6 +103,8 @@ pub struct LawKey {
     pub kind: LawKeyKind,
     /// How its value is put into words.
     pub phrase: LawPhrase,
+    /// What it is, for the page of keys.
+    pub meaning: &'static str,
     /// The constant of the law that it is, if it can vary by exact derivatives.
     pub varies: Option<VariesAs>,
 }
@@ -240,7 +242,7 @@ impl LawKey {
     #[must_use]
     pub const fn number(name: &'static str, symbol: &'static str, quantity: Quantity) -> Self {
         let kind = LawKeyKind::Number { quantity, default: None };
-        Self { name, field: name, symbol, kind, phrase: LawPhrase::Value, varies: None }
+        Self { name, field: name, symbol, kind, phrase: LawPhrase::Value, meaning: "", varies: None }
     }
 
     /// The constant of a Hertz contact.
@@ -249,7 +251,15 @@ impl LawKey {
         let varies = Some(VariesAs::Always(LawConstant::Stiffness));
         let kind = LawKeyKind::HertzStiffness;
         let (name, field) = ("stiffness_n_m15", "stiffness");
-        Self { name, field, symbol: "k", kind, phrase: LawPhrase::Value, varies }
+        let meaning = "constant k of a Hertz contact";
+        Self { name, field, symbol: "k", kind, phrase: LawPhrase::Value, meaning, varies }
+    }
+
+    /// The same with a sentence on what it is.
+    #[must_use]
+    pub const fn meaning(mut self, meaning: &'static str) -> Self {
+        self.meaning = meaning;
+        self
     }
 
     /// The same with another phrase.

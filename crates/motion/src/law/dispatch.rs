@@ -1,6 +1,8 @@
 //! What is asked of a law is asked of the one that it is.
 
-use super::{Contact, Force, ForceLaw, ForcePoint, Law, LawConstant, LawError, Pressure, RigidStop};
+use super::{
+    Contact, Force, ForceLaw, ForcePoint, Law, LawConstant, LawError, Pressure, RigidStop, RoundHole,
+};
 
 impl Law {
     /// Force on the structure along `r` at the relative displacement `r` [m] and the relative velocity `r'`
@@ -31,6 +33,42 @@ impl Law {
     #[must_use]
     pub fn rigid(&self) -> Option<&RigidStop> {
         if let Self::Rigid(law) = self { Some(law) } else { None }
+    }
+
+    /// The round hole with this law along its radius, and its gap as clearance.
+    ///
+    /// # Errors
+    /// [`LawError::NotForHole`] unless it is a Hertz contact or a linear stop without a damper;
+    /// [`LawError::Clearance`] unless its gap is more than 0.
+    pub fn in_round_hole(&self) -> Result<RoundHole, LawError> {
+        let stiffness = self.constant(LawConstant::Stiffness).ok_or(LawError::NotForHole)?;
+        let clearance = self.contacts().first().map_or(0.0, |contact| contact.level);
+        match self {
+            Self::Linear(law) if law.onset_damping() == 0.0 => RoundHole::linear(stiffness, clearance),
+            Self::Hertz(_) => RoundHole::hertz(stiffness, clearance),
+            _ => Err(LawError::NotForHole),
+        }
+    }
+
+    /// The hole, if the law is that of the first direction of one.
+    #[must_use]
+    pub fn round_hole(&self) -> Option<&RoundHole> {
+        if let Self::RoundHole(law) = self { Some(law) } else { None }
+    }
+
+    /// Whether the law is that of the second direction of a round hole, whose force that of the first has.
+    #[must_use]
+    pub fn is_across_hole(&self) -> bool {
+        matches!(self, Self::AcrossHole(_))
+    }
+
+    /// Force along a displacement of the element alone: of a round hole while its point does not move across.
+    #[must_use]
+    pub fn force_along(&self, displacement: f64) -> f64 {
+        match self {
+            Self::RoundHole(hole) => hole.force_at([displacement, 0.0]).value[0],
+            other => other.force(displacement, 0.0).value,
+        }
     }
 
     /// Force of a contact that presses, continued smoothly to where its pressure has vanished: what a step

@@ -38,6 +38,13 @@ pub enum LawError {
     #[error("{what} is {found}, must be finite and {allowed}")]
     #[expect(missing_docs, reason = "the message names its fields")]
     Constant { what: &'static str, found: f64, allowed: &'static str },
+    /// A hole has no law but that of a linear spring or of a Hertz contact.
+    #[error("a round hole is elastic: a linear stop without a damper, or a Hertz contact")]
+    NotForHole,
+    /// A hole that fits closely has no gap to touch across.
+    #[error("clearance of a round hole is {found} m, must be finite and more than 0")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Clearance { found: f64 },
     /// A text that is no formula of a force.
     #[error(transparent)]
     Formula(#[from] FormulaError),

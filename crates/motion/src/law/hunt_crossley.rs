@@ -103,7 +103,10 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
         LawKey::hertz_stiffness(),
         LawKey {
             varies: Some(VariesAs::UnlessZero(LawConstant::Damping)),
-            ..LawKey::number("loss_s_m", "a", LOSS).named("loss")
+            ..LawKey::number("loss_s_m", "a", LOSS).named("loss").meaning(
+                "loss a of the law of Hunt and Crossley: an impact of the speed v leaves `e = 1 - a v` of \
+                 it, for small `a v`",
+            )
         },
     ],
     alternative: Some(LawAlternative { own: "loss_s_m", other: "restitution", is_default: true }),

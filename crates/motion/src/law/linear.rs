@@ -143,12 +143,14 @@ impl ForceLaw for LinearStop {
 
 /// The keys of a linear stop, which are also those of one on both sides.
 pub(super) const KEYS: [LawKey; 2] = [
-    LawKey::number("stiffness_n_m", "k", quantity::STIFFNESS).varying(LawConstant::Stiffness),
+    LawKey::number("stiffness_n_m", "k", quantity::STIFFNESS)
+        .meaning("stiffness k; of a stop of two slopes up to its second gap")
+        .varying(LawConstant::Stiffness),
     LawKey {
         kind: LawKeyKind::Number { quantity: quantity::DAMPER, default: Some(0.0) },
         phrase: LawPhrase::Beside,
         varies: Some(VariesAs::UnlessZero(LawConstant::Damping)),
-        ..LawKey::number("damping_n_s_m", "c", quantity::DAMPER)
+        ..LawKey::number("damping_n_s_m", "c", quantity::DAMPER).meaning("damper c beside the spring")
     },
 ];
 

@@ -45,6 +45,7 @@ mod linear;
 mod power;
 mod restitution;
 mod rigid;
+mod round_hole;
 mod two_sided;
 mod two_slopes;
 
@@ -68,6 +69,8 @@ pub use linear::LinearStop;
 pub use power::{Degree, PowerSpring};
 pub use restitution::{RestitutionModel, RestitutionStop};
 pub use rigid::RigidStop;
+pub(crate) use round_hole::HoleForce;
+pub use round_hole::{AcrossHole, RoundHole};
 pub use two_sided::TwoSidedStop;
 pub use two_slopes::TwoSlopeStop;
 
@@ -90,6 +93,10 @@ laws! { $
     Formula(Formula),
     /// Rigid stop with a coefficient of restitution.
     Rigid(RigidStop),
+    /// Round hole, as the element of its first direction.
+    RoundHole(RoundHole),
+    /// Second direction of the round hole before it.
+    AcrossHole(AcrossHole),
 }
 
 /// The laws of the study file, in the order in which messages name them.

@@ -91,11 +91,15 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
     force: "k1 r + k2 r^2 + k3 r^3",
     sides: LawSides::Always { build: of_terms },
     keys: &[
-        term("stiffness_n_m", "k1", "N/m", 1e18),
-        term("stiffness_n_m2", "k2", "N/m^2", 1e24),
+        term("stiffness_n_m", "k1", "N/m", 1e18).meaning(
+            "linear term of a cubic spring; negative pushes away from the middle, see [two \
+             wells](#two-wells)",
+        ),
+        term("stiffness_n_m2", "k2", "N/m^2", 1e24).meaning("quadratic term of a cubic spring"),
         LawKey {
             varies: Some(VariesAs::UnlessZero(LawConstant::Stiffness)),
             ..term("stiffness_n_m3", "k3", "N/m^3", 1e30)
+                .meaning("cubic term of a cubic spring; negative softens")
         },
     ],
     alternative: None,

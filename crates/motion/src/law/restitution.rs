@@ -232,6 +232,7 @@ macro_rules! described {
                 LawKey::hertz_stiffness(),
                 LawKey::number("restitution", "e", RESTITUTION)
                     .named("coefficient of restitution")
+                    .meaning("coefficient of restitution e that goes into C, below")
                     .varying(LawConstant::Restitution),
             ],
             alternative: $alternative,

@@ -113,6 +113,7 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
     },
     keys: &[LawKey::number("restitution", "e", RESTITUTION)
         .named("coefficient of restitution")
+        .meaning("coefficient of restitution e of a rigid stop, the ratio of speeds itself")
         .varying(LawConstant::Restitution)],
     alternative: None,
     symbol: LawSymbol::Wall,

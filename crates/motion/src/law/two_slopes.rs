@@ -200,12 +200,16 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
         },
     },
     keys: &[
-        LawKey::number("stiffness_n_m", "k", quantity::STIFFNESS).varying(LawConstant::Stiffness),
+        LawKey::number("stiffness_n_m", "k", quantity::STIFFNESS)
+            .meaning("stiffness k; of a stop of two slopes up to its second gap")
+            .varying(LawConstant::Stiffness),
         LawKey::number("second_gap_m", "s", Quantity::new("m", Bound::Excluding(0.0), Bound::Including(1e6)))
             .named("second gap")
+            .meaning("penetration s at which the stiffness of a stop of two slopes changes")
             .varying(SECOND_GAP),
         LawKey::number("second_stiffness_n_m", "k2", quantity::STIFFNESS)
             .named("second stiffness")
+            .meaning("its stiffness k2 from there on, more or less than k")
             .varying(SECOND_STIFFNESS),
     ],
     alternative: None,

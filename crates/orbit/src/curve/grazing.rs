@@ -48,6 +48,12 @@ impl Touch {
             .map(|(element, contact)| Self { element, contact, from_inside: false })
     }
 
+    /// Whether it is that of a round hole: its clearance is no row of the state, and no curve of its grazings
+    /// is followed.
+    fn is_of_hole(self, shooting: &Shooting) -> bool {
+        shooting.integrator.system().elements()[self.element].law.round_hole().is_some()
+    }
+
     /// Its number in the order of the elements and their contacts.
     pub fn number(self, shooting: &Shooting) -> usize {
         let before = &shooting.integrator.system().elements()[..self.element];
@@ -111,6 +117,9 @@ impl Touch {
         let mut nearest: Option<(Self, Turn)> = None;
         for number in number.map_or(0..usize::MAX, |number| number..number + 1) {
             let Some(touch) = Self::of_contact(shooting, number) else { break };
+            if touch.is_of_hole(shooting) {
+                continue;
+            }
             if let Some(turn) = touch.find(shooting, orbit, frequency_hz)?
                 && nearest.as_ref().is_none_or(|(_, least)| turn.distance < least.distance)
             {
@@ -132,7 +141,7 @@ impl Touch {
         let cycles = f64::from(shooting.period_multiple);
         for number in 0.. {
             let Some(touch) = Self::of_contact(shooting, number) else { break };
-            if number == self.number(shooting) {
+            if number == self.number(shooting) || touch.is_of_hole(shooting) {
                 continue;
             }
             let Some(other) = touch.find(shooting, orbit, frequency_hz)? else { continue };

@@ -15,6 +15,7 @@ mod basins;
 mod blob;
 mod checksum;
 mod class;
+mod closed;
 mod error;
 mod event;
 mod exponents;

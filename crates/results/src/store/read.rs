@@ -5,6 +5,7 @@ use rusqlite::{Connection, OptionalExtension, Row as SqlRow, params};
 
 use super::{
     Store, StoreError, blob,
+    closed::ClosedAt,
     event::event,
     keys::{first_key, is_of_piece, solution_key, start_of_key, walk_id},
     stability,
@@ -68,6 +69,11 @@ impl BranchRecord {
     #[must_use]
     pub fn solutions(&self) -> u64 {
         self.up.solutions + self.down.solutions
+    }
+
+    /// Whether it came back to its start, which then is its first solution.
+    fn starts_where_it_ends(&self) -> bool {
+        self.up.end.as_ref().is_some_and(BranchEnd::is_closed) && self.down.solutions == 0
     }
 
     /// The walk to one side.
@@ -157,10 +163,11 @@ impl Store {
         branch: &BranchRecord,
         mut take: impl FnMut(PlacedRow) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut place = 0;
+        let (mut place, mut closed) = (0, ClosedAt::of(branch.starts_where_it_ends()));
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             self.each_row_of_walk(walk_id(branch.start, side), order, |number, mut row| {
                 place += 1;
+                row.events = closed.events(&row, place == 1);
                 if !branch.is_of_piece() {
                     row.events = with_ends(row.events, place == 1, place == branch.solutions());
                 }

@@ -19,7 +19,7 @@ use super::{
     statics::Statics,
 };
 use crate::{
-    Damping, ModeTables, OutlinePoint, Reduced, ReducedModel, Reduction, StructureError,
+    Damping, ModeTables, OutlinePoint, Plane, Reduced, ReducedModel, Reduction, StructureError,
     error::positive,
     reduction::ResidualInertia,
     tables::{FrequencyError, relative_error},
@@ -69,6 +69,7 @@ impl Matrices {
         };
         let outline = model.points.iter().enumerate().map(|(at, point)| OutlinePoint {
             at: at as f64,
+            plane: Plane::Y,
             shape: point.shape.clone(),
             support_ratios: point.support_ratios.clone(),
         });

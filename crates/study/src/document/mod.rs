@@ -4,6 +4,7 @@
 //! is asked for its keys one by one ([`TomlTable`]), every value is checked against its [`Quantity`], all
 //! faults are collected ([`Problem`]), and what was never asked for is unknown by definition.
 
+pub mod key;
 mod problem;
 pub mod quantity;
 mod reading;
@@ -12,9 +13,11 @@ mod table;
 pub mod unit;
 mod value;
 
+pub use key::{Key, KeyRow};
 pub use problem::{FaultReport, Problem};
 pub use quantity::Quantity;
 pub use reading::{Reading, place};
 pub use suggest::closest;
+pub(crate) use table::MOST_NAMES;
 pub use table::TomlTable;
 pub use value::Value;

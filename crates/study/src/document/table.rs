@@ -10,7 +10,7 @@ use super::{
 };
 
 /// Entries of a table of names that the file chooses.
-const MOST_NAMES: usize = 100;
+pub(crate) const MOST_NAMES: usize = 100;
 
 /// A table of the document; what is never asked for is an unknown key.
 pub struct TomlTable<'a> {

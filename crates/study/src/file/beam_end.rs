@@ -35,7 +35,7 @@ impl EndSupport {
 }
 
 /// The words for them.
-pub(super) const END_KINDS: [(&str, EndSupport); 4] = [
+pub(super) const END_KINDS: &[(&str, EndSupport)] = &[
     ("clamped", EndSupport::Clamped),
     ("pinned", EndSupport::Pinned),
     ("sliding", EndSupport::Sliding),

@@ -3,7 +3,7 @@
 use hammerbeam_structure as linear;
 use serde::Serialize;
 
-use crate::document::{Reading, TomlTable, Value, quantity};
+use crate::document::{Key, KeyRow, Quantity, Reading, TomlTable, Value, key::Words, quantity};
 
 use super::{
     beam_end::{END_KINDS, EndSupport},
@@ -56,6 +56,43 @@ impl BeamPointTable {
     }
 }
 
+const SUPPORT: Key<Words<EndSupport>> = Key::new(
+    "support",
+    Words(END_KINDS),
+    "a support between the ends; one that the excitation may move, if it holds the displacement",
+)
+.or(EndSupport::Free);
+const MASS: Key<Quantity> = added("mass_kg", quantity::ADDED_MASS, "attached mass");
+const ROTARY_INERTIA: Key<Quantity> =
+    added("rotary_inertia_kg_m2", quantity::ROTARY_INERTIA, "its rotary inertia");
+const SPRING: Key<Quantity> = added("spring_n_m", quantity::ADDED_STIFFNESS, "spring to the ground");
+const DAMPER: Key<Quantity> = added("damper_n_s_m", quantity::DAMPER, "damper to the ground");
+const ROTATIONAL_SPRING: Key<Quantity> =
+    added("rotational_spring_n_m_rad", quantity::ROTATIONAL_STIFFNESS, "rotational spring to the ground");
+const ROTATIONAL_DAMPER: Key<Quantity> =
+    added("rotational_damper_n_m_s_rad", quantity::ROTATIONAL_DAMPER, "rotational damper to the ground");
+
+/// Something that is attached to a point, or not.
+const fn added(name: &'static str, quantity: Quantity, meaning: &'static str) -> Key<Quantity> {
+    Key::new(name, quantity, meaning).or(0.0)
+}
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let at = KeyRow::read_apart(
+        "at_m",
+        "0 to `length_m`",
+        "required",
+        "distance from the left end; equal to that of another point or border of spans, or at least 1e-4 of \
+         the length away",
+    );
+    let attached = [MASS, ROTARY_INERTIA, SPRING, DAMPER, ROTATIONAL_SPRING, ROTATIONAL_DAMPER];
+    let mut rows = vec![KeyRow::read_apart("name", "text", "required", "name, each once"), at];
+    rows.push(SUPPORT.row());
+    rows.extend(attached.iter().map(Key::row));
+    rows
+}
+
 pub(super) fn read(
     table: &TomlTable<'_>,
     reading: &Reading,
@@ -72,14 +109,11 @@ pub(super) fn read(
 fn read_point(table: TomlTable<'_>, length_m: Option<f64>, names: &mut Names) -> Option<BeamPointTable> {
     let name = read_name(&table, names);
     let at = table.required("at_m").and_then(|value| read_position(&value, length_m));
-    let added = |key, quantity| table.optional(key).map_or(Some(0.0), |value| value.number(quantity));
-    let mass = added("mass_kg", &quantity::ADDED_MASS);
-    let inertia = added("rotary_inertia_kg_m2", &quantity::ROTARY_INERTIA);
-    let spring = added("spring_n_m", &quantity::ADDED_STIFFNESS);
-    let damper = added("damper_n_s_m", &quantity::DAMPER);
-    let rotational_spring = added("rotational_spring_n_m_rad", &quantity::ROTATIONAL_STIFFNESS);
-    let rotational_damper = added("rotational_damper_n_m_s_rad", &quantity::ROTATIONAL_DAMPER);
-    let support = table.optional("support").map_or(Some(EndSupport::Free), |value| value.choice(&END_KINDS));
+    let (mass, inertia) = (MASS.read(&table), ROTARY_INERTIA.read(&table));
+    let (spring, damper) = (SPRING.read(&table), DAMPER.read(&table));
+    let rotational_spring = ROTATIONAL_SPRING.read(&table);
+    let rotational_damper = ROTATIONAL_DAMPER.read(&table);
+    let support = SUPPORT.read(&table);
     table.finish();
     Some(BeamPointTable {
         name: name?,

@@ -3,7 +3,7 @@
 use hammerbeam_structure::Section as LinearSection;
 use serde::Serialize;
 
-use crate::document::{TomlTable, Value, quantity};
+use crate::document::{Key, KeyRow, TomlTable, Value, quantity};
 
 /// Cross-section of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -15,6 +15,9 @@ pub struct SectionKeys {
     /// Shear coefficient, of a beam with shear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_coefficient: Option<f64>,
+    /// Whether it is a rectangle that is no square: then it bends in one plane more easily than across.
+    #[serde(skip)]
+    pub is_oblong: bool,
 }
 
 /// A section as it is given: its form, and its shear coefficient where it has one of its own.
@@ -32,6 +35,7 @@ impl GivenSection {
             area_m2: self.form.area(),
             second_moment_m4: self.form.second_moment(),
             shear_coefficient: poisson_ratio.and_then(of_form),
+            is_oblong: self.form.is_oblong(),
         }
     }
 }
@@ -49,6 +53,36 @@ const FORMS: [(Form, [&str; 2]); 3] = [
     (Form::Round, ["outer_diameter_m", "wall_m"]),
     (Form::General, ["area_m2", "second_moment_m4"]),
 ];
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let half = "; at most half of the length";
+    let wall = "; less than half of the diameter";
+    let [none, rod] = ["required in this form", "none, a rod"];
+    vec![
+        Key::new("width_m", quantity::WIDTH, "width of a rectangle").without(none).row(),
+        Key::new("height_m", quantity::HEIGHT, "its height, along which it bends")
+            .further(half)
+            .without(none)
+            .row(),
+        Key::new("outer_diameter_m", quantity::WIDTH, "outer diameter of a rod or tube")
+            .further(half)
+            .without(none)
+            .row(),
+        Key::new("wall_m", quantity::WIDTH, "wall of a tube").further(wall).without(rod).row(),
+        Key::new("area_m2", quantity::AREA, "area of any section").without(none).row(),
+        Key::new("second_moment_m4", quantity::SECOND_MOMENT, "its second moment of area")
+            .without(none)
+            .row(),
+        Key::new(
+            "shear_coefficient",
+            quantity::SHEAR_COEFFICIENT,
+            "part of the section that bears shear; with `theory = \"timoshenko\"` only",
+        )
+        .without("Cowper's coefficient of a rectangle, rod or tube; required for any other section")
+        .row(),
+    ]
+}
 
 /// The accepted forms, in words.
 pub(super) fn forms() -> Vec<String> {

@@ -3,7 +3,7 @@
 use hammerbeam_structure::{self as linear, Shear, StructureError};
 use serde::Serialize;
 
-use crate::document::{Reading, TomlTable, Value, quantity};
+use crate::document::{Key, KeyRow, Reading, TomlTable, Value, key::Words, quantity};
 
 use super::beam_section::{self, GivenSection, SectionKeys};
 
@@ -84,6 +84,45 @@ struct GivenProfile {
     density_kg_m3: Option<f64>,
     added_mass_kg_m: Option<f64>,
     poisson_ratio: Option<f64>,
+}
+
+/// Whether a beam has shear.
+const THEORY: Key<Words<bool>> = Key::new(
+    "theory",
+    Words(&[("euler-bernoulli", false), ("timoshenko", true)]),
+    "without or with shear and the rotary inertia of the section",
+)
+.or(false);
+
+/// Rows of the page of keys: the length of a beam or a span.
+pub(super) fn row_of_length(without: &'static str) -> KeyRow {
+    Key::new("length_m", quantity::LENGTH, "length").without(without).row()
+}
+
+/// The theory of a beam.
+pub(super) fn row_of_theory() -> KeyRow {
+    THEORY.row()
+}
+
+/// Section and material.
+pub(super) fn rows_of_profile() -> Vec<KeyRow> {
+    let added = "mass per length that moves along and does not stiffen: water in a tube, a coat";
+    vec![
+        KeyRow::read_apart("section", "table, below", "required", "cross-section"),
+        Key::new("youngs_modulus_pa", quantity::MODULUS, "Young's modulus; 210 GPa is `2.1e11`").row(),
+        Key::new("density_kg_m3", quantity::DENSITY, "density").row(),
+        Key::new("added_mass_kg_m", quantity::ADDED_MASS_PER_LENGTH, added).or(0.0).row(),
+        Key::new("poisson_ratio", quantity::POISSON, "Poisson's ratio")
+            .without("required with shear, not a key without")
+            .row(),
+    ]
+}
+
+/// Those of `[[structure.span]]`.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let outer = |row: KeyRow| KeyRow { default: "as in `[structure]`".to_owned(), ..row };
+    let profile = rows_of_profile().into_iter().map(outer);
+    [row_of_length("required")].into_iter().chain(profile).collect()
 }
 
 /// Reads the keys of a span, or those that hold for all spans.
@@ -171,8 +210,7 @@ impl GivenProfile {
 /// # Returns
 /// Length of all spans [m], and the spans; each `None` where something of it is wrong.
 pub(super) fn read(table: &TomlTable<'_>, reading: &Reading) -> (Option<f64>, Option<Vec<BeamSpanEntry>>) {
-    let theories = [("euler-bernoulli", false), ("timoshenko", true)];
-    let has_shear = table.optional("theory").map_or(Some(false), |value| value.choice(&theories));
+    let has_shear = THEORY.read(table);
     let has_shear_or_not = has_shear.unwrap_or(table.has("poisson_ratio"));
     let (length, spans) = if table.has("span") {
         read_several(table, reading, has_shear_or_not)

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{TomlTable, Value, quantity};
+use crate::document::{Key, KeyRow, Quantity, TomlTable, Value, quantity};
 
 /// Damping of the motion relative to the support. Discrete dampers count besides.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -29,12 +29,37 @@ pub enum ModalRatio {
     Each(Vec<f64>),
 }
 
+const MODAL_RATIO: Key<Quantity> = Key::new(
+    "modal_ratio",
+    quantity::DAMPING_RATIO,
+    "ratio to critical damping, of every mode or of each mode of the reduced model, lowest first; 1.5 % is \
+     `0.015`",
+)
+.further(", or a list of such numbers")
+.without("none");
+const RAYLEIGH: &str = "rayleigh";
+const RAYLEIGH_MASS: Key<Quantity> =
+    Key::new("mass_per_s", quantity::RAYLEIGH_MASS, "part `a` of `C = a M + b K`");
+const RAYLEIGH_STIFFNESS: Key<Quantity> =
+    Key::new("stiffness_s", quantity::RAYLEIGH_STIFFNESS, "part `b` of it");
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let table = "table, below";
+    vec![MODAL_RATIO.row(), KeyRow::read_apart(RAYLEIGH, table, "none", "damping after Rayleigh")]
+}
+
+/// Those of `rayleigh`.
+pub(super) fn rows_of_rayleigh() -> Vec<KeyRow> {
+    vec![RAYLEIGH_MASS.row(), RAYLEIGH_STIFFNESS.row()]
+}
+
 pub(super) fn read(root: &TomlTable<'_>) -> Option<DampingTable> {
     let none = DampingTable::Modal(ModalRatio::Every(0.0));
     let Some(value) = root.optional("damping") else { return Some(none) };
     let table = value.table()?;
-    let modal = table.optional("modal_ratio");
-    let rayleigh = table.optional("rayleigh");
+    let modal = table.optional(MODAL_RATIO.name);
+    let rayleigh = table.optional(RAYLEIGH);
     let damping = match (modal, rayleigh) {
         (Some(_), Some(rayleigh)) => {
             let help = vec!["allowed: one of `modal_ratio` and `rayleigh`".into()];
@@ -51,23 +76,21 @@ pub(super) fn read(root: &TomlTable<'_>) -> Option<DampingTable> {
 
 fn read_modal(value: &Value<'_>) -> Option<ModalRatio> {
     if !value.is_list() {
-        return value.number(&quantity::DAMPING_RATIO).map(ModalRatio::Every);
+        return value.number(&MODAL_RATIO.range).map(ModalRatio::Every);
     }
     let ratios = value.array_of("damping ratios")?;
     if ratios.is_empty() {
         value.problem("`modal_ratio` is an empty list".into(), vec!["allowed: one ratio per mode".into()]);
         return None;
     }
-    let ratios: Vec<Option<f64>> =
-        ratios.iter().map(|ratio| ratio.number(&quantity::DAMPING_RATIO)).collect();
+    let ratios: Vec<Option<f64>> = ratios.iter().map(|ratio| ratio.number(&MODAL_RATIO.range)).collect();
     ratios.into_iter().collect::<Option<Vec<f64>>>().map(ModalRatio::Each)
 }
 
 fn read_rayleigh(value: &Value<'_>) -> Option<DampingTable> {
     let table = value.table()?;
-    let mass = table.required("mass_per_s").and_then(|value| value.number(&quantity::RAYLEIGH_MASS));
-    let stiffness =
-        table.required("stiffness_s").and_then(|value| value.number(&quantity::RAYLEIGH_STIFFNESS));
+    let mass = RAYLEIGH_MASS.read(&table);
+    let stiffness = RAYLEIGH_STIFFNESS.read(&table);
     table.finish();
     Some(DampingTable::Rayleigh { mass_per_s: mass?, stiffness_s: stiffness? })
 }

@@ -2,10 +2,15 @@
 
 use serde::Serialize;
 
-use crate::document::{TomlTable, Value, quantity};
+use crate::document::{
+    Key, KeyRow, TomlTable, Value,
+    key::{Whole, Words},
+    quantity,
+};
 
 use super::{
     ActingForce, Amplitude, ForcePlace, ForceSize, StructureTable, amplitude, force,
+    harmonic::{ORDERS, PHASE},
     names::Names,
     support_motion::{self, MovingSupport, PrescribedMotion, SupportDrive},
 };
@@ -158,10 +163,41 @@ impl HarmonicExcitation {
     }
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Kind {
     SupportMotion,
     Force,
+}
+
+const KIND: Key<Words<Kind>> = Key::new(
+    "kind",
+    Words(&[("support-motion", Kind::SupportMotion), ("force", Kind::Force)]),
+    "what is prescribed",
+);
+const ORDER: Key<Whole> = Key::new("order", ORDERS, "multiple of the frequency").or(1);
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let at = KeyRow::read_apart(
+        "at",
+        "a name; for support motion also a list of names",
+        "required, or `support`, `between`, `force`",
+        "where",
+    );
+    let list = |name, meaning| KeyRow::read_apart(name, "list of tables, below", "none", meaning);
+    let frequency = Key::new(
+        "frequency_hz",
+        quantity::EXCITATION_FREQUENCY,
+        "`[low, high]`, the range of the excitation frequency; branches are cut exactly at its ends",
+    );
+    let frequency = frequency.further(", `low` less than `high`").row();
+    let mut rows = vec![KIND.row(), at];
+    rows.extend(support_motion::rows_of_amplitude("; on a beam at most its length"));
+    rows.push(list("support", "supports that move differently"));
+    rows.extend(force::rows_of_size("required for a force, or an unbalance, or `force`"));
+    rows.extend([force::row_of_between(), list("force", "several forces")]);
+    rows.extend([frequency, PHASE.row(), ORDER.row()]);
+    rows
 }
 
 pub(super) fn read(
@@ -171,8 +207,7 @@ pub(super) fn read(
 ) -> Option<Excitation> {
     let Some(table) = root.optional("excitation") else { return Some(Excitation::None) };
     let table = table.table()?;
-    let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
-    let kind = table.required("kind").and_then(|value| value.choice(&kinds));
+    let kind = KIND.read(&table);
     let known = kind.is_some();
     let range = table.required("frequency_hz").and_then(|value| read_range(&value));
     let kind = kind.and_then(|kind| match kind {
@@ -180,8 +215,8 @@ pub(super) fn read(
         Kind::Force if table.has("force") => read_forces(&table, names, range),
         Kind::Force => read_force(&table, names),
     });
-    let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
-    let order = table.optional("order").map_or(Some(1), |value| value.whole(1, 1000));
+    let phase = PHASE.read(&table);
+    let order = ORDER.read(&table);
     if let (Some(kind), Some(range)) = (&kind, range) {
         check_table(&table, kind, range);
     }

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, TomlTable, quantity};
+use crate::document::{Key, KeyRow, Quantity, TomlTable, quantity};
 
-use super::{Amplitude, amplitude, names::Names};
+use super::{Amplitude, amplitude, harmonic::PHASE, names::Names};
 
 /// A harmonic force `amplitude cos(2 pi order f t + phase)`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -78,7 +78,41 @@ impl ForceSize {
 
 /// The keys of the amplitude and of an unbalance.
 const AMPLITUDE: &str = "amplitude_n";
-const UNBALANCE: [&str; 2] = ["unbalance_mass_kg", "eccentricity_m"];
+const UNBALANCE: [&str; 2] = [UNBALANCE_MASS.name, ECCENTRICITY.name];
+
+const UNBALANCE_MASS: Key<Quantity> = Key::new(
+    "unbalance_mass_kg",
+    quantity::MASS,
+    "a mass `m` that turns at the distance `e` from its axis: amplitude `m e (2 pi order f)^2`",
+)
+.without("none");
+const ECCENTRICITY: Key<Quantity> =
+    Key::new("eccentricity_m", quantity::ECCENTRICITY, "its distance `e`").without("none");
+
+/// Rows of the page of keys: the size of a force.
+///
+/// * `without`: when its amplitude is required.
+pub(super) fn rows_of_size(without: &'static str) -> [KeyRow; 3] {
+    let amplitude = Key::new(AMPLITUDE, quantity::FORCE, "amplitude of the force").without(without);
+    [amplitude.further("; or a table over the frequency").row(), UNBALANCE_MASS.row(), ECCENTRICITY.row()]
+}
+
+/// That of a pair.
+pub(super) fn row_of_between() -> KeyRow {
+    KeyRow::read_apart(
+        "between",
+        "two names",
+        "none",
+        "a pair of forces: `F` on the first point and `-F` on the second, as an actuator between them makes",
+    )
+}
+
+/// Those of `force`.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let at = KeyRow::read_apart("at", "a name", "required, or `between`", "the point");
+    let [amplitude, mass, eccentricity] = rows_of_size("required, or an unbalance");
+    vec![at, row_of_between(), amplitude, mass, eccentricity, PHASE.row()]
+}
 
 /// Reads `at` or `between`, and `amplitude_n` or an unbalance; no phase.
 ///
@@ -119,8 +153,7 @@ fn read_size(table: &TomlTable<'_>, constant: &Quantity) -> Option<ForceSize> {
         table.problem(AMPLITUDE, format!("`{AMPLITUDE}` is given for an unbalance"), help);
         table.optional(AMPLITUDE);
     }
-    let mass = table.required(UNBALANCE[0]).and_then(|value| value.number(&quantity::MASS));
-    let eccentricity = table.required(UNBALANCE[1]).and_then(|value| value.number(&quantity::ECCENTRICITY));
+    let (mass, eccentricity) = (UNBALANCE_MASS.read(table), ECCENTRICITY.read(table));
     let (mass_kg, eccentricity_m) = (mass?, eccentricity?);
     (!has_both).then_some(ForceSize::Unbalance { mass_kg, eccentricity_m })
 }
@@ -139,7 +172,7 @@ pub(super) fn read_entry(
     range: Option<[f64; 2]>,
 ) -> Option<ActingForce> {
     let force = read(&entry, names, &quantity::FORCE);
-    let phase = entry.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
+    let phase = PHASE.read(&entry);
     if let (Some((_, size)), Some(range)) = (&force, range) {
         check_size(&entry, size, range);
     }

@@ -2,10 +2,16 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, TomlTable, Value, quantity};
+use crate::document::{
+    Key, KeyRow, Quantity, Reading, TomlTable, Value,
+    key::{Whole, Words, words},
+    quantity,
+};
 
 use super::{
-    ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude, force, names::Names,
+    ActingForce, Amplitude, Excitation, ForcePlace, SupportDrive, amplitude, force,
+    harmonic::{ORDERS, PHASE},
+    names::Names,
     support_motion,
 };
 
@@ -92,15 +98,58 @@ fn is_first(support: &usize) -> bool {
     *support == 0
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Gravity,
     Force,
     SupportMotion,
 }
 
-const KINDS: [(&str, Kind); 3] =
-    [("gravity", Kind::Gravity), ("force", Kind::Force), ("support-motion", Kind::SupportMotion)];
+const KIND: Key<Words<Kind>> = Key::new(
+    "kind",
+    Words(&[("gravity", Kind::Gravity), ("force", Kind::Force), ("support-motion", Kind::SupportMotion)]),
+    "what acts",
+);
+const GRAVITY: Key<Quantity> = Key::new(
+    "acceleration_m_s2",
+    quantity::GRAVITY,
+    "uniform acceleration, positive upwards: the weight of a horizontal beam is `-9.81`",
+);
+/// Of a force, which may be constant.
+const FORCE_ORDER: Key<Whole> =
+    Key::new("order", Whole(0, ORDERS.1), "multiple of the frequency; of order 0 it is constant");
+const SUPPORT_ORDER: Key<Whole> = Key::new("order", ORDERS, "multiple of the frequency");
+
+/// A key of some kinds.
+fn of_kinds(kinds: &[&str], row: KeyRow) -> KeyRow {
+    KeyRow { of: words(kinds.iter().copied()), ..row }
+}
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let (force, support) = (["force"], ["support-motion"]);
+    let point = KeyRow::read_apart("at", "a point", "required, or `between`", "the point");
+    let [amplitude, mass, eccentricity] = force::rows_of_size("required, or an unbalance");
+    let amplitude = KeyRow { allowed: or_table(&quantity::LOAD_FORCE), ..amplitude };
+    let forces = [point, force::row_of_between(), amplitude, mass, eccentricity, FORCE_ORDER.row()];
+    let moved = "of the supports that `[excitation]` moves, which one";
+    let place = KeyRow::read_apart("at", "a name", "required where supports move differently", moved);
+    let [displacement, acceleration] = support_motion::rows_of_amplitude("");
+    let displacement = KeyRow { allowed: or_table(&quantity::LOAD_DISPLACEMENT), ..displacement };
+    let displacement = KeyRow { default: "required, or `amplitude_m_s2`".to_owned(), ..displacement };
+    let acceleration = KeyRow { allowed: or_table(&quantity::GRAVITY), ..acceleration };
+    let motions = [place, displacement, acceleration, SUPPORT_ORDER.row()];
+    let mut rows = vec![KIND.row(), of_kinds(&["gravity"], GRAVITY.row())];
+    rows.extend(forces.map(|row| of_kinds(&force, row)));
+    rows.extend(motions.map(|row| of_kinds(&support, row)));
+    rows.push(of_kinds(&[force, support].concat(), PHASE.meaning("phase; not of order 0").row()));
+    rows
+}
+
+/// A number of that range, or a table.
+fn or_table(quantity: &Quantity) -> String {
+    format!("{}; or a table over the frequency", quantity.allowed())
+}
 
 pub(super) fn read(
     root: &TomlTable<'_>,
@@ -115,7 +164,7 @@ pub(super) fn read(
 }
 
 fn read_load(table: TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<LoadTable> {
-    let kind = table.required("kind").and_then(|value| value.choice(&KINDS))?;
+    let kind = KIND.read(&table)?;
     let load = match kind {
         Kind::Gravity => read_gravity(&table),
         Kind::Force => read_force(&table, names, excitation),
@@ -126,13 +175,12 @@ fn read_load(table: TomlTable<'_>, names: &Names, excitation: Option<&Excitation
 }
 
 fn read_gravity(table: &TomlTable<'_>) -> Option<LoadTable> {
-    let acceleration = table.required("acceleration_m_s2").and_then(|value| value.number(&quantity::GRAVITY));
-    Some(LoadTable::Gravity { acceleration_m_s2: acceleration? })
+    Some(LoadTable::Gravity { acceleration_m_s2: GRAVITY.read(table)? })
 }
 
 fn read_force(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<LoadTable> {
     let force = force::read(table, names, &quantity::LOAD_FORCE);
-    let (order, phase) = read_harmonic(table, 0);
+    let (order, phase) = read_harmonic(table, FORCE_ORDER);
     if excitation == Some(&Excitation::None) && order.is_some_and(|order| order > 0) {
         let message = "`order` is a multiple of the excitation frequency, and there is no [excitation]";
         table.problem("order", message.into(), vec!["allowed: 0, a constant force".into()]);
@@ -168,7 +216,7 @@ fn read_support_motion(table: &TomlTable<'_>, excitation: Option<&Excitation>) -
         _ => Some(0),
     };
     let motion = support_motion::read_motion(table, &quantity::LOAD_DISPLACEMENT, &quantity::GRAVITY);
-    let (order, phase) = read_harmonic(table, 1);
+    let (order, phase) = read_harmonic(table, SUPPORT_ORDER);
     let (support, motion, order, phase_rad) = (support?, motion?, order?, phase?);
     if let Some(excitation) = excitation {
         let (key, amplitude) = match &motion {
@@ -196,14 +244,11 @@ fn read_support(value: &Value<'_>, excitation: &Excitation) -> Option<usize> {
 }
 
 /// `order`, which a load has to state, and `phase_rad`, which a constant does not have.
-fn read_harmonic(table: &TomlTable<'_>, lowest_order: u32) -> (Option<u32>, Option<f64>) {
-    let order = table.required("order").and_then(|value| value.whole(lowest_order, 1000));
-    let Some(phase) = table.optional("phase_rad") else { return (order, Some(0.0)) };
-    if order == Some(0) {
-        phase.problem(
-            "`phase_rad` is given for a constant".into(),
-            vec!["allowed: only with `order` >= 1".into()],
-        );
+fn read_harmonic(table: &TomlTable<'_>, order: Key<Whole>) -> (Option<u32>, Option<f64>) {
+    let order = order.read(table);
+    if order == Some(0) && table.has(PHASE.name) {
+        let help = vec!["allowed: only with `order` >= 1".into()];
+        table.problem(PHASE.name, "`phase_rad` is given for a constant".into(), help);
     }
-    (order, phase.number(&quantity::PHASE))
+    (order, PHASE.read(table))
 }

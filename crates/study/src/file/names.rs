@@ -1,5 +1,7 @@
 //! The names of a structure, and references to them.
 
+use hammerbeam_structure::Plane;
+
 use crate::document::{TomlTable, Value};
 
 use super::beam_end::EndSupport;
@@ -23,6 +25,15 @@ const RESERVED: [&str; 5] = ["left", "right", "ground", "space", "support"];
 impl Names {
     pub(super) fn add_beam_ends(&mut self, left: Option<EndSupport>, right: Option<EndSupport>) {
         self.ends = vec![("left", left), ("right", right)];
+    }
+
+    /// Every point of the beam is two, one in each plane.
+    pub(super) fn in_two_planes(&mut self) {
+        let both = |point: &String| Plane::BOTH.map(|plane| plane.name_of(point));
+        self.points = self.points.iter().flat_map(both).collect();
+        let held = |end: &str| self.ends.iter().find(|(name, _)| *name == end).and_then(|(_, held)| *held);
+        let (left, right) = (held("left"), held("right"));
+        self.ends = vec![("left.y", left), ("left.z", left), ("right.y", right), ("right.z", right)];
     }
 
     pub(super) fn add_ground(&mut self) {
@@ -63,6 +74,11 @@ impl Names {
     pub(super) fn held_ends(&self) -> Vec<&str> {
         let held = self.ends.iter().filter(|(_, end)| end.is_some_and(EndSupport::holds_displacement));
         held.map(|(name, _)| *name).collect()
+    }
+
+    /// The right end of a beam, in its first plane.
+    pub(super) fn right_end(&self) -> &str {
+        self.ends.iter().map(|(name, _)| *name).find(|name| name.starts_with("right")).unwrap_or("right")
     }
 
     /// The first point or mass.

@@ -5,7 +5,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Reading, TomlTable, Value};
+use crate::document::{
+    Key, KeyRow, Reading, TomlTable, Value,
+    key::{Whole, words},
+};
 
 use super::{
     Excitation, Stop, StopEntry,
@@ -15,8 +18,64 @@ use super::{
 
 /// Most outputs of a study.
 const MOST: usize = 200;
-/// Most orders of the excitation frequency with harmonics, and how many unless the study says so.
-const HARMONICS: (u32, u32) = (50, 3);
+const HARMONICS: Key<Whole> = Key::new(
+    "harmonics",
+    Whole(0, 50),
+    "orders of the excitation frequency up to which there are amplitudes and phases",
+)
+.or(3);
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let row =
+        |name, allowed: String, default: &str, meaning| KeyRow::read_apart(name, allowed, default, meaning);
+    let quantity = |of_stop: bool| {
+        let is_of = move |quantity: &OutputQuantity| of_stop == (*quantity == OutputQuantity::Force);
+        words(OutputQuantity::ALL.iter().copied().filter(is_of).map(OutputQuantity::word))
+    };
+    let [displacement, force] = [OutputQuantity::Displacement, OutputQuantity::Force]
+        .map(|quantity| words([quantity.word()].into_iter()));
+    let usual: Vec<String> = OutputValue::USUAL.iter().map(|value| format!("\"{}\"", value.word())).collect();
+    vec![
+        row(
+            "name",
+            "text".into(),
+            "`\"output 1\"`, `\"output 2\"`, ...",
+            "name in tables and figures, one for each output",
+        ),
+        row(
+            "at",
+            "a point, an end, a mass, a support that moves".into(),
+            "required, or one of the next two",
+            "the motion of this place, in space",
+        ),
+        row(
+            "between",
+            "two such names; also `\"ground\"` and `\"space\"`, which stand still".into(),
+            "none",
+            "the motion of the first place relative to the second",
+        ),
+        row(
+            "stop",
+            "the name of a stop".into(),
+            "none",
+            "the force on the stop; of a stop on both sides also one side, as `\"NAME (below)\"`",
+        ),
+        row(
+            "quantity",
+            format!("{}; of a stop {}", quantity(false), quantity(true)),
+            &format!("{displacement}, of a stop {force}"),
+            "what is read there",
+        ),
+        HARMONICS.row(),
+        row(
+            "figures",
+            format!("list of {}", words(OutputValue::ALL.iter().copied().map(OutputValue::word))),
+            &format!("`[{}]`", usual.join(", ")),
+            "numbers that figures and the page show; tables have all of them",
+        ),
+    ]
+}
 
 /// Something that is read off orbits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -108,8 +167,7 @@ fn read_name(table: &TomlTable<'_>, index: usize, others: &[OutputEntry]) -> Opt
 fn read_output(table: TomlTable<'_>, referred: &Referred<'_>) -> Option<OutputEntry> {
     let source = read_source(&table, referred);
     let quantity = read_quantity(&table, source.as_ref());
-    let (most, usual) = HARMONICS;
-    let harmonics = table.optional("harmonics").map_or(Some(usual), |value| value.whole(0, most));
+    let harmonics = HARMONICS.read(&table);
     let figures = table.optional("figures").map_or(Some(OutputValue::USUAL.into()), read_figures);
     table.finish();
     let figures: Vec<OutputValue> = figures?;

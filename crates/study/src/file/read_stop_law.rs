@@ -14,7 +14,11 @@ use super::{
     read_formula,
     stop_law::{Approach, GapMeasured, StopLaw, StopRest, StopSide},
 };
-use crate::document::{TomlTable, Value, quantity};
+use crate::document::{
+    Key, Quantity, TomlTable, Value,
+    key::{KeyRange, Words},
+    quantity,
+};
 
 /// The law of a stop, or those of the two that it is read as.
 pub(super) enum ReadLaw {
@@ -25,8 +29,8 @@ pub(super) enum ReadLaw {
 }
 
 /// The sides on which a one-sided law acts.
-#[derive(Clone, Copy)]
-enum Sides {
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sides {
     One(StopSide),
     Both,
 }
@@ -39,6 +43,33 @@ impl Sides {
         }
     }
 }
+
+pub(super) const SIDE: Key<Words<Sides>> = Key::new(
+    "side",
+    Words(&[
+        ("above", Sides::One(StopSide::Above)),
+        ("below", Sides::One(StopSide::Below)),
+        ("both", Sides::Both),
+    ]),
+    "contact where `r > gap`, or where `r < -gap`, or [on both sides](#on-both-sides), or all around, as a \
+     [round hole](#round-holes)",
+)
+.further(", `\"around\"`")
+.without("required for one-sided laws");
+pub(super) const GAP: Key<Quantity> = Key::new("gap_m", quantity::GAP, "distance at rest").or(0.0);
+pub(super) const GAP_MEASURED: Key<Words<GapMeasured>> = Key::new(
+    "gap_measured",
+    Words(&[("undeformed", GapMeasured::Undeformed), ("at-rest", GapMeasured::AtRest)]),
+    "whether gaps count from the undeformed structure, or from where it rests under its constant loads \
+     (gravity, forces of order 0) without any stop",
+)
+.or(GapMeasured::Undeformed);
+pub(super) const PRELOAD: Key<Quantity> = Key::new(
+    "preload_n",
+    quantity::PRELOAD,
+    "force with which a one-sided stop presses on the undeformed structure; instead of a gap",
+)
+.without("none");
 
 /// Which law it is. Of two with one word the second is meant where its key is given.
 pub(super) fn read_description(table: &TomlTable<'_>) -> Option<&'static LawDescription> {
@@ -92,7 +123,7 @@ pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) 
 }
 
 /// The values of all keys; every fault of them is noted.
-fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
+pub(super) fn read_values(table: &TomlTable<'_>, description: &LawDescription) -> Option<Vec<LawValue>> {
     let read: Vec<Option<LawValue>> =
         description.keys.iter().map(|key| read_value(table, key, description)).collect();
     let values: Vec<LawValue> = read.into_iter().collect::<Option<_>>()?;
@@ -192,18 +223,21 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
     Some(radii)
 }
 
+/// The side, with a word for who means a round hole.
 fn read_sides(table: &TomlTable<'_>) -> Option<Sides> {
-    let choices = [
-        ("above", Sides::One(StopSide::Above)),
-        ("below", Sides::One(StopSide::Below)),
-        ("both", Sides::Both),
-    ];
-    table.required("side").and_then(|value| value.choice(&choices))
+    if let Some(value) = table.optional(SIDE.name)
+        && value.is_text()
+        && value.text() == Some("around")
+    {
+        let help = "allowed: with two points, as at = [\"tip.y\", \"tip.z\"]; else above, below, both";
+        value.problem("`side` is \"around\", but `at` names one point".to_owned(), vec![help.to_owned()]);
+        return None;
+    }
+    SIDE.read(table)
 }
 
 fn read_gap(table: &TomlTable<'_>) -> Option<Approach> {
-    let gap = table.optional("gap_m").map_or(Some(0.0), |value| value.number(&quantity::GAP));
-    let measured = read_measured(table);
+    let (gap, measured) = (GAP.read(table), GAP_MEASURED.read(table));
     gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured })
 }
 
@@ -222,7 +256,7 @@ fn read_with_gap(table: &TomlTable<'_>, refused: NoPreload) -> (Option<Approach>
 /// Gap or preload, and the sides.
 fn read_one_sided(table: &TomlTable<'_>) -> (Option<Approach>, Option<Sides>) {
     let sides = read_sides(table);
-    let Some(preload) = table.optional("preload_n") else {
+    let Some(preload) = table.optional(PRELOAD.name) else {
         return (read_gap(table), sides);
     };
     for key in ["gap_m", "gap_measured"] {
@@ -231,12 +265,7 @@ fn read_one_sided(table: &TomlTable<'_>) -> (Option<Approach>, Option<Sides>) {
             value.problem(format!("`{key}` is given besides `preload_n`"), help);
         }
     }
-    (preload.number(&quantity::PRELOAD).map(|preload_n| Approach::Preload { preload_n }), sides)
-}
-
-fn read_measured(table: &TomlTable<'_>) -> Option<GapMeasured> {
-    let choices = [("undeformed", GapMeasured::Undeformed), ("at-rest", GapMeasured::AtRest)];
-    table.optional("gap_measured").map_or(Some(GapMeasured::Undeformed), |value| value.choice(&choices))
+    (PRELOAD.range.take(&preload).map(|preload_n| Approach::Preload { preload_n }), sides)
 }
 
 /// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`.
@@ -249,9 +278,9 @@ fn read_gaps(table: &TomlTable<'_>) -> Option<StopRest> {
             gap.problem("a gap of one side is given besides `gap_m`".into(), help);
         }
     }
-    let common = both.map_or(Some(0.0), |value| value.number(&quantity::GAP));
-    let [above, below] = each.map(|gap| gap.map_or(common, |value| value.number(&quantity::GAP)));
-    let measured = read_measured(table);
+    let common = both.map_or(GAP.default, |value| GAP.range.take(&value));
+    let [above, below] = each.map(|gap| gap.map_or(common, |value| GAP.range.take(&value)));
+    let measured = GAP_MEASURED.read(table);
     Some(StopRest::TwoSided { gap_above_m: above?, gap_below_m: below?, gap_measured: measured? })
 }
 

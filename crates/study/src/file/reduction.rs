@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{TomlTable, quantity};
+use crate::document::{Key, KeyRow, Quantity, TomlTable, key::Words, quantity};
 
 use super::StructureTable;
 
@@ -46,7 +46,7 @@ impl ReductionMethod {
 }
 
 /// The methods; those of Rubin and of Craig and Bampton have two names.
-const METHODS: [(&str, ReductionMethod); 9] = [
+const METHODS: &[(&str, ReductionMethod)] = &[
     ("free-interface", ReductionMethod::FreeInterface),
     ("rubin", ReductionMethod::FreeInterface),
     ("macneal", ReductionMethod::MacNeal),
@@ -58,6 +58,16 @@ const METHODS: [(&str, ReductionMethod); 9] = [
     ("none", ReductionMethod::None),
 ];
 
+const METHOD: Key<Words<ReductionMethod>> = Key::new("method", Words(METHODS), "the basis, below");
+const CUT_OFF: Key<Quantity> = Key::new("cut_off_hz", quantity::FREQUENCY, "highest eigenfrequency kept")
+    .further("; above the first elastic mode")
+    .without("required, but not a key of `\"none\"` and `\"given\"`");
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    vec![METHOD.row(), CUT_OFF.row()]
+}
+
 /// A beam and matrices have to say how they are reduced; lumped masses are not reduced unless they say so.
 pub(super) fn read(root: &TomlTable<'_>, structure: Option<&StructureTable>) -> Option<ReductionTable> {
     let lumped = matches!(structure, Some(StructureTable::Lumped(_)));
@@ -66,10 +76,10 @@ pub(super) fn read(root: &TomlTable<'_>, structure: Option<&StructureTable>) -> 
         return Some(ReductionTable { method: ReductionMethod::None, cut_off_hz: 0.0 });
     }
     let table = root.required("reduction").and_then(|value| value.table())?;
-    let method = table.required("method").and_then(|value| value.choice(&METHODS));
+    let method = METHOD.read(&table);
     let cut_off_hz = match method {
         Some(method) if !method.cuts_off() => Some(0.0),
-        _ => table.required("cut_off_hz").and_then(|value| value.number(&quantity::FREQUENCY)),
+        _ => CUT_OFF.read(&table),
     };
     let is_matrices = matches!(structure, Some(StructureTable::Matrices(_)) | None);
     if method == Some(ReductionMethod::Given) && !is_matrices {

@@ -1,8 +1,12 @@
 //! `[rig]`: a measurement made with another model, to be held against this one.
 
-use crate::document::{TomlTable, Value, quantity};
+use crate::document::{
+    Key, KeyRow, Quantity, TomlTable, Value,
+    key::{KeyRange, Whole},
+    quantity,
+};
 
-use super::Excitation;
+use super::{Excitation, response::PERIOD_MULTIPLE};
 
 /// How a virtual rig is built and measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +41,61 @@ pub struct Rig {
 const SIGNALS: [(f64, u32); 8] =
     [(31.0, 1), (31.5, 1), (33.6, 1), (34.5, 1), (50.8, 2), (61.65, 2), (63.7, 2), (66.5, 2)];
 
+/// Further filters [Hz].
+const OTHER_LOW_PASS: [f64; 2] = [1500.0, 3000.0];
+
+const STEP: Key<Quantity> = Key::new("step_hz", quantity::STEP, "their step").or(0.5);
+const SETTLING_PERIODS: Key<Whole> =
+    Key::new("settling_periods", Whole(1, 1_000_000), "excitation periods in which each motion settles")
+        .or(200);
+const RECORDED_PERIODS: Key<Whole> =
+    Key::new("recorded_periods", Whole(10, 10_000), "excitation periods that are recorded").or(40);
+const SAMPLING: Key<Quantity> =
+    Key::new("sampling_hz", quantity::FREQUENCY, "sampling rate of the records").or(10_000.0);
+const LOW_PASS: Key<Quantity> = Key::new(
+    "low_pass_hz",
+    quantity::FREQUENCY,
+    "cut-off of the accelerometers' low-pass filter (Butterworth, causal)",
+)
+.or(850.0);
+const LOW_PASS_ORDER: Key<Whole> = Key::new("low_pass_order", Whole(1, 32), "its order").or(4);
+const ACCELERATION_NOISE: Key<Quantity> =
+    Key::new("noise_m_s2", quantity::NOISE, "standard deviation of the noise of accelerometers").or(0.0);
+const DISPLACEMENT_NOISE: Key<Quantity> =
+    Key::new("noise_m", quantity::NOISE, "the same of displacement sensors").or(0.0);
+const SEED: Key<Whole> = Key::new("seed", Whole(0, u32::MAX), "seed of the noise").or(1);
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let changes = KeyRow::read_apart(
+        "changes",
+        "table",
+        "required",
+        "what of the study is different on the rig, under the same keys: tables are merged, everything else, \
+         lists of tables included, is replaced; `check` reads the result once the study itself has no fault",
+    );
+    let ends = "ends of the sweeps, up and then down again, each from rest";
+    let sweep = KeyRow::read_apart("sweep_hz", "[low, high] in Hz", "required", ends);
+    let others = KeyRow::read_apart(
+        "other_low_pass_hz",
+        "list of Hz",
+        &format!("`{OTHER_LOW_PASS:?}`"),
+        "further filters, of the same order, with which the branches are seen",
+    );
+    let signals = KeyRow::read_apart(
+        "signals",
+        "list of `[frequency in Hz, period multiple]`",
+        "those of figures 7 to 14 of the paper",
+        "measured signals for which the computed one that is most alike is sought",
+    );
+    let filters = [LOW_PASS.row(), LOW_PASS_ORDER.row(), others];
+    let noise = [ACCELERATION_NOISE.row(), DISPLACEMENT_NOISE.row(), SEED.row()];
+    let mut rows = vec![changes, sweep, STEP.row(), SETTLING_PERIODS.row()];
+    rows.extend([RECORDED_PERIODS.row(), SAMPLING.row()]);
+    rows.extend(filters.into_iter().chain(noise).chain([signals]));
+    rows
+}
+
 pub(super) fn read(root: &TomlTable<'_>, excitation: Option<&Excitation>) -> Option<Option<Rig>> {
     let Some(value) = root.optional("rig") else { return Some(None) };
     if excitation.is_some_and(Excitation::supports_differ) {
@@ -57,21 +116,17 @@ pub(super) fn read(root: &TomlTable<'_>, excitation: Option<&Excitation>) -> Opt
     // What differs from this study is read when the rig is built.
     let changes = table.required("changes").and_then(|value| value.table());
     let sweep = table.required("sweep_hz").and_then(|value| value.numbers::<2>(&quantity::FREQUENCY));
-    let number = |key, quantity, default: f64| {
-        table.optional(key).map_or(Some(default), |value| value.number(quantity))
-    };
-    let whole =
-        |key, low, high, default| table.optional(key).map_or(Some(default), |value| value.whole(low, high));
-    let step = number("step_hz", &quantity::STEP, 0.5);
-    let settling = whole("settling_periods", 1, 1_000_000, 200);
-    let recorded = whole("recorded_periods", 10, 10_000, 40);
-    let sampling = number("sampling_hz", &quantity::FREQUENCY, 10_000.0);
-    let low_pass = number("low_pass_hz", &quantity::FREQUENCY, 850.0);
-    let order = whole("low_pass_order", 1, 32, 4);
-    let others = table.optional("other_low_pass_hz").map_or(Some(vec![1500.0, 3000.0]), |value| list(&value));
-    let noise_acceleration = number("noise_m_s2", &quantity::NOISE, 0.0);
-    let noise_displacement = number("noise_m", &quantity::NOISE, 0.0);
-    let seed = whole("seed", 0, u32::MAX, 1);
+    let step = STEP.read(&table);
+    let settling = SETTLING_PERIODS.read(&table);
+    let recorded = RECORDED_PERIODS.read(&table);
+    let sampling = SAMPLING.read(&table);
+    let low_pass = LOW_PASS.read(&table);
+    let order = LOW_PASS_ORDER.read(&table);
+    let others =
+        table.optional("other_low_pass_hz").map_or(Some(OTHER_LOW_PASS.to_vec()), |value| list(&value));
+    let noise_acceleration = ACCELERATION_NOISE.read(&table);
+    let noise_displacement = DISPLACEMENT_NOISE.read(&table);
+    let seed = SEED.read(&table);
     let signals = table.optional("signals").map_or(Some(SIGNALS.to_vec()), |value| signals(&value));
     table.finish();
     changes?;
@@ -110,7 +165,7 @@ fn signals(value: &Value<'_>) -> Option<Vec<(f64, u32)>> {
             entry.problem(format!("a signal has {} entries", entries.len()), help);
             return None;
         };
-        Some((frequency.number(&quantity::FREQUENCY)?, period.whole(1, 64)?))
+        Some((frequency.number(&quantity::FREQUENCY)?, PERIOD_MULTIPLE.range.take(period)?))
     };
     value.array_of("pairs [frequency in Hz, period multiple]")?.iter().map(pair).collect()
 }

@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use crate::document::TomlTable;
+use crate::document::{
+    Key, KeyRow, TomlTable,
+    key::{TrueOrFalse, Whole},
+};
 
 /// Where and how thoroughly orbits are looked for by simulation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,21 +22,55 @@ pub struct Search {
     pub unstable_starts: bool,
 }
 
+const FREQUENCIES: Key<Whole> = Key::new(
+    "frequencies",
+    Whole(0, 100_000),
+    "number of frequencies, in the middles of equal parts of the range; with 0 there are no others either",
+)
+.or(24);
+const STARTS: Key<Whole> = Key::new(
+    "starts",
+    Whole(0, 100_000),
+    "starting states at each frequency, in addition to the linear response; always the same ones",
+)
+.or(6);
+const SETTLING_PERIODS: Key<Whole> = Key::new(
+    "settling_periods",
+    Whole(1, 1_000_000),
+    "excitation periods that a motion has to settle; a structure with little damping needs more",
+)
+.or(128);
+const TRIALS: Key<Whole> = Key::new(
+    "trials",
+    Whole(0, 100_000),
+    "trials of Newton's method without a new harmonic solution, at each of eight frequencies in each part of \
+     the range; 0 for none, and none without `unstable_starts`",
+)
+.or(12);
+const UNSTABLE_STARTS: Key<TrueOrFalse> = Key::new(
+    "unstable_starts",
+    TrueOrFalse,
+    "whether branches also start at unstable solutions. If not, they start at attractors and where a \
+     solution loses its stability, and are followed through their unstable parts all the same. Much quicker \
+     where motion is chaotic, and enough for every attractor",
+)
+.or(true);
+
+/// Rows of the page of keys.
+pub(super) fn rows() -> Vec<KeyRow> {
+    vec![FREQUENCIES.row(), STARTS.row(), SETTLING_PERIODS.row(), TRIALS.row(), UNSTABLE_STARTS.row()]
+}
+
 pub(super) fn read(root: &TomlTable<'_>) -> Option<Search> {
     let table = match root.optional("search") {
         Some(value) => Some(value.table()?),
         None => None,
     };
-    let key = |key, low, high, default| {
-        let value = table.as_ref().and_then(|table| table.optional(key));
-        value.map_or(Some(default), |value| value.whole(low, high))
-    };
-    let frequencies = key("frequencies", 0, 100_000, 24);
-    let starts = key("starts", 0, 100_000, 6);
-    let settling = key("settling_periods", 1, 1_000_000, 128);
-    let trials = key("trials", 0, 100_000, 12);
-    let unstable = table.as_ref().and_then(|table| table.optional("unstable_starts"));
-    let unstable = unstable.map_or(Some(true), |value| value.boolean());
+    let frequencies = FREQUENCIES.read(&table);
+    let starts = STARTS.read(&table);
+    let settling = SETTLING_PERIODS.read(&table);
+    let trials = TRIALS.read(&table);
+    let unstable = UNSTABLE_STARTS.read(&table);
     if let Some(table) = table {
         table.finish();
     }

@@ -7,7 +7,9 @@ use crate::document::{Reading, TomlTable};
 use super::{
     Excitation, StopLaw,
     names::Names,
+    read_round_hole,
     read_stop_law::{self, ReadLaw},
+    stop_place::{self, Place},
 };
 
 /// A local non-linear element.
@@ -39,47 +41,6 @@ impl StopEntry {
     pub fn number(self) -> usize {
         match self {
             Self::Whole(number) | Self::OneSide(number) => number,
-        }
-    }
-}
-
-/// Where an element sits; with it goes the relative displacement `r`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Place {
-    /// Between a point and its surroundings: `r` is the displacement of the point relative to what the stop
-    /// is fixed to.
-    At {
-        /// Point.
-        point: String,
-        /// What carries the stop.
-        fixed_to: FixedTo,
-    },
-    /// Between two points: `r = y_first - y_second`.
-    Between {
-        /// First point.
-        first: String,
-        /// Second point.
-        second: String,
-    },
-}
-
-/// What carries a stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FixedTo {
-    /// It rides on a moving support, of this number from 0.
-    Support(usize),
-    /// It does not move.
-    Space,
-}
-
-impl Serialize for FixedTo {
-    /// The first support, the only one of most studies, has no number.
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Space => serializer.serialize_str("space"),
-            Self::Support(0) => serializer.serialize_str("support"),
-            Self::Support(number) => serializer.serialize_str(&format!("support {}", number + 1)),
         }
     }
 }
@@ -143,54 +104,15 @@ fn read_stop(
     names: &Names,
     excitation: Option<&Excitation>,
 ) -> Option<(Place, ReadLaw)> {
-    let place = read_place(&table, names, excitation);
+    let place = stop_place::read(&table, names, excitation);
     // Which keys a stop may have, its law says.
     let description = read_stop_law::read_description(&table)?;
-    let law = read_stop_law::read(&table, description);
+    let is_around = table.optional("at").is_some_and(|value| value.is_list());
+    let law = if is_around {
+        read_round_hole::read(&table, description)
+    } else {
+        read_stop_law::read(&table, description)
+    };
     table.finish();
     Some((place?, law?))
-}
-
-fn read_place(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Place> {
-    let Some(between) = table.optional("between") else {
-        let point = table.required("at").and_then(|value| names.point(&value));
-        let fixed_to = read_fixed_to(table, names, excitation);
-        return Some(Place::At { point: point?, fixed_to: fixed_to? });
-    };
-    for key in ["at", "fixed_to"] {
-        if let Some(value) = table.optional(key) {
-            let help = vec!["allowed: either `between`, or `at` with `fixed_to`".into()];
-            value.problem(format!("`{key}` is given besides `between`"), help);
-        }
-    }
-    let [first, second] = names.pair(&between, false)?;
-    Some(Place::Between { first, second })
-}
-
-/// A moving support by its name, or what stands still; by default the moving support if there is one.
-fn read_fixed_to(table: &TomlTable<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<FixedTo> {
-    let moving = excitation.map_or_else(Vec::new, Excitation::moving_places);
-    let mut known = moving.clone();
-    known
-        .extend(["space", "ground"].iter().chain(&names.held_ends()).filter(|still| !moving.contains(still)));
-    let Some(value) = table.optional("fixed_to") else {
-        return match excitation.map_or(0, |excitation| excitation.supports().len()) {
-            0 => Some(FixedTo::Space),
-            1 => Some(FixedTo::Support(0)),
-            several => {
-                let message = format!("`fixed_to` is missing: {several} supports move differently");
-                table.problem("fixed_to", message, vec![format!("allowed: {}", known.join(", "))]);
-                None
-            }
-        };
-    };
-    let name = value.text()?;
-    if let Some(support) = excitation.and_then(|excitation| excitation.support_at(name)) {
-        return Some(FixedTo::Support(support));
-    }
-    if excitation.is_some() && !known.contains(&name) {
-        value.unknown_word(name, "a support, \"space\" or \"ground\"", &known);
-        return None;
-    }
-    Some(FixedTo::Space)
 }

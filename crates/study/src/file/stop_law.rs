@@ -33,6 +33,11 @@ pub enum StopRest {
         /// From where the gaps count.
         gap_measured: GapMeasured,
     },
+    /// All around, as a round hole.
+    Around {
+        /// Clearance [m].
+        gap_m: f64,
+    },
     /// It always acts.
     Always,
 }
@@ -130,6 +135,7 @@ impl StopLaw {
     pub fn gap_m(&self) -> Option<f64> {
         match self.rest {
             StopRest::OneSided { approach: Approach::Gap { gap_m, .. }, .. } => Some(gap_m),
+            StopRest::Around { gap_m } => Some(gap_m),
             StopRest::TwoSided { gap_above_m, gap_below_m, .. } if gap_above_m == gap_below_m => {
                 Some(gap_above_m)
             }
@@ -200,6 +206,7 @@ impl Serialize for Contents<'_> {
         }
         match rest {
             StopRest::Always => {}
+            StopRest::Around { gap_m } => entries.serialize_entry("clearance_m", gap_m)?,
             StopRest::OneSided { approach, side } => {
                 entries.serialize_entry("approach", approach)?;
                 entries.serialize_entry("side", side)?;

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, TomlTable, Value, quantity};
+use crate::document::{Key, KeyRow, Quantity, TomlTable, Value, quantity};
 
-use super::{Amplitude, amplitude, names::Names};
+use super::{Amplitude, amplitude, harmonic::PHASE, names::Names};
 
 /// A support that moves in a way of its own, as `amplitude cos(2 pi order f t + phase)`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,13 +37,40 @@ pub(super) enum PrescribedMotion {
     Each(Vec<MovingSupport>),
 }
 
+const DISPLACEMENT: Key<Quantity> =
+    Key::new("amplitude_m", quantity::AMPLITUDE, "amplitude of the displacement");
+const ACCELERATION: Key<Quantity> = Key::new(
+    "amplitude_m_s2",
+    quantity::ACCELERATION,
+    "amplitude of the acceleration, in place of `amplitude_m`",
+)
+.without("none");
+
+/// Rows of the page of keys: the amplitudes of `[excitation]`.
+///
+/// * `bound`: what else bounds the displacement, in words.
+pub(super) fn rows_of_amplitude(bound: &str) -> [KeyRow; 2] {
+    let table = "; or a table over the frequency";
+    let displacement = DISPLACEMENT.without("required for support motion, or `amplitude_m_s2`").row();
+    let allowed = format!("{}{bound}{table}", displacement.allowed);
+    [KeyRow { allowed, ..displacement }, ACCELERATION.further(table).row()]
+}
+
+/// Those of `support`.
+pub(super) fn rows() -> Vec<KeyRow> {
+    let places = "the support, or several that move as one";
+    let at = KeyRow::read_apart("at", "a name, or a list of names", "required", places);
+    let displacement = DISPLACEMENT.without("required, or `amplitude_m_s2`").row();
+    vec![at, displacement, ACCELERATION.row(), PHASE.row()]
+}
+
 /// Reads `at` with `amplitude_m` or `amplitude_m_s2`, or a `support` for each motion.
 pub(super) fn read(table: &TomlTable<'_>, names: &Names) -> Option<PrescribedMotion> {
     if table.has("support") {
         return read_each(table, names).map(PrescribedMotion::Each);
     }
     let at = table.required("at").and_then(|value| read_places(&value, names));
-    let motion = read_motion(table, &quantity::AMPLITUDE, &quantity::ACCELERATION);
+    let motion = read_motion(table, &DISPLACEMENT.range, &ACCELERATION.range);
     Some(PrescribedMotion::Common { at: at?, drive: motion? })
 }
 
@@ -60,14 +87,14 @@ pub(super) fn read_motion(
     };
     let Some(value) = table.optional("amplitude_m_s2") else {
         let value = table.required("amplitude_m")?;
-        return read(value, displacement, &quantity::AMPLITUDE).map(SupportDrive::Displacement);
+        return read(value, displacement, &DISPLACEMENT.range).map(SupportDrive::Displacement);
     };
     if table.optional("amplitude_m").is_some() {
         let help = vec!["allowed: one of `amplitude_m` and `amplitude_m_s2`".to_owned()];
         value.problem("`amplitude_m_s2` is given, and `amplitude_m`, too".to_owned(), help);
         return None;
     }
-    read(value, acceleration, &quantity::ACCELERATION).map(SupportDrive::Acceleration)
+    read(value, acceleration, &ACCELERATION.range).map(SupportDrive::Acceleration)
 }
 
 fn read_each(table: &TomlTable<'_>, names: &Names) -> Option<Vec<MovingSupport>> {
@@ -103,8 +130,8 @@ fn read_each(table: &TomlTable<'_>, names: &Names) -> Option<Vec<MovingSupport>>
 fn read_support(entry: TomlTable<'_>, names: &Names) -> Option<MovingSupport> {
     let at = entry.required("at").and_then(|value| read_places(&value, names));
     refuse_tables(&entry);
-    let drive = read_motion(&entry, &quantity::AMPLITUDE, &quantity::ACCELERATION);
-    let phase = entry.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
+    let drive = read_motion(&entry, &DISPLACEMENT.range, &ACCELERATION.range);
+    let phase = PHASE.read(&entry);
     entry.finish();
     Some(MovingSupport { at: at?, drive: drive?, phase_rad: phase? })
 }

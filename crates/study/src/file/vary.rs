@@ -3,11 +3,16 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, TomlTable, quantity};
+use crate::document::{
+    Key, KeyRow, Quantity, Reading, TomlTable,
+    key::{Whole, Words},
+    quantity,
+};
 
 use super::{
     Excitation, VariedParameter,
     parameter::{self, Variable},
+    response::PERIOD_MULTIPLE,
 };
 
 /// Branches in a parameter at a fixed frequency.
@@ -68,12 +73,44 @@ impl CurveOf {
     }
 }
 
-const KINDS: [(&str, CurveOf); 4] = [
+const KINDS: &[(&str, CurveOf)] = &[
     ("fold", CurveOf::Fold),
     ("flip", CurveOf::Flip),
     ("neimark-sacker", CurveOf::NeimarkSacker),
     ("grazing", CurveOf::Grazing),
 ];
+
+const FREQUENCY: Key<Quantity> = Key::new("frequency_hz", quantity::FREQUENCY, "excitation frequency");
+const STEPS: Key<Whole> = Key::new(
+    "steps",
+    Whole(1, 1_000_000),
+    "largest change of the parameter from one solution to the next, as a part of the range: its 1/`steps`; \
+     amplitudes are resolved as finely",
+)
+.or(DEFAULT_STEPS);
+const OF: Key<Words<CurveOf>> = Key::new("of", Words(KINDS), "what is followed");
+const NEAR: Key<Quantity> = Key::new("near_hz", quantity::FREQUENCY, "about where the event is");
+
+/// Rows of the page of keys: those of `[[vary]]`.
+pub(super) fn rows_of_vary() -> Vec<KeyRow> {
+    let range = KeyRow::read_apart(
+        "range",
+        "[low, high], in the unit of the name, with the value of the study between",
+        "required",
+        "branches are cut exactly at its ends; it must not hold zero inside",
+    );
+    let parameter = KeyRow::read_apart("parameter", "a name of the table below", "required", "what varies");
+    vec![parameter, range, FREQUENCY.row(), PERIOD_MULTIPLE.row(), STEPS.row()]
+}
+
+/// Those of `[[curve]]`.
+pub(super) fn rows_of_curve() -> Vec<KeyRow> {
+    let as_in_vary = "as in `[[vary]]`";
+    let parameter = KeyRow::read_apart("parameter", as_in_vary, "required", "the second parameter");
+    let ends = "the curve is cut exactly at its ends";
+    let range = KeyRow::read_apart("range", as_in_vary, "required", ends);
+    vec![OF.row(), NEAR.row(), parameter, range, PERIOD_MULTIPLE.meaning("of the branch").row()]
+}
 
 pub(super) fn read(
     root: &TomlTable<'_>,
@@ -100,22 +137,18 @@ pub(super) fn passed_over(root: &TomlTable<'_>) -> (Vec<Vary>, Vec<Curve>) {
 
 fn read_vary(table: TomlTable<'_>, study: Variable<'_>) -> Option<Vary> {
     let parameter = parameter::read(&table, study);
-    let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
-    let multiple = read_multiple(&table);
-    let steps = table.optional("steps").map_or(Some(DEFAULT_STEPS), |value| value.whole(1, 1_000_000));
+    let frequency = FREQUENCY.read(&table);
+    let multiple = PERIOD_MULTIPLE.read(&table);
+    let steps = STEPS.read(&table);
     table.finish();
     Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple?, steps: steps? })
 }
 
 fn read_curve(table: TomlTable<'_>, study: Variable<'_>) -> Option<Curve> {
-    let of = table.required("of").and_then(|value| value.choice(&KINDS));
-    let near = table.required("near_hz").and_then(|value| value.number(&quantity::FREQUENCY));
+    let of = OF.read(&table);
+    let near = NEAR.read(&table);
     let parameter = parameter::read(&table, study);
-    let multiple = read_multiple(&table);
+    let multiple = PERIOD_MULTIPLE.read(&table);
     table.finish();
     Some(Curve { of: of?, near_hz: near?, parameter: parameter?, period_multiple: multiple? })
-}
-
-fn read_multiple(table: &TomlTable<'_>) -> Option<u32> {
-    table.optional("period_multiple").map_or(Some(1), |value| value.whole(1, 64))
 }

@@ -81,6 +81,10 @@ pub(super) fn drifts(system: &System) -> Vec<Drift> {
 
 /// Whether the force of a law is nowhere zero but at a point.
 fn always_acts(law: &Law) -> bool {
+    // Both directions of a hole are free up to its clearance.
+    if law.round_hole().is_some() || law.is_across_hole() {
+        return false;
+    }
     let acts = |size: f64| law.force(size, 0.0).value != 0.0 && law.force(-size, 0.0).value != 0.0;
     law.depends_on_displacement() && (law.contacts().is_empty() || (-12..=0).all(|k| acts(10f64.powi(k))))
 }

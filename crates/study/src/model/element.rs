@@ -10,6 +10,8 @@ use crate::file::{Approach, FixedTo, GapMeasured, Place, Stop, StopRest, StopSid
 
 use super::load::rest;
 
+const KNOWN: &str = "the study knows the names of its structure";
+
 /// Relative displacement of an element, `r = shape . q + support_ratios . u`.
 #[derive(Debug, Clone)]
 struct Relative {
@@ -19,15 +21,10 @@ struct Relative {
 
 impl Relative {
     fn of(place: &Place, model: &ReducedModel) -> Self {
-        let point = |name: &str| model.point(name).expect("the study knows the names of its structure");
+        let point = |name: &str| model.point(name).expect(KNOWN);
         match place {
-            Place::At { point: name, fixed_to } => {
-                let PointOutput { shape, support_ratios, .. } = point(name).clone();
-                let mut relative = Self { shape, support_ratios };
-                if let FixedTo::Support(carrier) = fixed_to {
-                    relative.support_ratios[*carrier] -= 1.0;
-                }
-                relative
+            Place::At { point, fixed_to } | Place::Around { first: point, fixed_to: [fixed_to, _], .. } => {
+                Self::at_point(point, *fixed_to, model)
             }
             Place::Between { first, second } => {
                 let (first, second) = (point(first), point(second));
@@ -38,6 +35,21 @@ impl Relative {
                 }
             }
         }
+    }
+
+    fn at_point(name: &str, fixed_to: FixedTo, model: &ReducedModel) -> Self {
+        let PointOutput { shape, support_ratios, .. } = model.point(name).expect(KNOWN).clone();
+        let mut relative = Self { shape, support_ratios };
+        if let FixedTo::Support(carrier) = fixed_to {
+            relative.support_ratios[carrier] -= 1.0;
+        }
+        relative
+    }
+
+    /// In the second direction of a round hole; `None` of other stops.
+    fn across(place: &Place, model: &ReducedModel) -> Option<Self> {
+        let Place::Around { second, fixed_to: [_, fixed_to], .. } = place else { return None };
+        Some(Self::at_point(second, *fixed_to, model))
     }
 
     fn towards(self, side: StopSide) -> Self {
@@ -77,6 +89,16 @@ pub(super) fn elements(
         if relative.shape.iter().all(|entry| *entry == 0.0) {
             return Err(immovable(file, &key));
         }
+        if let Some(across) = Relative::across(&stop.place, model) {
+            if across.shape.iter().all(|entry| *entry == 0.0) {
+                return Err(immovable(file, &key));
+            }
+            let made = round_hole(stop, [relative, across]);
+            let made = made.map_err(|error| file.fault(&key, error.to_string(), Vec::new()))?;
+            of_stops.push(vec![(elements.len(), 1.0)]);
+            elements.extend(made);
+            continue;
+        }
         let rest = match (stop.law.gap_measured(), &rest) {
             (GapMeasured::Undeformed, _) => &vec![0.0; model.dof()],
             (GapMeasured::AtRest, Ok(rest)) => rest,
@@ -89,6 +111,19 @@ pub(super) fn elements(
         elements.extend(made);
     }
     Ok((elements, of_stops))
+}
+
+/// The two elements of a round hole.
+fn round_hole(stop: &Stop, directions: [Relative; 2]) -> Result<[LocalElement; 2], LawError> {
+    let (StopRest::Around { gap_m }, LawSides::One { build, .. }) =
+        (stop.law.rest(), stop.law.description().sides)
+    else {
+        unreachable!("a stop around a point rests so, with a one-sided law")
+    };
+    let parts = build(LawValues(stop.law.values()), LawRest::Level(gap_m))?;
+    let hole = parts.first().ok_or(LawError::NotForHole)?.law.in_round_hole()?;
+    let directions = directions.map(|relative| (relative.shape, relative.support_ratios));
+    Ok(LocalElement::round_hole(&stop.name, directions, hole))
 }
 
 fn immovable(file: &StudyFile, key: &str) -> StudyError {

@@ -22,6 +22,11 @@ pub fn matrix_study(file: &StudyFile) -> Result<(ExportedMatrices, String), Stud
                 Vec::new(),
             ));
         }
+        StructureTable::Beam(beam) if !beam.planes.is_one() => {
+            let message = "the matrices of a beam that bends in two planes are not written".to_owned();
+            let help = vec!["allowed: planes = 1, for the matrices of one plane".to_owned()];
+            return Err(file.fault("structure.planes", message, help));
+        }
         _ => linear_structure(&file.study)
             .map_err(|error| file.fault("structure", error.to_string(), Vec::new()))?,
     };

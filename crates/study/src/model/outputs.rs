@@ -72,5 +72,9 @@ fn pressing(model: &Model, sides: &[(usize, bool)], system: &System) -> Option<O
         elements.extend(model.elements_of_stops.get(*stop)?.iter().map(|(e, sign)| (*e, turn * sign)));
     }
     let known = system.elements().len();
+    let is_hole = |e: &usize| system.elements().get(*e).is_some_and(|e| e.law.round_hole().is_some());
+    if let Some(first) = elements.iter().map(|(element, _)| *element).find(is_hole) {
+        return (first + 1 < known).then_some(OrbitSignal::PressingAround { first });
+    }
     elements.iter().all(|(element, _)| *element < known).then_some(OrbitSignal::Pressing { elements })
 }

@@ -1,7 +1,7 @@
 //! The structure of a study in the terms of the structure crate.
 
 use hammerbeam_structure as linear;
-use linear::{Connection, LumpedMass, MatrixReport, ModalRatios, Reduced, StructureError};
+use linear::{Connection, LumpedMass, MatrixReport, ModalRatios, Reduced, StructureError, TwoPlanes};
 
 use crate::file::{
     DampingTable, LumpedTable, MatricesTable, MatrixProblem, ModalRatio, Place, ReductionMethod,
@@ -29,7 +29,9 @@ pub(super) fn interface(study: &Study) -> Vec<String> {
     for stop in &study.stops {
         match &stop.place {
             Place::At { point, .. } => names.push(point.clone()),
-            Place::Between { first, second } => names.extend([first.clone(), second.clone()]),
+            Place::Around { first, second, .. } | Place::Between { first, second } => {
+                names.extend([first.clone(), second.clone()]);
+            }
         }
     }
     names.extend(study.force_points().map(str::to_owned));
@@ -52,16 +54,22 @@ pub(super) fn reduce_and_report(
         return reduce_matrices(study, matrices, interface);
     }
     let structure = linear_structure(study)?;
+    let in_two_planes = matches!(&study.structure, StructureTable::Beam(beam) if !beam.planes.is_one());
     let supports = study.excitation.supports();
     let moving: Vec<Vec<&str>> =
         supports.into_iter().map(|places| places.iter().map(String::as_str).collect()).collect();
     let moving: Vec<&[&str]> = moving.iter().map(Vec::as_slice).collect();
-    let supported = structure.with_support_motions(&moving)?;
     let interface: Vec<&str> = interface.iter().map(String::as_str).collect();
-    Ok((supported.reduce(&reduction(study), &damping(&study.damping), &interface)?, None))
+    let (reduction, damping) = (reduction(study), damping(&study.damping));
+    if in_two_planes {
+        let both = TwoPlanes::new(structure);
+        return Ok((both.reduce(&moving, &reduction, &damping, &interface)?, None));
+    }
+    let supported = structure.with_support_motions(&moving)?;
+    Ok((supported.reduce(&reduction, &damping, &interface)?, None))
 }
 
-/// The beam or the masses of a study.
+/// The beam or the masses of a study; of a beam that bends in two planes, one of them.
 ///
 /// # Errors
 /// [`StructureError`], also of a study that has matrices.

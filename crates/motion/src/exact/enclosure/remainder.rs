@@ -9,8 +9,9 @@ use super::{
         output::Output,
         run::Run,
     },
-    Hermite,
+    Hermite, MOST,
 };
+use crate::law::RoundHole;
 
 /// Binomial coefficients of `NODES - 1`.
 pub(super) const BINOMIALS: [f64; NODES] = binomials();
@@ -125,6 +126,50 @@ impl ExactIntegrator {
         }
         alpha * sum[0] + beta * sum[1] / length
     }
+
+    /// `r_n` of the reading of a hole in the solved step (theorem 4); infinite where a load is resonant.
+    pub(super) fn reading_remainder(&self, run: &Run, element: usize, hole: &RoundHole) -> f64 {
+        let count = Hermite::of(self.step.grading()).count;
+        let of_output = |output: usize| {
+            let series = self.displacement_series(run, output);
+            (0..=count).map(|j| series[j] * series[count - j]).sum::<f64>()
+        };
+        0.5 * (of_output(element) + of_output(element + 1)) / hole.clearance()
+    }
+
+    /// The series Y with `y << Y` over the solved step for an output y.
+    fn displacement_series(&self, run: &Run, output: usize) -> [f64; MOST] {
+        let Some(orders) = self.drive.amplitudes(output) else { return [f64::INFINITY; MOST] };
+        let (step, read) = (&self.step, &self.outputs[output]);
+        let (length, rule) = (step.length, step.grading().rule());
+        let forces: Vec<([f64; NODES], &[f64])> = (step.force.as_chunks::<NODES>().0.iter())
+            .zip(&step.active)
+            .map(|(force, &active)| {
+                (force_majorant(rule.bernstein_of_whole(force)), self.inputs[active].as_slice())
+            })
+            .collect();
+        let recurrence = DerivativeSeries::of(step.grading());
+        let mut series = [0.0; MOST];
+        series[0] = run.start[output].output.value.abs();
+        let mut add = |(z, start): (f64, f64), driven: &[f64; NODES]| {
+            series[0] += start;
+            recurrence.add_displacements((z, start), driven, &mut series);
+        };
+        for (i, &rate) in self.rates.iter().enumerate() {
+            let (mut norm, mut driven) = (self.energy_norm(&run.state, i), [0.0; NODES]);
+            for (majorant, input) in &forces {
+                norm += length * norm_by_force(&self.blocks, input, i) * majorant[0];
+                let sigma = sigma(read, input, (i, rate));
+                (0..NODES).for_each(|j| driven[j] += length * length * sigma * majorant[j]);
+            }
+            add((rate * length, length * start_factor(read, i, rate) * norm), &driven);
+        }
+        for (amplitude, frequency) in orders {
+            let z = frequency * length;
+            add((z, amplitude * z), &[0.0; NODES]);
+        }
+        series
+    }
 }
 
 /// The recurrence of theorem 2 for one grading.
@@ -140,6 +185,18 @@ impl DerivativeSeries {
     pub(super) fn of(grading: Grading) -> Self {
         let gamma = if grading == Grading::Smooth { [1.0, 0.0] } else { [2.0, 2.0] };
         Self { count: Hermite::of(grading).count, gamma }
+    }
+
+    /// Adds `[gamma D]_(j-1)/j` for j from 1 to n, from z, `D_0` and the coefficients of `h^2 sum sigma_a
+    /// phi_a`.
+    fn add_displacements(self, (z, start): (f64, f64), driven: &[f64; NODES], sums: &mut [f64; MOST]) {
+        let (mut current, mut before, mut rate_before) = (start, 0.0, 0.0);
+        for j in 0..self.count {
+            sums[j + 1] += (self.gamma[0] * current + self.gamma[1] * before) / (j + 1) as f64;
+            let rate = z * current + driven.get(j).copied().unwrap_or(0.0);
+            let next = (self.gamma[0] * rate + self.gamma[1] * rate_before) / (j + 1) as f64;
+            (before, current, rate_before) = (current, next, rate);
+        }
     }
 
     /// `[gamma D]_(n-1)/n` and `D_n`, from z, `D_0` and the coefficients of `h^2 sum sigma_a phi_a`.

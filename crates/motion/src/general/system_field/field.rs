@@ -52,6 +52,13 @@ impl VectorField for SystemField<'_> {
                     add_scaled(&mut derivative[n..], self.period * force, &element.shape);
                 }
             }
+            for (first, cross) in self.cross.iter().enumerate().filter(|(_, cross)| **cross != 0.0) {
+                let both = &self.system.elements()[first..first + 2];
+                for (from, onto) in [(0, 1), (1, 0)] {
+                    let force = cross * dot(&both[from].shape, &column[..n]);
+                    add_scaled(&mut derivative[n..], self.period * force, &both[onto].shape);
+                }
+            }
             for (element, (by_speed, row)) in self.system.elements().iter().zip(&self.impacts) {
                 if *by_speed != 0.0 {
                     add_scaled(&mut derivative[n..], self.period * by_speed * row[index], &element.shape);
@@ -109,7 +116,10 @@ impl VectorField for SystemField<'_> {
             if contacts.is_empty() {
                 continue;
             }
-            let r = self.relative_displacement(element, q, phase);
+            let r = match element.law.round_hole() {
+                Some(_) => self.reading(e, (q, v), phase)[0],
+                None => self.relative_displacement(element, q, phase),
+            };
             for contact in contacts {
                 values[k] = contact.sign * (r - contact.level);
                 k += 1;

@@ -30,6 +30,13 @@ impl SystemField<'_> {
                 add_scaled(sum, self.period * (slope * u + damping * v), &element.shape);
             }
         }
+        for (first, cross) in self.cross.iter().enumerate().filter(|(_, cross)| **cross != 0.0) {
+            let both = &self.system.elements()[first..first + 2];
+            for (from, onto) in [(0, 1), (1, 0)] {
+                let [u, ..] = self.carried_by_frequency(&both[from].support_ratios, at.time);
+                add_scaled(sum, self.period * cross * u, &both[onto].shape);
+            }
+        }
     }
 
     /// Lets the sensitivities jump with the force of a contact that closes.

@@ -155,6 +155,7 @@ pub(super) static DESCRIPTION: LawDescription = LawDescription {
         symbol: "",
         kind: LawKeyKind::Formula,
         phrase: LawPhrase::Value,
+        meaning: "the force of a law `\"formula\"` [N], by `x` = r [m] and `v` = r' [m/s]",
         varies: None,
     }],
     alternative: None,

@@ -2,15 +2,17 @@
 
 use hammerbeam_matrices::MatrixFormat;
 
-use crate::document::{Quantity, Reading, TomlTable, Value, quantity};
+use crate::document::{Key, Quantity, Reading, TomlTable, Value, quantity};
 
 use super::{
     super::file_checksum::checksum,
     entries::{InputFile, MatrixEntry, MatrixFiles},
 };
 
-/// Factor of a unit.
-const FACTOR: Quantity = quantity::FACTOR;
+/// Factor of a unit, for a matrix or a length.
+pub(super) const fn factor(key: &'static str, meaning: &'static str) -> Key<Quantity> {
+    Key::new(key, quantity::FACTOR, meaning).or(1.0)
+}
 
 /// One component of `[structure]` itself, or those of `[[structure.component]]`.
 pub(super) fn read_components(table: &TomlTable<'_>, reading: &Reading) -> Option<Vec<MatrixFiles>> {
@@ -79,7 +81,7 @@ fn read_files(table: &TomlTable<'_>, name: String, reading: &Reading) -> Option<
 }
 
 pub(super) fn read_factor(table: &TomlTable<'_>, key: &'static str) -> Option<f64> {
-    table.optional(key).map_or(Some(1.0), |value| value.number(&FACTOR))
+    factor(key, "").read(table)
 }
 
 /// A file that need not be given.

@@ -5,8 +5,9 @@ mod direction;
 mod entries;
 mod files;
 mod points;
+mod rows;
 
-use crate::document::{Reading, TomlTable, quantity};
+use crate::document::{Reading, TomlTable};
 
 use super::names::Names;
 
@@ -19,9 +20,8 @@ pub use entries::{
 use direction::read_vector;
 use files::{optional_file, read_components, read_factor};
 use points::{read_point, read_rows, read_support};
-
-/// Memory [GB] that the factors of the matrices may take, unless the study says so.
-const MEMORY_GB: f64 = 4.0;
+use rows::MEMORY;
+pub(super) use rows::{rows, rows_of_component, rows_of_fixed, rows_of_point, rows_of_support};
 
 pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<MatricesTable> {
     let before = reading.count();
@@ -49,8 +49,7 @@ pub(super) fn read(table: &TomlTable<'_>, reading: &Reading, names: &mut Names) 
         })
         .collect();
     let acceleration = table.optional("acceleration_direction").map(|value| read_vector(&value));
-    let memory_gb =
-        table.optional("memory_gb").map_or(Some(MEMORY_GB), |value| value.number(&quantity::MEMORY_GB));
+    let memory_gb = MEMORY.read(table);
     let points: Option<Vec<MatrixPointEntry>> = points.into_iter().collect();
     let mut points = points?;
     if points.is_empty() && reading.count() == before {
