@@ -16,6 +16,7 @@ mod elements;
 mod energy_loss;
 mod every_law;
 mod fast_loads;
+mod fast_modes;
 mod general_common;
 mod general_contact;
 mod general_fields;

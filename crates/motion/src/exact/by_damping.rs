@@ -122,7 +122,7 @@ impl ByDamping {
             }
         }
         driven.end.extend(self.over_flight(step.length, step.state));
-        for (&element, force) in step.active.iter().zip(step.force.chunks_exact(NODES)) {
+        for (&element, force) in step.active.iter().zip(step.force.as_chunks::<NODES>().0) {
             self.series.add_force(element, shape, force, &mut driven.end);
         }
     }
@@ -177,7 +177,7 @@ impl ByDamping {
             let lagrange = grading.rule().lagrange(s);
             let measure = weight * (to - from) * slope * length;
             let (mut impulse, mut changed) = (vec![0.0; state.len()], vec![0.0; state.len()]);
-            for (&element, force) in step.active.iter().zip(step.force.chunks_exact(NODES)) {
+            for (&element, force) in step.active.iter().zip(step.force.as_chunks::<NODES>().0) {
                 let value: f64 = lagrange.iter().zip(force).map(|(l, f)| l * f).sum();
                 impulse.iter_mut().zip(&inputs[element]).for_each(|(x, b)| *x += measure * value * b);
             }

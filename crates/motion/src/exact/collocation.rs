@@ -17,11 +17,11 @@ use std::sync::OnceLock;
 use faer::{Mat, linalg::solvers::DenseSolveCore};
 
 use super::{
-    lanes::{dot, vectorised},
+    lanes::{dot, fixed_dot, vectorised},
     recurrence::{Recurrence, gauss_legendre},
 };
 
-/// Force nodes in a step.
+/// Force nodes in a step, a multiple of four.
 pub(crate) const NODES: usize = 12;
 /// Terms of the power series; with [`REACH`] they reach rounding.
 pub(crate) const TERMS: usize = 50;
@@ -211,7 +211,7 @@ fn products(matrix: &NodeMatrix, values: &[f64; NODES]) -> [f64; NODES] {
         #[inline(always)]
         || {
             let mut products = [0.0; NODES];
-            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = dot(row, values));
+            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = fixed_dot(row, values));
             products
         },
     )

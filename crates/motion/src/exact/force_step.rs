@@ -10,13 +10,13 @@ use std::sync::Arc;
 use super::{
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
-    lanes::{add_products, dot, raise, vectorised},
+    lanes::{add_products, fixed_dot, raise, vectorised},
     lu::{FixedLu, SmallLu},
     newton::NotSolved,
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
     series::{Readings, Series},
-    step_error::Tail,
+    step_error::{Tail, Unresolved},
     weights::StepWeights,
 };
 use crate::{Law, Parameter};
@@ -54,9 +54,8 @@ pub(crate) struct ForceStep {
     /// `df/dr'`.
     pub damping: Vec<f64>,
     pub(super) free_velocity: Vec<f64>,
-    /// What each block has in the force per unit of its turning, relative to the velocities; see
-    /// `step_error.rs` [1/s].
-    pub unresolved: Vec<f64>,
+    /// What each block, and then each order of the load, has in the force; see `step_error.rs`.
+    pub unresolved: Vec<Unresolved>,
     pub(super) free: Vec<f64>,
     readings: Vec<Readings>,
     /// Longest step that the readings serve [s].
@@ -183,14 +182,14 @@ impl ForceStep {
         for (i, propagator) in self.weights.propagators.iter().enumerate() {
             (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
         }
-        for (a, &element) in self.active.iter().enumerate() {
-            let force = &self.force[a * NODES..(a + 1) * NODES];
+        let forces = self.active.iter().zip(self.force.as_chunks::<NODES>().0);
+        for (a, (&element, force)) in forces.enumerate() {
             if !self.weights.complete {
                 series.add_force(element, (self.grading(), self.length), force, state);
                 continue;
             }
-            for (x, weights) in state.iter_mut().zip(self.weights.to_state[a].chunks_exact(NODES)) {
-                *x += dot(weights, force);
+            for (x, weights) in state.iter_mut().zip(self.weights.to_state[a].as_chunks::<NODES>().0) {
+                *x += fixed_dot(weights, force);
             }
         }
     }
@@ -300,26 +299,30 @@ impl ForceStep {
 
     /// Tail and largest value of each sensitivity of the force of the a-th active element, once solved for,
     /// and the largest velocity before the step.
-    pub fn sensitivity_tails(&self, a: usize, sensitivity: &Sensitivity) -> Vec<ColumnTail> {
+    pub fn sensitivity_tails(
+        &self,
+        a: usize,
+        sensitivity: &Sensitivity,
+    ) -> impl Iterator<Item = ColumnTail> + use<> {
         let columns = sensitivity.columns();
         let coefficients = &self.grading().rule().coefficients;
         let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
-        let mut velocities = vec![0.0; columns];
-        sensitivity.raise_velocity_norms(&mut velocities);
-        let mut largest = vec![0.0; columns];
+        let degrees = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1];
+        // Largest velocities, largest forces, and a coefficient of each degree.
+        let mut all = vec![0.0; (2 + degrees.len()) * columns];
+        let (velocities, forces) = all.split_at_mut(columns);
+        let (largest, sums) = forces.split_at_mut(columns);
+        sensitivity.raise_velocity_norms(velocities);
         vectorised(
             #[inline(always)]
-            || work.chunks_exact(columns).for_each(|row| raise(&mut largest, row)),
+            || work.chunks_exact(columns).for_each(|row| raise(largest, row)),
         );
-        let degrees = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1];
-        let mut sums = vec![0.0; degrees.len() * columns];
-        add_products(&mut sums, work, columns, |row| coefficients[degrees[row]].iter().copied());
-        let of_column = |c: usize| {
-            let pair = |first: usize| sums[first * columns + c].abs() + sums[(first + 1) * columns + c].abs();
-            let tail = Tail { highest: pair(0), middle: pair(2) };
-            ColumnTail { velocity: velocities[c], largest: largest[c], tail }
-        };
-        (0..sensitivity.used_columns()).map(of_column).collect()
+        add_products(sums, work, columns, |row| coefficients[degrees[row]].iter().copied());
+        (0..sensitivity.used_columns()).map(move |c| {
+            let pair = |row: usize| all[row * columns + c].abs() + all[(row + 1) * columns + c].abs();
+            let tail = Tail { highest: pair(2), middle: pair(4) };
+            ColumnTail { velocity: all[c], largest: all[columns + c], tail }
+        })
     }
 
     /// Moves the displacements of the last solution to a step whose length differs by the part `change`.
@@ -339,12 +342,10 @@ impl ForceStep {
     }
 
     /// How the orthonormal expansion of nodal values ends.
-    pub fn tail(&self, values: &[f64]) -> Tail {
+    pub fn tail(&self, values: &[f64; NODES]) -> Tail {
         let coefficients = &self.grading().rule().coefficients;
-        let pair = |degree: usize| -> f64 {
-            let of = |row: &[f64; NODES]| dot(row, values).abs();
-            of(&coefficients[degree]) + of(&coefficients[degree - 1])
-        };
+        let of = |degree: usize| fixed_dot(&coefficients[degree], values).abs();
+        let pair = |degree: usize| of(degree) + of(degree - 1);
         Tail { highest: pair(NODES - 1), middle: pair(NODES / 2) }
     }
 }

@@ -22,14 +22,27 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
 /// Scalar product, summed in four lanes.
 #[inline(always)]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut lanes = [0.0; 4];
-    let (x, y) = (&x[..x.len().min(y.len())], &y[..x.len().min(y.len())]);
-    let (quads, rest) = (x.chunks_exact(4).zip(y.chunks_exact(4)), x.len() / 4 * 4);
-    for (a, b) in quads {
+    let (length, mut lanes) = (x.len().min(y.len()), [0.0; 4]);
+    let ((x, x_rest), (y, y_rest)) = (x[..length].as_chunks::<4>(), y[..length].as_chunks::<4>());
+    for (a, b) in x.iter().zip(y) {
         (0..4).for_each(|lane| lanes[lane] += a[lane] * b[lane]);
     }
-    let tail: f64 = x[rest..].iter().zip(&y[rest..]).map(|(a, b)| a * b).sum();
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + tail
+    let mut sum = (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    if !x_rest.is_empty() {
+        sum += x_rest.iter().zip(y_rest).map(|(a, b)| a * b).sum::<f64>();
+    }
+    sum
+}
+
+/// The same of a fixed length, a multiple of four: a few instructions instead of a loop.
+#[inline(always)]
+pub(crate) fn fixed_dot<const N: usize>(x: &[f64; N], y: &[f64; N]) -> f64 {
+    const { assert!(N.is_multiple_of(4), "four at a time leave none out") };
+    let mut lanes = [0.0; 4];
+    for (a, b) in x.as_chunks::<4>().0.iter().zip(y.as_chunks::<4>().0) {
+        (0..4).for_each(|lane| lanes[lane] += a[lane] * b[lane]);
+    }
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
 }
 
 /// `T_r += sum_k w_rk S_k` for the rows `T_r` of `target` and the rows `S_k` of `source`, of `columns`
@@ -63,7 +76,7 @@ impl<W: Iterator<Item = f64> + Clone, F: Fn(usize) -> W> pulp::WithSimd for Prod
     }
 }
 
-/// One row of [`add_products`], six vectors at a time, which stay in registers.
+/// One row of [`add_products`], eight vectors at a time, which stay in registers.
 #[inline(always)]
 pub(crate) fn add_to_row<S: pulp::Simd>(
     simd: S,
@@ -73,9 +86,9 @@ pub(crate) fn add_to_row<S: pulp::Simd>(
 ) {
     let (row, source) = (S::as_mut_simd_f64s(row).0, S::as_simd_f64s(source).0);
     let (columns, mut first) = (row.len(), 0);
-    while first + 6 <= columns {
-        add_to_vectors::<S, 6>(simd, row, source, first, weights.clone());
-        first += 6;
+    while first + 8 <= columns {
+        add_to_vectors::<S, 8>(simd, row, source, first, weights.clone());
+        first += 8;
     }
     match columns - first {
         1 => add_to_vectors::<S, 1>(simd, row, source, first, weights),
@@ -83,6 +96,8 @@ pub(crate) fn add_to_row<S: pulp::Simd>(
         3 => add_to_vectors::<S, 3>(simd, row, source, first, weights),
         4 => add_to_vectors::<S, 4>(simd, row, source, first, weights),
         5 => add_to_vectors::<S, 5>(simd, row, source, first, weights),
+        6 => add_to_vectors::<S, 6>(simd, row, source, first, weights),
+        7 => add_to_vectors::<S, 7>(simd, row, source, first, weights),
         _ => {}
     }
 }
@@ -131,5 +146,7 @@ mod tests {
             assert_eq!(dot(&numbers[..length as usize], &numbers), expected);
             assert_eq!(vectorised(|| dot(&numbers[..length as usize], &numbers)), expected);
         }
+        let eight = numbers.first_chunk::<8>().unwrap();
+        assert_eq!(fixed_dot(eight, eight), 204.0);
     }
 }

@@ -77,15 +77,20 @@ impl SmallLu {
 /// `P A = L U` of an N x N matrix: loops of fixed length, which the compiler turns into vectors.
 #[derive(Debug, Clone)]
 pub(crate) struct FixedLu<const N: usize> {
+    /// Rows of U.
     upper: [[f64; N]; N],
-    lower: [[f64; N]; N],
+    /// Columns of U, with what is left below its diagonal.
+    upper_columns: [[f64; N]; N],
+    /// Columns of L, zero from its diagonal up.
+    lower_columns: [[f64; N]; N],
     inverse: [f64; N],
     pivots: [usize; N],
 }
 
 impl<const N: usize> Default for FixedLu<N> {
     fn default() -> Self {
-        Self { upper: [[0.0; N]; N], lower: [[0.0; N]; N], inverse: [0.0; N], pivots: [0; N] }
+        let zero = [[0.0; N]; N];
+        Self { upper: zero, upper_columns: zero, lower_columns: zero, inverse: [0.0; N], pivots: [0; N] }
     }
 }
 
@@ -106,25 +111,31 @@ impl<const N: usize> FixedLu<N> {
     #[inline(always)]
     fn eliminate(&mut self) -> Option<()> {
         for k in 0..N {
-            let pivot = (k + 1..N).fold(k, |best, row| {
-                if self.upper[row][k].abs() > self.upper[best][k].abs() { row } else { best }
-            });
+            let (mut pivot, mut largest) = (k, self.upper[k][k].abs());
+            for (row, entries) in self.upper.iter().enumerate().skip(k + 1) {
+                if entries[k].abs() > largest {
+                    (pivot, largest) = (row, entries[k].abs());
+                }
+            }
             self.pivots[k] = pivot;
             if pivot != k {
                 self.upper.swap(k, pivot);
-                self.lower.swap(k, pivot);
+                self.lower_columns[..k].iter_mut().for_each(|column| column.swap(k, pivot));
             }
             let top = self.upper[k];
             if top[k] == 0.0 || !top[k].is_finite() {
                 return None;
             }
-            self.inverse[k] = 1.0 / top[k];
+            let inverse = 1.0 / top[k];
+            self.inverse[k] = inverse;
             // Entries left of the diagonal are not read again: whole rows are cheaper than exact lengths.
-            for i in k + 1..N {
-                let factor = self.upper[i][k] * self.inverse[k];
-                self.lower[i][k] = factor;
-                self.upper[i].iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
+            for (row, lower) in self.upper[k + 1..].iter_mut().zip(&mut self.lower_columns[k][k + 1..]) {
+                *lower = row[k] * inverse;
+                row.iter_mut().zip(&top).for_each(|(entry, above)| *entry -= *lower * above);
             }
+        }
+        for (k, column) in self.upper_columns.iter_mut().enumerate() {
+            column.iter_mut().zip(&self.upper).for_each(|(entry, row)| *entry = row[k]);
         }
         Some(())
     }
@@ -132,19 +143,24 @@ impl<const N: usize> FixedLu<N> {
     /// Solves in place.
     pub fn solve(&self, right: &mut [f64; N]) {
         self.pivots.iter().enumerate().for_each(|(k, &pivot)| right.swap(k, pivot));
-        for k in 0..N {
-            let known = right[k];
-            for i in k + 1..N {
-                right[i] -= self.lower[i][k] * known;
-            }
-        }
-        for k in (0..N).rev() {
-            let known = right[k] * self.inverse[k];
-            right[k] = known;
-            for i in 0..k {
-                right[i] -= self.upper[i][k] * known;
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                // Here, too, whole columns: of what is open only entries that are not yet known are read.
+                let mut open = *right;
+                let subtract = |open: &mut [f64; N], column: &[f64; N], known: f64| {
+                    open.iter_mut().zip(column).for_each(|(entry, factor)| *entry -= factor * known);
+                };
+                for k in 0..N {
+                    let known = open[k];
+                    subtract(&mut open, &self.lower_columns[k], known);
+                }
+                for k in (0..N).rev() {
+                    right[k] = open[k] * self.inverse[k];
+                    subtract(&mut open, &self.upper_columns[k], right[k]);
+                }
+            },
+        );
     }
 
     /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row *
@@ -174,7 +190,12 @@ impl<const N: usize> pulp::WithSimd for Substitution<'_, N> {
         let Self { lu, right, columns } = self;
         for i in 1..N {
             let (known, open) = right.split_at_mut(i * columns);
-            add_to_row(simd, &mut open[..columns], known, lu.lower[i].iter().map(|factor| -factor));
+            add_to_row(
+                simd,
+                &mut open[..columns],
+                known,
+                lu.lower_columns[..i].iter().map(|column| -column[i]),
+            );
         }
         for i in (0..N).rev() {
             let (open, known) = right.split_at_mut((i + 1) * columns);

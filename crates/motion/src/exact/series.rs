@@ -10,7 +10,7 @@ use super::{
     change::Change,
     collocation::{Grading, NODES, REACH, TERMS},
     drive::Jet,
-    lanes::{add_multiple, add_products, dot, vectorised},
+    lanes::{add_multiple, add_products, dot, fixed_dot, vectorised},
     output::Output,
     weights::StepWeights,
 };
@@ -261,7 +261,7 @@ impl Series {
         &self,
         element: usize,
         (grading, length): (Grading, f64),
-        force: &[f64],
+        force: &[f64; NODES],
         state: &mut [f64],
     ) {
         let z = length * self.rate;
@@ -271,7 +271,7 @@ impl Series {
             #[inline(always)]
             || {
                 for (column, at_end) in columns {
-                    add_multiple(state, factor * dot(at_end, force), column);
+                    add_multiple(state, factor * fixed_dot(at_end, force), column);
                     factor *= z;
                 }
             },
@@ -295,31 +295,36 @@ impl Series {
 
     /// Free motion at the nodes of a step from the readings at its start, apart from the particular part.
     pub fn free_values(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
-        let rule = grading.rule();
         let z = length * self.rate;
-        let mut values = [0.0; NODES];
         vectorised(
             #[inline(always)]
             || {
+                // Copies of its own keep the loop on vectors.
+                let (c, mut values) = (grading.rule().c, [0.0; NODES]);
                 for m in (0..Self::terms(z)).rev() {
-                    let share = z / (m + 1) as f64;
-                    (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
+                    let (reading, share) = (readings[m], z / (m + 1) as f64);
+                    values = std::array::from_fn(|k| reading + values[k] * share * c[k]);
                 }
+                values
             },
-        );
-        values
+        )
     }
 
     /// Velocities of the free motion at the nodes of a step from the readings at its start, apart from the
     /// particular part.
     pub fn free_rates(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
-        let rule = grading.rule();
         let z = length * self.rate;
-        let mut rates = [0.0; NODES];
-        for m in (0..Self::terms(z)).rev() {
-            let share = z / (m + 1) as f64;
-            (0..NODES).for_each(|k| rates[k] = readings[m + 1] + rates[k] * share * rule.c[k]);
-        }
+        let rates = vectorised(
+            #[inline(always)]
+            || {
+                let (c, mut rates) = (grading.rule().c, [0.0; NODES]);
+                for m in (0..Self::terms(z)).rev() {
+                    let (reading, share) = (readings[m + 1], z / (m + 1) as f64);
+                    rates = std::array::from_fn(|k| reading + rates[k] * share * c[k]);
+                }
+                rates
+            },
+        );
         rates.map(|rate| rate * self.rate)
     }
 
@@ -338,17 +343,18 @@ impl Series {
         let sums = vectorised(
             #[inline(always)]
             || {
-                let mut sums = [0.0; 3];
-                let (mut power, mut factor) = (1.0, length);
-                let three = |list: &[f64], m: usize| [list[m], list[m + 1], list[m + 2]];
+                // The fourth sum fills the vector.
+                let (mut sums, mut power, mut factor) = ([0.0; 4], 1.0, length);
                 for (m, at_end) in rule.at_end[..terms].iter().enumerate() {
-                    let reading = three(readings, m);
-                    (0..3).for_each(|d| sums[d] += power * reading[d]);
+                    let add = |sums: &mut [f64; 4], factor: f64, list: &[f64]| {
+                        let four = &list[m..m + 4];
+                        (0..4).for_each(|d| sums[d] += factor * four[d]);
+                    };
+                    add(&mut sums, power, readings);
                     power *= z / (m + 1) as f64;
                     for (force, &e) in force.as_chunks::<NODES>().0.iter().zip(active) {
-                        let moment = factor * dot(at_end, force);
-                        let markov = three(&self.markov[output * count + e], m);
-                        (0..3).for_each(|d| sums[d] += markov[d] * moment);
+                        let moment = factor * fixed_dot(at_end, force);
+                        add(&mut sums, moment, &self.markov[output * count + e]);
                     }
                     factor *= z;
                 }

@@ -1,4 +1,4 @@
-//! The error of a solved step. Equations (S9) and (S10) of the book, `docs/theory`.
+//! The error of a solved step. Equations (S9) to (S11) of the book, `docs/theory`.
 //!
 //! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF`
 //! are expanded in the orthonormal polynomials of the step, up to the degree `m = NODES - 1`; the tail of a
@@ -12,10 +12,13 @@
 //! so the state at the end has about its square; `T D^2`, the force in the polynomials of twice the degree,
 //! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Of the share
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
-//! so fast that the nodes do not resolve their part `U` in the force leave that part. What U leaves of a
-//! velocity moves the release, up to which the sensitivities follow the force, so where they are wanted it
-//! counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without damping (`secular.rs`), and
-//! what an order is in the column by a parameter, have no part in U. The step is accepted if
+//! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
+//! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,
+//! which is in resonance with it and resolved no better, the share `((z/4)^n/n!)^2`, each of its own, so that
+//! squares add. What U leaves of a velocity moves the release, up to which the sensitivities follow the
+//! force, so where they are wanted it counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode
+//! without damping (`secular.rs`), and what an order is in the column by a parameter, have no part in U. The
+//! step is accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
@@ -35,7 +38,7 @@ use std::{f64::consts::TAU, sync::Arc};
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
-    drive::Order,
+    drive::{Jet, Order},
     hole,
     run::{ElementStart, Run},
 };
@@ -56,6 +59,22 @@ impl Tail {
     /// Part that is left at twice the degree.
     fn decay(self) -> f64 {
         (self.highest / self.middle.max(f64::MIN_POSITIVE)).min(1.0).powi(2)
+    }
+}
+
+/// What a fast block or order of the load has in the force, relative to the velocities [1/s].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Unresolved {
+    /// As far as it acts on what is smooth over the step.
+    smooth: f64,
+    /// As far as it acts on the block itself.
+    resonant: f64,
+}
+
+impl Unresolved {
+    fn raise(&mut self, smooth: f64, resonant: f64) {
+        self.smooth = self.smooth.max(smooth);
+        self.resonant = self.resonant.max(resonant);
     }
 }
 
@@ -97,6 +116,7 @@ struct Response {
 /// times rounding over depth.
 const ROUNDING: f64 = 32.0;
 const HIGHEST: (i32, f64) = degree(NODES - 1);
+const ALL_NODES: (i32, f64) = degree(NODES);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
 /// Largest factor from one step to the next.
 pub(super) const LONGEST_GROWTH: f64 = 5.0;
@@ -128,7 +148,7 @@ impl ExactIntegrator {
     pub(super) fn state_error(&mut self, run: &Run) -> f64 {
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
         amplitudes.clear();
-        amplitudes.resize(self.rates.len() + self.drive.orders.len(), 0.0);
+        amplitudes.resize(self.rates.len() + self.drive.orders.len(), Unresolved::default());
         let mut largest = 0.0_f64;
         for (a, &element) in self.step.active.iter().enumerate() {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
@@ -137,14 +157,15 @@ impl ExactIntegrator {
             let ElementStart { output, velocity, .. } = run.start[element];
             let driven = output.slope.abs() + output.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
-            let force = step.tail(&step.force[nodes.clone()]);
+            let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
+            let force = of_nodes(&step.force);
             let tail = impulse * force.highest / velocity;
-            let mut dual = impulse * step.length * step.tail(&step.slope[nodes.clone()]).highest;
+            let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
             if step.has_holes() {
-                dual += impulse * step.length * step.tail(&step.cross[nodes.clone()]).highest;
+                dual += impulse * step.length * of_nodes(&step.cross).highest;
             }
             if step.damped {
-                dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
+                dual += impulse * of_nodes(&step.damping).highest;
             }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
@@ -158,8 +179,8 @@ impl ExactIntegrator {
             for (i, amplitude) in of_blocks.iter_mut().enumerate() {
                 if self.may_be_unresolved(self.rates[i]) {
                     let follows = steepest.force(output.value_bound[i], output.first_bound[i]);
-                    let own = response.mobility * follows * self.vibration(run, i) / velocity;
-                    *amplitude = amplitude.max(own);
+                    let vibration = follows * self.vibration(run, i) / velocity;
+                    amplitude.raise(response.mobility * vibration, self.mobility_of(element, i) * vibration);
                 }
             }
             for (amplitude, (rate, order)) in of_loads.iter_mut().zip(self.loads()) {
@@ -168,8 +189,7 @@ impl ExactIntegrator {
                     let dual = impulse * steepest.force(self.step.length, 1.0);
                     let count = if run.sensitivity.is_some() { 1.0 + dual } else { 1.0 };
                     let follows = response.mobility * steepest.force(1.0, rate);
-                    let own = count * follows * order.outputs[element].0.norm() / velocity;
-                    *amplitude = amplitude.max(own);
+                    amplitude.raise(count * follows * order.outputs[element].0.norm() / velocity, 0.0);
                 }
             }
         }
@@ -206,7 +226,7 @@ impl ExactIntegrator {
         let (mut p, mut s) = (run.state[block], run.state[n + block]);
         if k > 0.0 {
             for &element in &self.step.active {
-                let outputs = |e: usize| run.start[e].output;
+                let outputs = |e: usize| self.output_inside(run, e);
                 let force = hole::force_of(&self.laws, element, outputs);
                 let rate = hole::force_rate(&self.laws, element, outputs);
                 let input = &self.inputs[element];
@@ -218,6 +238,22 @@ impl ExactIntegrator {
             }
         }
         (k * p * p + s * s).sqrt()
+    }
+
+    /// The output of an element at the start of a step, within its contact by the rounding margin: a touch is
+    /// located within rounding of its level, as often in front of it, where a stop has no slope.
+    fn output_inside(&self, run: &Run, element: usize) -> Jet {
+        let output = run.start[element].output;
+        let owner = hole::owner(&self.laws, element);
+        let Some(contact) = self.closed_contact(run, owner) else { return output };
+        let ElementStart { jet, margin, .. } = run.start[owner];
+        let missing = (margin - contact.sign * (jet.value - contact.level)).max(0.0);
+        let value = if self.laws[owner].round_hole().is_some() {
+            output.value * (1.0 + missing / contact.level)
+        } else {
+            output.value + contact.sign * missing
+        };
+        Jet { value, ..output }
     }
 
     pub(super) fn relative_to_bound(&self, errors: Errors) -> f64 {
@@ -242,14 +278,23 @@ impl ExactIntegrator {
         Response { mobility: mobility * self.mobility[element][element], fast_share }
     }
 
+    /// Part of a block in the mobility of an element.
+    fn mobility_of(&self, element: usize, block: usize) -> f64 {
+        self.shares[element][block] * self.mobility[element][element]
+    }
+
     /// `U` of a step of that length, from what the last step solved has left of it: blocks, then orders.
     fn unresolved(&self, length: f64) -> f64 {
-        let part = |(rate, amplitude): (f64, &f64)| {
-            let z = rate * length;
-            if z > RESOLVED { highest_part(z, &TWICE_THE_NODES) * amplitude } else { 0.0 }
-        };
         let rates = self.rates.iter().copied().chain(self.loads().map(|(rate, _)| rate));
-        rates.zip(&self.step.unresolved).map(part).sum::<f64>() * length
+        let (mut smooth, mut resonant) = (0.0, 0.0);
+        for (rate, amplitude) in rates.zip(&self.step.unresolved) {
+            let z = rate * length;
+            if z > RESOLVED {
+                smooth += highest_part(z, &TWICE_THE_NODES) * amplitude.smooth;
+                resonant += (highest_part(z, &ALL_NODES).powi(2) * amplitude.resonant).powi(2);
+            }
+        }
+        (smooth + resonant.sqrt()) * length
     }
 
     /// `U` relative to its bound, if it is above.
@@ -306,7 +351,7 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
-            for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
+            for (column, found) in self.step.sensitivity_tails(a, sensitivity).enumerate() {
                 let further_column = column >= sensitivity.frequency_column();
                 let velocity = if further_column {
                     let reachable = sensitivity.energy_norm_of(column, &self.blocks.stiffness);
@@ -347,7 +392,8 @@ impl ExactIntegrator {
                 if self.may_be_unresolved(self.rates[i]) {
                     let follows = steepest.force(output.value_bound[i], output.first_bound[i]);
                     let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
-                    *amplitude = amplitude.max(mobility * follows * largest / norm);
+                    // Columns of their own vibration keep steps so short that its resonance is resolved.
+                    amplitude.raise(mobility * follows * largest / norm, 0.0);
                 }
             }
             let turned = TAU * (run.time + self.step.length);
@@ -355,7 +401,7 @@ impl ExactIntegrator {
                 if self.may_be_unresolved(rate) {
                     let (value, slope) = order.outputs[element];
                     let slope = slope.norm() + turned * order.order * value.norm();
-                    *amplitude = amplitude.max(mobility * steepest.force(1.0, rate) * slope / by_frequency);
+                    amplitude.raise(mobility * steepest.force(1.0, rate) * slope / by_frequency, 0.0);
                 }
             }
         }
