@@ -188,7 +188,7 @@ def _array(name: str, value: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
 def _between(name: str, value: Any, ends: tuple[float, float], must: str) -> float:
     """A number in a range, both ends among it."""
     low, high = ends
-    if isinstance(value, (bool, np.bool_, str, bytes)) or not isinstance(value, SupportsFloat):
+    if isinstance(value, (bool, np.bool_, np.complexfloating, str, bytes)) or not isinstance(value, SupportsFloat):
         raise refused(name, value, must, low=low, high=high)
     try:
         found = float(value)

@@ -160,6 +160,7 @@ class Results:
 
     def page(self) -> Page:
         """The page, drawn if it is not there yet."""
+        self._refuse_closed()
         path = self.folder / "page.html"
         if not path.is_file():
             self.draw(kinds="page", progress=False)
@@ -172,12 +173,13 @@ class Results:
         * `states`: also states and multipliers of every solution.
         """
         folder = self.folder / "export" if out is None else _check.folder("out", out)
+        states = _check.flag("states", states)
         if _export.checked(format) in _export.WRITERS:
             more = [*(["states"] if states else []), *(["outputs"] if len(self.outputs()) else [])]
             names = ["branches", "events", "ends", *more, "varied", "motions"]
             tables = {packed[0]: array(packed) for name in names for packed in self._native.tables(name, [])}
             return _export.write(tables, format, folder, "results")
-        return [Path(path) for path in self._native.export(format, folder, _check.flag("states", states))]
+        return [Path(path) for path in self._native.export(format, folder, states)]
 
     def export_orbits(
         self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256

@@ -110,6 +110,7 @@ mod free;
 mod linear_contact;
 mod located;
 mod matching;
+mod motion_search;
 mod neighbour;
 mod noise;
 mod output;
