@@ -1,6 +1,7 @@
 """Formats that are written from Python: MAT, Parquet, HDF5."""
 
-from collections.abc import Callable, Mapping
+import tempfile
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -22,33 +23,59 @@ def checked(format: Any) -> str:
 
 
 def write(tables: Mapping[str, Array], format: str, folder: Path, name: str) -> list[Path]:
-    """Writes tables in a format; one file each in those that hold one table."""
+    """Writes tables in a format; one file each in those that hold one table. Each file is there whole, or as
+    it was before."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        return WRITERS[format](tables, folder, name)
+        with tempfile.TemporaryDirectory(prefix=".export-", dir=folder) as unfinished:
+            written = WRITERS[format](tables, Path(unfinished), name)
+            return [path.replace(folder / path.name) for path in written]
     except OSError as error:
         raise ExportError(f"{folder}: {error.strerror or error}") from error
 
 
 def _mat(tables: Mapping[str, Array], folder: Path, name: str) -> list[Path]:
-    """A struct for each table, a column vector or a matrix for each column; words as cells."""
+    """A struct for each table, a column vector or a matrix for each column; words as cells. The struct
+    `columns` has the columns of each table by their own names, in the order of its fields."""
     scipy_io = needed("scipy.io", "mat")
     path = folder / f"{name}.mat"
-    structs = {table.replace("-", "_"): _columns(rows) for table, rows in tables.items()}
+    columns = {table: list(rows.dtype.names or ()) for table, rows in tables.items()}
+    fields = dict(zip(tables, _fields(tables), strict=True))
+    structs: dict[str, Any] = {
+        fields[table]: dict(zip(_fields(columns[table]), map(_plain, _values(rows)), strict=True))
+        for table, rows in tables.items()
+    }
+    structs["columns"] = {fields[table]: _plain(np.array(columns[table])) for table in tables}
     scipy_io.savemat(path, structs, oned_as="column", long_field_names=True)
     return [path]
 
 
-def _columns(rows: Array) -> dict[str, Any]:
-    # A field of a struct is a letter, then letters, digits and underscores.
-    def plain(name: str) -> str:
+def _values(rows: Array) -> list[Array]:
+    return [rows[column] for column in rows.dtype.names or ()]
+
+
+def _plain(values: Array) -> Array:
+    """Words as objects, which become cells."""
+    return values.astype(object) if values.dtype.kind == "U" else values
+
+
+LONGEST_FIELD = 63
+
+
+def _fields(names: Iterable[str]) -> list[str]:
+    """Names of fields of a struct: a letter, then letters, digits and underscores, 63 in all, each once. A name
+    that would come again has a number behind it."""
+    fields = list[str]()
+    for name in names:
         word = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in name)
-        return word if word[:1].isalpha() else f"x{word}"
-
-    def words(values: Array) -> Array:
-        return values.astype(object) if values.dtype.kind == "U" else values
-
-    return {plain(name): words(rows[name]) for name in rows.dtype.names or ()}
+        word = (word if word[:1].isalpha() else f"x{word}")[:LONGEST_FIELD]
+        field, number = word, 1
+        while field in fields:
+            number += 1
+            end = f"_{number}"
+            field = word[: LONGEST_FIELD - len(end)] + end
+        fields.append(field)
+    return fields
 
 
 def _parquet(tables: Mapping[str, Array], folder: Path, name: str) -> list[Path]:

@@ -172,6 +172,13 @@ def test_a_slurm_array_computes_what_is_missing(tmp_path: Path) -> None:
         batch.slurm_script(planned)
 
 
+def test_a_slurm_script_quotes_its_folder(tmp_path: Path) -> None:
+    planned = Batch.plan(tmp_path / "b %j", EXAMPLE, Parameters.grid({GAP: [0.9]}))
+    lines = batch.slurm_script(planned).read_text().splitlines()
+    assert "#SBATCH --job-name='b %j'" in lines
+    assert f"#SBATCH --output='{tmp_path}/b %%j/slurm/%A-%a.txt'" in lines
+
+
 def test_a_batch_from_a_terminal(tmp_path: Path) -> None:
     def asked(*words: str) -> str:
         command = [sys.executable, "-m", "hammerbeam.batch", *words]

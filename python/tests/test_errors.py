@@ -166,9 +166,16 @@ def test_matrices_that_are_none(mass: Any, stiffness: Any, words: str) -> None:
         Study.from_matrices(mass, stiffness, points={"tip": 0}, reduction={"method": "none"})
 
 
+def test_a_complex_number_is_no_frequency(duffing: Study) -> None:
+    for frequency in (0.25 + 3j, np.complex128(0.25 + 3j)):
+        with pytest.raises(hammerbeam.BadInput, match="frequency"):
+            duffing.orbits(frequency)  # type: ignore[arg-type]
+
+
 def test_a_closed_folder_raises_and_other_results_go_on(folder: Path) -> None:
     results = Results(folder)
     orbits = results.orbits(0.25)
+    results.page()
     results.close()
     results.close()
     calls: list[Callable[[], Any]] = [

@@ -11,7 +11,7 @@ from typing import Any
 import hammerbeam
 import numpy as np
 import pytest
-from hammerbeam import Results
+from hammerbeam import Results, _export
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
@@ -114,6 +114,20 @@ def test_mat_holds_a_struct_for_each_table(results: Results, tmp_path: Path) -> 
     np.testing.assert_array_equal(found["branches"].frequency_hz, results.branches()["frequency_hz"])
     np.testing.assert_array_equal(found["states"].multipliers, results.states()["multipliers"])
     assert list(found["ends"].side) == list(results.ends()["side"])
+    assert list(found["columns"].ends) == list(results.ends().dtype.names)
+
+
+def test_mat_keeps_every_column_whatever_its_name(tmp_path: Path) -> None:
+    scipy_io = pytest.importorskip("scipy.io")
+    names = ["a b", "a_b", "a/b", "1", "n" * 70 + "x", "n" * 70 + "y"]
+    rows = np.array([tuple(range(6))], dtype=[(name, float) for name in names])
+    [path] = _export.write({"some-rows": rows}, "mat", tmp_path, "results")
+    found = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False)
+    fields = found["some_rows"]._fieldnames
+    assert [getattr(found["some_rows"], field) for field in fields] == list(range(6))
+    assert fields[:4] == ["a_b", "a_b_2", "a_b_3", "x1"] and fields[5] == "n" * 61 + "_2"
+    assert list(found["columns"].some_rows) == names
+    assert [path.name for path in tmp_path.iterdir()] == ["results.mat"]
 
 
 def test_parquet_holds_a_file_for_each_table(results: Results, tmp_path: Path) -> None:
@@ -279,6 +293,8 @@ def test_an_export_into_a_file_is_refused(results: Results, tmp_path: Path, form
     (tmp_path / "file").write_text("")
     with pytest.raises(hammerbeam.ExportError):
         results.export(format, tmp_path / "file")
+    with pytest.raises(hammerbeam.BadInput, match="states"):
+        results.export(format, tmp_path / "folder", states="yes")  # type: ignore[arg-type]
     with pytest.raises(hammerbeam.BadInput, match="orbits"):
         results.export_orbits(list(results.orbits(0.25)), format, tmp_path)  # type: ignore[arg-type]
 

@@ -260,6 +260,7 @@ pub struct UpdateOptions {
 }
 
 #[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("orbits").args(["frequency", "event"]).multiple(true))]
 pub struct ExportOptions {
     /// Results folder
     pub results: PathBuf,
@@ -284,14 +285,15 @@ pub struct ExportOptions {
     #[arg(long, value_name = "NAME", value_parser = event_kind)]
     pub event: Vec<BranchEventKind>,
 
-    /// Only orbits of this branch; may be given several times
-    #[arg(long, value_name = "N")]
+    /// Of these orbits, only those of this branch; may be given several times
+    #[arg(long, value_name = "N", requires = "orbits")]
     pub branch: Vec<u32>,
 
-    /// Samples of an orbit in an excitation period
+    /// Samples of each of these orbits in an excitation period
     #[arg(
         long,
         value_name = "N",
+        requires = "orbits",
         default_value_t = 256,
         value_parser = clap::value_parser!(u32).range(1..=1_000_000),
     )]

@@ -370,6 +370,31 @@ fn all_faults_are_reported_in_one_pass() {
     );
 }
 
+/// A word that is none hides nothing of what depends on it: what was probably meant is looked at. Nor does a
+/// fault of the structure hide that its reduction is missing.
+#[test]
+fn what_depends_on_a_wrong_word_is_reported_with_it() {
+    let from = BEAM.find("[reduction]").unwrap();
+    let to = BEAM.find("[damping]").unwrap();
+    let study = format!("{}{}", &BEAM[..from], &BEAM[to..])
+        .replace("left = \"clamped\"", "left = \"fixed\"")
+        .replace("law = \"hertz\"", "law = \"herz\"")
+        .replace("gap_m = 0.0", "gap_m = -1.0")
+        .replace("side = \"below\"", "side = \"over\"");
+    assert_refused(
+        &Workshop::with(&study),
+        &[
+            "did you mean \"clamped\"?",
+            "`reduction` is missing",
+            "`law` is \"herz\"",
+            "`gap_m` is -1",
+            "`side` is \"over\"",
+        ],
+    );
+    let kind = BEAM.replace("kind = \"beam\"", "kind = \"baem\"").replace("elements = 44", "elements = 1");
+    assert_refused(&Workshop::with(&kind), &["`kind` is \"baem\"", "the beam has 1 elements"]);
+}
+
 /// What varies is looked for in the tables that could be read; in the others nothing is said of it.
 #[test]
 fn names_of_parameters_are_judged_beside_faults_of_other_tables() {

@@ -48,6 +48,22 @@ fn json_and_npz_hold_the_tables_of_the_csv() {
     assert!(npz.starts_with(b"PK") && npz.windows(12).any(|name| name == b"branches.npy"));
 }
 
+/// Tables hold all branches: a branch and samples are chosen of orbits, and without those refused.
+#[test]
+fn a_branch_and_samples_are_of_orbits() {
+    let workshop = run();
+    for alone in [["--branch", "1"], ["--samples", "64"]] {
+        let output = export(&workshop, "csv", &alone);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.code() == Some(2) && message.contains("--frequency <HZ>|--event <NAME>"),
+            "{message}"
+        );
+    }
+    assert_success(&export(&workshop, "csv", &["--event", "fold", "--branch", "1"]));
+    assert!(workshop.table("export/orbits.csv").iter().all(|orbit| orbit["branch"] == "1"));
+}
+
 #[test]
 fn orbits_are_chosen_by_frequency_and_event_and_come_with_their_motion() {
     let workshop = run();

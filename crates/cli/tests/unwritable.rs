@@ -52,6 +52,11 @@ fn nothing_is_written_through_links() {
         let sentence = if name.contains('.') { sentence } else { sentence.replace("write to", "write") };
         assert_bad_input(&workshop.hammerbeam(arguments), &[&sentence]);
     }
+    // A member of a family is a folder that the command makes by itself, too.
+    fs::create_dir(at("family")).unwrap();
+    symlink(at("elsewhere"), at("family/damping.modal_ratio=0.02")).unwrap();
+    let vary = ["run", "study.toml", "--out", "family", "--vary-set", "damping.modal_ratio=0.02"];
+    assert_bad_input(&workshop.hammerbeam(&vary), &["damping.modal_ratio=0.02: it is a link"]);
     assert!(!at("new").exists() && fs::read_dir(at("elsewhere")).unwrap().next().is_none());
     assert_eq!(fs::read(at("results/results.db")).unwrap(), before);
     // What one reads may be a link.

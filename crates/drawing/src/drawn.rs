@@ -15,7 +15,7 @@ use hammerbeam_jobs::{
     CountedProgress, Observer,
     pool::{PATIENCE, Pending, Pool, with_pool},
 };
-use hammerbeam_results::whole_file::{WriteError, replace};
+use hammerbeam_results::whole_file::{WriteError, ensure_written, replace};
 
 use crate::{DrawingError, FigureFormat};
 
@@ -252,6 +252,7 @@ impl Drawn<'_> {
             let written = self.written.load(Ordering::Relaxed);
             return Err(DrawingError::Interrupted { written, folder: self.folder.display().to_string() });
         }
+        ensure_written(self.folder, &self.files)?;
         for (name, reason) in &self.refused {
             self.observer.notice(&format_args!("{name}: {reason}"));
         }

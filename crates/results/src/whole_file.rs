@@ -76,6 +76,24 @@ pub fn subfolder(results: &Path, name: &str) -> Result<PathBuf, WriteError> {
     }
 }
 
+/// Whether files that were written into a folder are all there: it may have been removed meanwhile, and made
+/// again for the later ones.
+///
+/// # Errors
+/// [`WriteError`] of the first that is not.
+pub fn ensure_written<N: AsRef<Path>>(
+    folder: &Path,
+    names: impl IntoIterator<Item = N>,
+) -> Result<(), WriteError> {
+    match names.into_iter().map(|name| folder.join(name)).find(|path| !path.exists()) {
+        None => Ok(()),
+        Some(path) => {
+            let source = io::Error::new(io::ErrorKind::NotFound, "it was removed while others were written");
+            Err(WriteError { path, source })
+        }
+    }
+}
+
 /// A file that is being written.
 #[derive(Debug)]
 pub struct WholeFile {
@@ -296,6 +314,20 @@ mod tests {
         let refused = made.into_iter().filter_map(Result::err);
         assert!({ refused }.all(|error| error.source.kind() == io::ErrorKind::AlreadyExists));
         assert_eq!(names(folder.path()), ["study.toml"]);
+    }
+
+    #[test]
+    fn a_folder_that_went_while_files_were_written_is_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        let write = |name: &str| replace(&out.join(name), b"x").unwrap();
+        write("a");
+        fs::remove_dir_all(&out).unwrap();
+        write("b");
+        let error = ensure_written(&out, ["a", "b"]).unwrap_err();
+        assert!(error.path == out.join("a") && error.is_wrong_place(), "{error}");
+        write("a");
+        ensure_written(&out, ["a", "b"]).unwrap();
     }
 
     #[test]

@@ -303,6 +303,16 @@ fn what_makes_no_structure_is_refused_where_it_is() {
     let unit = |size: usize| matrix(size, &(0..size).map(|row| (row, row, 1.0)).collect::<Vec<_>>());
     refused(&of_matrices(unit(3), unit(2)), "the mass has 2 rows, the stiffness has 3");
     refused(&of_matrices(matrix(2, &[(0, 0, -5e6), (1, 1, 1.0)]), unit(2)), "not positive semi-definite");
+    // One negative mass, on the diagonal and off it; a damper that drives.
+    refused(
+        &of_matrices(unit(2), matrix(2, &[(0, 0, 1.0), (1, 1, -2.0)])),
+        "mass on the diagonal of row 2 is -2",
+    );
+    let coupled = matrix(2, &[(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)]);
+    refused(&of_matrices(unit(2), coupled), "mass matrix has 1 negative eigenvalues");
+    let mut driven = of_matrices(unit(2), unit(2));
+    driven.components[0].damping = Some(matrix(2, &[(0, 0, -1.0), (1, 1, 1.0)]));
+    refused(&driven, "damping on the diagonal of row 1 is -1");
     let loose = matrix(3, &[(0, 0, 1.0), (1, 1, 1.0), (2, 1, -1.0), (2, 2, 1.0)]);
     refused(&of_matrices(loose, matrix(3, &[(0, 0, 1.0)])), "can move without mass and without stiffness");
     let mut labelled = of_matrices(unit(2), unit(2));

@@ -45,11 +45,13 @@ def slurm_script(
         raise BadInput("all items are finished: there is nothing to hand to Slurm")
     logs = batch.folder / "slurm"
     logs.mkdir(exist_ok=True)
+    # Slurm takes `%` in a path for a number of its own unless it stands twice, and quotes as a shell does.
+    output = f"{logs}".replace("%", "%%") + "/%A-%a.txt"
     lines = [
-        f"--job-name={batch.folder.name}",
+        f"--job-name={shlex.quote(batch.folder.name)}",
         f"--array={_ranges(wanted)}",
         f"--cpus-per-task={threads}",
-        f"--output={logs}/%A-%a.txt",
+        f"--output={shlex.quote(output)}",
         *(_check.words("options", options) if options else []),
     ]
     head = "".join(f"#SBATCH {line}\n" for line in lines)

@@ -10,7 +10,7 @@ use hammerbeam_results::{
     Store,
     arrays::{TableFormat, all_tables, write_tables},
     export_csv, export_states,
-    whole_file::subfolder,
+    whole_file::{ensure_written, subfolder},
 };
 use serde_json::json;
 
@@ -37,6 +37,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         other => columns(&store, &folder, (other, options.states))?,
     };
     written.files.extend(orbits(options, &store, &folder)?);
+    ensure_written(Path::new(""), &written.files)?;
     let files: Vec<String> = written.files.iter().map(|path| path.display().to_string()).collect();
     output.give(&json!({ "files": files, "rows": written.rows }), || {
         let said = |(place, file): (usize, &String)| match written.words.get(place) {

@@ -31,6 +31,7 @@ mod matrix;
 mod mesh;
 mod modal_form;
 mod model;
+mod passive;
 mod pencil_modes;
 mod points;
 mod prepared;

@@ -7,6 +7,7 @@ use super::{
     assemble::Assembled,
     factor::{Factors, Pencil},
     map::CoordinateMap,
+    passive::ensure_passive,
     pencil_modes::PencilModes,
     statics::Statics,
     vectors::dot,
@@ -45,6 +46,7 @@ impl Prepared {
     /// The structure with the supports of these groups told apart.
     pub fn new(matrices: &Matrices, moving: &[&[&str]]) -> Result<Self, StructureError> {
         let assembled = matrices.assembled(moving)?;
+        ensure_passive(&assembled, matrices.memory_limit_bytes)?;
         let free: Vec<usize> = (0..assembled.free).collect();
         let selected = CoordinateMap::selecting(assembled.map.columns(), &free);
         let supported = Pencil::new(

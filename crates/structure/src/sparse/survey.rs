@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Matrices, MatrixReport, RowLabel, SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry,
-    pencil_modes::PencilModes, report,
+    Matrices, MatrixReport, RowLabel, SymmetricMatrix,
+    assemble::Assembled,
+    factor::Pencil,
+    passive::{ensure_passive, mass_rank},
+    pencil_modes::PencilModes,
+    report,
 };
 use crate::StructureError;
 
-/// Eigenvalues of the mass below this part of its diagonal are zero.
-const RANK: f64 = 1e-9;
 /// Steps of the search for a frequency below which enough modes lie.
 const STEPS: usize = 40;
 
@@ -28,8 +30,6 @@ pub struct MatrixSurvey {
     pub report: MatrixReport,
     /// Rank of the mass; `None` if it could not be found.
     pub mass_rank: Option<usize>,
-    /// Number of negative eigenvalues of the mass, by more than rounding; `None` if it could not be found.
-    pub mass_negative: Option<usize>,
     /// First frequencies [Hz], rigid-body modes 0.
     pub frequencies_hz: Vec<f64>,
 }
@@ -43,10 +43,8 @@ impl Matrices {
     /// As [`Matrices::reduce`].
     pub fn survey(&self, count: usize) -> Result<MatrixSurvey, StructureError> {
         let assembled = self.assembled(&[])?;
-        let (mass_rank, mass_negative) = definiteness(&assembled.mass, self.memory_limit_bytes)?;
-        if let Some(negative) = mass_negative.filter(|negative| *negative > 0) {
-            return Err(StructureError::MassNegative { negative });
-        }
+        ensure_passive(&assembled, self.memory_limit_bytes)?;
+        let mass_rank = mass_rank(&assembled.mass, self.memory_limit_bytes)?;
         let pencil =
             Pencil::new(assembled.stiffness.clone(), assembled.mass.clone(), self.memory_limit_bytes)?;
         let modes =
@@ -59,7 +57,6 @@ impl Matrices {
             labels: labels.unwrap_or_default(),
             report,
             mass_rank,
-            mass_negative,
             frequencies_hz: modes.frequencies.iter().take(count).map(|w| w / TAU).collect(),
             stiffness: assembled.stiffness,
             mass: assembled.mass,
@@ -109,26 +106,4 @@ impl Pencil {
         }
         self.modes(square.sqrt() / TAU, precision)
     }
-}
-
-/// Rank and number of negative eigenvalues of a mass matrix, by the pivots of `M -+ e D` with its diagonal
-/// `D`.
-fn definiteness(
-    mass: &SymmetricMatrix,
-    limit_bytes: u64,
-) -> Result<(Option<usize>, Option<usize>), StructureError> {
-    let diagonal = mass.diagonal();
-    let largest = diagonal.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    if largest == 0.0 {
-        return Err(StructureError::NoMass);
-    }
-    let scale = diagonal.iter().enumerate().map(|(row, entry)| Entry {
-        row: row as u32,
-        column: row as u32,
-        value: if *entry == 0.0 { largest } else { entry.abs() },
-    });
-    let scale = SymmetricMatrix::from_entries(mass.size(), &scale.collect::<Vec<_>>());
-    let pencil = Pencil::new(mass.clone(), scale, limit_bytes)?;
-    let below = |shift: f64| pencil.factors(shift).ok().map(|factors| factors.negative());
-    Ok((below(RANK).map(|small| mass.size() - small), below(-RANK)))
 }

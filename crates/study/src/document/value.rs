@@ -159,15 +159,17 @@ impl<'a> Value<'a> {
         matches!(self.value, DeValue::Array(entries) if entries.is_empty())
     }
 
-    /// One of a few words, each with its meaning.
+    /// One of a few words, each with its meaning. Another word is a fault; what was probably meant is read
+    /// then, for the faults of what depends on it.
     pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
         let text = self.text()?;
-        let meaning = choices.iter().find(|(name, _)| *name == text).map(|(_, meaning)| *meaning);
-        if meaning.is_none() {
+        let meaning =
+            |word: &str| choices.iter().find(|(name, _)| *name == word).map(|(_, meaning)| *meaning);
+        meaning(text).or_else(|| {
             let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
             self.unknown_word(text, "one of the allowed words", &names);
-        }
-        meaning
+            meaning(closest(text, names)?)
+        })
     }
 
     /// Notes that a word is not one of those known.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Key, KeyRow, Quantity, TomlTable, key::Words, quantity};
 
-use super::StructureTable;
+use super::structure::StructureKind;
 
 /// How the structure is reduced.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -69,9 +69,10 @@ pub(super) fn rows() -> Vec<KeyRow> {
 }
 
 /// A beam and matrices have to say how they are reduced; lumped masses are not reduced unless they say so.
-pub(super) fn read(root: &TomlTable<'_>, structure: Option<&StructureTable>) -> Option<ReductionTable> {
-    let lumped = matches!(structure, Some(StructureTable::Lumped(_)));
-    if !root.has("reduction") && (lumped || structure.is_none()) {
+///
+/// * `structure`: its kind, if it is known.
+pub(super) fn read(root: &TomlTable<'_>, structure: Option<StructureKind>) -> Option<ReductionTable> {
+    if !root.has("reduction") && matches!(structure, Some(StructureKind::Lumped) | None) {
         root.optional("reduction");
         return Some(ReductionTable { method: ReductionMethod::None, cut_off_hz: 0.0 });
     }
@@ -81,7 +82,7 @@ pub(super) fn read(root: &TomlTable<'_>, structure: Option<&StructureTable>) -> 
         Some(method) if !method.cuts_off() => Some(0.0),
         _ => CUT_OFF.read(&table),
     };
-    let is_matrices = matches!(structure, Some(StructureTable::Matrices(_)) | None);
+    let is_matrices = matches!(structure, Some(StructureKind::Matrices) | None);
     if method == Some(ReductionMethod::Given) && !is_matrices {
         let help = vec!["allowed: \"given\" for matrices that are reduced already, or \"none\"".to_owned()];
         table.problem("method", "`method` is \"given\", but the structure is not".to_owned(), help);

@@ -18,24 +18,34 @@ pub enum StructureTable {
     Matrices(MatricesTable),
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
+/// What kind of structure it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum StructureKind {
     Beam,
     Lumped,
     Matrices,
 }
 
-/// Reads the structure and its names.
-pub(super) fn read(root: &TomlTable<'_>, reading: &Reading, names: &mut Names) -> Option<StructureTable> {
-    let table = root.required("structure").and_then(|value| value.table())?;
-    let kind = table.required("kind").and_then(|value| {
-        value.choice(&[("beam", Kind::Beam), ("lumped", Kind::Lumped), ("matrices", Kind::Matrices)])
-    })?;
+const KINDS: &[(&str, StructureKind)] = &[
+    ("beam", StructureKind::Beam),
+    ("lumped", StructureKind::Lumped),
+    ("matrices", StructureKind::Matrices),
+];
+
+/// Reads the structure and its names: its kind, where that much is right, and what it is.
+pub(super) fn read(
+    root: &TomlTable<'_>,
+    reading: &Reading,
+    names: &mut Names,
+) -> (Option<StructureKind>, Option<StructureTable>) {
+    let Some(table) = root.required("structure").and_then(|value| value.table()) else { return (None, None) };
+    let kind = table.required("kind").and_then(|value| value.choice(KINDS));
     let structure = match kind {
-        Kind::Beam => beam::read(&table, reading, names).map(StructureTable::Beam),
-        Kind::Lumped => lumped::read(&table, reading, names).map(StructureTable::Lumped),
-        Kind::Matrices => matrices::read(&table, reading, names).map(StructureTable::Matrices),
+        Some(StructureKind::Beam) => beam::read(&table, reading, names).map(StructureTable::Beam),
+        Some(StructureKind::Lumped) => lumped::read(&table, reading, names).map(StructureTable::Lumped),
+        Some(StructureKind::Matrices) => matrices::read(&table, reading, names).map(StructureTable::Matrices),
+        None => return (None, None),
     };
     table.finish();
-    structure
+    (kind, structure)
 }

@@ -237,8 +237,8 @@ fn read_tables(
 ) -> Option<Study> {
     let mut names = Names::default();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
-    let structure = structure::read(linear, reading, &mut names);
-    let reduction = reduction::read(linear, structure.as_ref());
+    let (kind, structure) = structure::read(linear, reading, &mut names);
+    let reduction = reduction::read(linear, kind);
     let damping = damping::read(linear);
     let excitation = excitation::read(linear, &names, structure.as_ref());
     let loads = load::read(root, reading, &names, excitation.as_ref());

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use hammerbeam_jobs::PreparedStudy;
+use hammerbeam_results::whole_file::subfolder;
 use hammerbeam_study::{Setting, StudyFile};
 use serde_json::{Map, Value, json};
 
@@ -48,7 +49,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
 fn members(options: &RunOptions) -> Result<Vec<Member>, Failure> {
     let mut members: Vec<Member> = Vec::new();
     for settings in Setting::combinations(&options.vary_set) {
-        let folder = options.out.join(Setting::folder_name(&settings));
+        let folder = subfolder(&options.out, &Setting::folder_name(&settings))?;
         if let Some(same) = members.iter().find(|member| member.folder == folder) {
             let message = format!("two studies of the family would be run into {}", same.folder.display());
             return Err(Failure::BadInput(message));

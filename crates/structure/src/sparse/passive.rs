@@ -1,0 +1,67 @@
+//! Whether mass and damping are such as a structure has: no motion has negative kinetic energy, and no damper
+//! drives it.
+//!
+//! A negative entry on a diagonal shows that at once, and in which row. What it does not show of the mass, the
+//! signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many negative
+//! ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of inertia).
+
+use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
+use crate::{StructureError, error::not_negative};
+
+/// Eigenvalues of the mass below this part of its diagonal are zero.
+const RANK: f64 = 1e-9;
+/// Entries of a diagonal below this part of its largest are zero.
+const ROUNDING: f64 = 1e-12;
+
+/// Refuses mass and damping that would make energy.
+///
+/// # Errors
+/// [`StructureError::Negative`] with the row, [`StructureError::MassNegative`], [`StructureError::NoMass`].
+pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<(), StructureError> {
+    let matrices = [("mass", Some(&assembled.mass)), ("damping", assembled.damping.as_ref())];
+    for (what, matrix) in matrices {
+        let diagonal = matrix.map_or_else(Vec::new, SymmetricMatrix::diagonal);
+        let least = -ROUNDING * largest(&diagonal);
+        if let Some(column) = diagonal.iter().position(|entry| *entry < least) {
+            let row = assembled.row_of(column).map_or_else(String::new, |row| assembled.joined.label(row));
+            not_negative(&format!("{what} on the diagonal of {row}"), diagonal[column])?;
+        }
+    }
+    match counted_below(&assembled.mass, -RANK, limit_bytes)? {
+        Some(negative) if negative > 0 => Err(StructureError::MassNegative { negative }),
+        _ => Ok(()),
+    }
+}
+
+/// Rank of a mass matrix; `None` if it could not be found.
+///
+/// # Errors
+/// As [`ensure_passive`].
+pub(super) fn mass_rank(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Option<usize>, StructureError> {
+    Ok(counted_below(mass, RANK, limit_bytes)?.map(|small| mass.size() - small))
+}
+
+/// Number of eigenvalues of `D^-1 M` below a shift; `None` if there is no factor there.
+fn counted_below(
+    mass: &SymmetricMatrix,
+    shift: f64,
+    limit_bytes: u64,
+) -> Result<Option<usize>, StructureError> {
+    let diagonal = mass.diagonal();
+    let largest = largest(&diagonal);
+    if largest == 0.0 {
+        return Err(StructureError::NoMass);
+    }
+    let scale = diagonal.iter().enumerate().map(|(row, entry)| Entry {
+        row: row as u32,
+        column: row as u32,
+        value: if *entry == 0.0 { largest } else { entry.abs() },
+    });
+    let scale = SymmetricMatrix::from_entries(mass.size(), &scale.collect::<Vec<_>>());
+    let pencil = Pencil::new(mass.clone(), scale, limit_bytes)?;
+    Ok(pencil.factors(shift).ok().map(|factors| factors.negative()))
+}
+
+fn largest(diagonal: &[f64]) -> f64 {
+    diagonal.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()))
+}
