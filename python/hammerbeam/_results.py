@@ -182,7 +182,13 @@ class Results:
         return [Path(path) for path in self._native.export(format, folder, states)]
 
     def export_orbits(
-        self, orbits: Orbits, format: str = "csv", out: AnyPath | None = None, *, samples: int = 256
+        self,
+        orbits: Orbits,
+        format: str = "csv",
+        out: AnyPath | None = None,
+        *,
+        samples: int = 256,
+        progress: Progress = None,
     ) -> list[Path]:
         """Writes orbits with their motion at all points, states and multipliers, in the formats of
         `export`."""
@@ -192,11 +198,14 @@ class Results:
             raise _check.refused("orbits", orbits, must)
         self._refuse_closed()
         count = _check.whole("samples", samples, 1, MOST_SAMPLES)
-        if _export.checked(format) in _export.WRITERS:
-            tables = {packed[0]: array(packed) for packed in orbits._native.tables_of_all(count)}
-            return _export.write(tables, format, folder, "orbits")
+        is_ours = _export.checked(format) in _export.WRITERS
         native = orbits._native
-        return [Path(path) for path in NativeResults.export_orbits(native, format, folder, count)]
+        with interruptible("orbits are written whole or not at all"), watched(progress) as callbacks:
+            if is_ours:
+                tables = {packed[0]: array(packed) for packed in native.tables_of_all(count, callbacks)}
+                return _export.write(tables, format, folder, "orbits")
+            written = NativeResults.export_orbits(native, format, folder, count, callbacks)
+            return [Path(path) for path in written]
 
     def close(self) -> None:
         """Lets the folder go; asked for anything afterwards it raises `ClosedResults`."""

@@ -6,7 +6,12 @@ use hammerbeam_orbit::{BranchEventKind, PeriodicSolution};
 use hammerbeam_results::arrays::{ArrayTable, ArrayValues};
 use hammerbeam_study::Model;
 
-use crate::{JobError, OrbitWaveform, PreparedStudy, StoredBranches, orbit_waveform};
+use crate::{
+    CountedProgress, JobError, Observer, OrbitWaveform, PreparedStudy, StoredBranches, orbit_waveform,
+};
+
+/// Numbers of all motions that are held in memory at most, 0.4 GB, and as much again as tables.
+const MOST_NUMBERS: u64 = 50_000_000;
 
 /// Which orbits of a results folder are meant: those that fit everything that is given.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -69,17 +74,40 @@ pub fn chosen_orbits(
 /// * `samples`: in each excitation period.
 ///
 /// # Errors
-/// [`JobError::Motion`]: a motion cannot be computed again.
+/// [`JobError::Motion`]: a motion cannot be computed again; [`JobError::MotionsTooLarge`];
+/// [`JobError::Interrupted`] with the number of orbits.
 pub fn orbit_tables(
     model: &Model,
     orbits: &[ChosenOrbit],
     samples: usize,
+    observer: &mut dyn Observer,
 ) -> Result<[ArrayTable; 2], JobError> {
-    let waveforms = orbits
-        .iter()
-        .map(|orbit| orbit_waveform(model, &orbit.solution, samples))
-        .collect::<Result<Vec<_>, _>>()?;
+    ensure_small(model, orbits, samples)?;
+    let total = orbits.len() as u64;
+    let mut waveforms = Vec::with_capacity(orbits.len());
+    for (done, orbit) in (0..).zip(orbits) {
+        observer.counted(&CountedProgress { done, total: Some(total), things: "orbits", place: &"" });
+        if observer.interrupted() {
+            return Err(JobError::Interrupted { done, part_s: None });
+        }
+        waveforms.push(orbit_waveform(model, &orbit.solution, samples)?);
+    }
     Ok([orbit_table(orbits), waveform_table(model, &waveforms)])
+}
+
+/// Refuses motions that take too much of memory.
+fn ensure_small(model: &Model, orbits: &[ChosenOrbit], samples: usize) -> Result<(), JobError> {
+    let (points, forces) = (model.point_names().len(), model.system.elements().len());
+    // Time and phase; displacement, velocity and acceleration of each point; forces; the state.
+    let of_sample = (2 + 3 * points + forces + 2 * model.system.dof()) as u64;
+    let periods: u64 = orbits.iter().map(|orbit| u64::from(orbit.solution.period_multiple)).sum();
+    let of_all = periods * of_sample;
+    let numbers = of_all.saturating_mul(samples as u64);
+    if numbers > MOST_NUMBERS {
+        let (orbits, most) = (orbits.len(), MOST_NUMBERS);
+        return Err(JobError::MotionsTooLarge { orbits, numbers, most, most_samples: most / of_all });
+    }
+    Ok(())
 }
 
 /// Orbits in one row each, the table `orbits`.

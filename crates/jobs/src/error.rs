@@ -51,6 +51,12 @@ pub enum JobError {
     /// A motion that takes too much of memory or of the disk.
     #[error(transparent)]
     TooLarge(#[from] SimulationTooLarge),
+    /// Motions of orbits that take too much of memory.
+    #[error(
+        "the motions of {orbits} orbits are {numbers} numbers, must be {most} at most; allowed: fewer orbits, \
+        or at most {most_samples} samples in a period"
+    )]
+    MotionsTooLarge { orbits: usize, numbers: u64, most: u64, most_samples: u64 },
     /// Measured points cannot be compared.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),

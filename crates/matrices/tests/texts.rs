@@ -134,6 +134,19 @@ fn harwell_boeing_in_fixed_columns() {
     refused(&text[..cut], &["ends within"]);
 }
 
+/// SciPy writes lines whose columns are not those of the format in the head: blanks are between the numbers.
+#[test]
+fn harwell_boeing_as_scipy_writes_it() {
+    let text = "Default title                                                           0       \n\
+                \x20            3             1             1             1\n\
+                RUA                        2             2             4             0\n\
+                (40I2)          (40I2)          (3E25.16)           \n 1 3 5\n 1 2 1 2\n\
+                \x20 2.0000000000000000E+04 -1.0000000000000000E+04 -1.0000000000000000E+04\n\
+                \x20 3.0000000000000000E+04\n";
+    assert_eq!(values(&one(text)), [(0, 0, 2e4), (1, 0, -1e4), (0, 1, -1e4), (1, 1, 3e4)]);
+    refused(&text.replace("3.0000000000000000E+04", "3.0 4.0"), &["an entry should be a number"]);
+}
+
 #[test]
 fn what_is_of_no_format_says_which_there_are() {
     refused("hello world\n", &["the format is not known", "matrix-market", "nastran-op4"]);

@@ -105,6 +105,7 @@ fn class_of(error: &Error) -> &'static str {
         Error::FallingFrequencies { .. } => "FallingFrequencies",
         Error::Coordinate(_) => "CoordinateError",
         Error::TooLarge(_) => "SimulationTooLarge",
+        Error::MotionsTooLarge { .. } => "BadInput",
         Error::Drifts(_) => "Drifts",
         Error::FrequencyNotResolved { .. } => "FrequencyNotResolved",
         Error::NoSpecialPoint { .. } | Error::SweepWithoutParts => "BadInput",

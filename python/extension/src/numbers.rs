@@ -34,6 +34,9 @@ pub fn of(error: &Error) -> Value {
         Error::FallingFrequencies { from_hz, to_hz } => fields!(from_hz, to_hz),
         Error::Coordinate(error) => of_coordinate(error),
         Error::TooLarge(error) => of_size(error),
+        Error::MotionsTooLarge { orbits, numbers, most, most_samples } => {
+            fields!(orbits, numbers, most, most_samples)
+        }
         Error::NoOutput { name, known } => fields!(name, known),
         Error::NoSpecialPoint { number, count, .. } => fields!(number, count),
         Error::Drifts(drift) => json!({ "held_by_stops": drift.held_by_stops }),

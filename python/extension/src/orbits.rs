@@ -3,14 +3,16 @@
 use std::sync::Arc;
 
 use hammerbeam::{
-    Error, Study,
+    Error, Observer, Quiet, Study,
     chosen_orbits::{ChosenOrbit, orbit_table, orbit_tables},
     results::arrays::ArrayTable,
 };
 use pyo3::{exceptions::PyIndexError, prelude::*};
 
 use crate::{
+    asked::Callback,
     failure::exception,
+    observer::PythonObserver,
     records::{PackedTable, all_packed, packed},
 };
 
@@ -28,8 +30,8 @@ impl NativeOrbits {
     }
 
     /// All of them as tables.
-    pub fn tables(&self, samples: usize) -> Result<[ArrayTable; 2], Error> {
-        orbit_tables(&self.study.model, &self.orbits, samples)
+    pub fn tables(&self, samples: usize, observer: &mut dyn Observer) -> Result<[ArrayTable; 2], Error> {
+        orbit_tables(&self.study.model, &self.orbits, samples, observer)
     }
 }
 
@@ -51,9 +53,14 @@ impl NativeOrbits {
     }
 
     /// All of them with their motions.
-    fn tables_of_all<'py>(&self, py: Python<'py>, samples: usize) -> PyResult<Vec<PackedTable<'py>>> {
-        let tables = py.detach(|| self.tables(samples)).map_err(|error| exception(py, error))?;
-        Ok(all_packed(py, &tables))
+    fn tables_of_all<'py>(
+        &self,
+        py: Python<'py>,
+        samples: usize,
+        callbacks: (Callback, Callback),
+    ) -> PyResult<Vec<PackedTable<'py>>> {
+        let tables = PythonObserver::run(py, callbacks, |observer| self.tables(samples, observer))?;
+        Ok(all_packed(py, &tables.map_err(|error| exception(py, error))?))
     }
 
     /// Some of them, in the order that is given.
@@ -66,7 +73,8 @@ impl NativeOrbits {
     /// The motion of one of them over its period.
     fn waveform<'py>(&self, py: Python<'py>, index: usize, samples: usize) -> PyResult<PackedTable<'py>> {
         let orbit = self.orbits.get(index).ok_or_else(no_such_orbit)?;
-        let tables = py.detach(|| orbit_tables(&self.study.model, std::slice::from_ref(orbit), samples));
+        let one = std::slice::from_ref(orbit);
+        let tables = py.detach(|| orbit_tables(&self.study.model, one, samples, &mut Quiet));
         let [_, waveform] = tables.map_err(|error| exception(py, error))?;
         Ok(packed(py, &waveform))
     }

@@ -22,14 +22,13 @@ use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::{
+    asked::Callback,
     failure::{bad_input, drawing_exception, exception, store_exception, unknown},
     observer::PythonObserver,
     orbits::NativeOrbits,
     records::{PackedTable, all_packed},
     study::NativeStudy,
 };
-
-type Callback = Option<Py<PyAny>>;
 
 /// A results folder that is open for reading.
 #[pyclass(frozen, module = "hammerbeam._native")]
@@ -231,11 +230,12 @@ impl NativeResults {
         format: &str,
         folder: PathBuf,
         samples: usize,
+        callbacks: (Callback, Callback),
     ) -> PyResult<Vec<PathBuf>> {
         let format = table_format(py, format)?;
-        let written = py.detach(|| -> Result<Vec<PathBuf>, hammerbeam::Error> {
-            Ok(write_tables(&orbits.tables(samples)?, &folder, ("orbits", format))?)
-        });
+        let written = PythonObserver::run(py, callbacks, |observer| -> Result<_, hammerbeam::Error> {
+            Ok(write_tables(&orbits.tables(samples, observer)?, &folder, ("orbits", format))?)
+        })?;
         written.map_err(|error| exception(py, error))
     }
 }

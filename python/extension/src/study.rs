@@ -18,7 +18,7 @@ use hammerbeam::{
     pool::threads,
     run::{RunOrigin, RunOutcome, RunRequest, WholeRun, run_study},
     simulate::{DurationTooLong, SimulationRequest, SimulationTime, simulate},
-    study_file::{Setting, file::StructureTable},
+    study_file::Setting,
     sweep::{SweepRequest, SweepStarts, sweep_part, sweep_with_parts},
 };
 use pyo3::prelude::*;
@@ -81,7 +81,7 @@ impl NativeStudy {
     }
 
     /// The text of this study with other values of keys, in the form of `--set`, which can stand in another
-    /// folder. It is read again, unless that meant to read files of matrices once more.
+    /// folder. It is read again; of files of matrices only whether they are there.
     fn text_with(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<String> {
         let file = &self.study.file;
         let text = file.text_with_whole_paths();
@@ -89,9 +89,7 @@ impl NativeStudy {
             let settings = settings.iter().map(|text| text.parse()).collect::<Result<Vec<Setting>, _>>();
             let text = settings.and_then(|settings| Setting::written_into(&settings, &text));
             let text = text.map_err(StudyError::Setting)?;
-            if !matches!(file.study.structure, StructureTable::Matrices(_)) {
-                StudyFile::parse(&file.name, text.clone())?;
-            }
+            StudyFile::parse(&file.name, text.clone())?;
             Ok(text)
         };
         written().map_err(|error| study_exception(py, error))

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hammerbeam_jobs::{
-    PreparedStudy,
+    PreparedStudy, Quiet,
     chosen_orbits::{OrbitChoice, chosen_orbits, orbit_tables},
 };
 use hammerbeam_results::{
@@ -88,6 +88,6 @@ fn orbits(options: &ExportOptions, store: &Store, folder: &Path) -> Result<Vec<P
     if found.is_empty() {
         return Err(Failure::NoResult("no stored orbit fits what is asked for".to_owned()));
     }
-    let tables = orbit_tables(&study.model, &found, options.samples as usize)?;
+    let tables = orbit_tables(&study.model, &found, options.samples as usize, &mut Quiet)?;
     Ok(write_tables(&tables, folder, ("orbits", options.format.into()))?)
 }

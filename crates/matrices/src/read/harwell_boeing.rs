@@ -150,7 +150,8 @@ fn wholes<R: BufRead>(
     Ok(numbers)
 }
 
-/// Visits so many fields with their number.
+/// Visits so many fields with their number. Where a line has as many words as fields, these are they: some
+/// programs write other columns than their format says. Else numbers may stand without a blank between them.
 fn each_field<R: BufRead>(
     lines: &mut Lines<R>,
     layout: Layout,
@@ -161,14 +162,15 @@ fn each_field<R: BufRead>(
     while (done as i64) < count {
         let line = lines.required("the numbers of the matrix")?;
         let on_line = ((count - done as i64) as usize).min(layout.count);
-        let mut visited = Ok(());
-        for field in 0..on_line {
-            let start = (field * layout.width).min(line.len());
-            visited = visit(done + field, &line[start..(start + layout.width).min(line.len())]);
-            if visited.is_err() {
-                break;
-            }
-        }
+        let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let visited = if words.clone().take(on_line + 1).count() == on_line {
+            words.enumerate().try_for_each(|(field, word)| visit(done + field, word))
+        } else {
+            (0..on_line).try_for_each(|field| {
+                let start = (field * layout.width).min(line.len());
+                visit(done + field, &line[start..(start + layout.width).min(line.len())])
+            })
+        };
         visited.map_err(|fault| fault.at(lines.place()))?;
         done += on_line;
     }
