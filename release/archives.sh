@@ -55,7 +55,7 @@ archive() {
     case $target in *windows*) suffix=.exe ;; esac
     rm -rf "${out:?}/$name"
     mkdir -p "$out/$name/completions" "$out/$name/man"
-    cp "$built/$target/release/hammerbeam$suffix" README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE "$out/$name"
+    cp "$built/$target/release/hammerbeam$suffix" README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE docs/third-party.md "$out/$name"
     "$command" man --out "$out/$name/man" > /dev/null
     for shell in bash elvish fish powershell zsh; do
         "$command" completions "$shell" > "$out/$name/completions/hammerbeam.$shell"

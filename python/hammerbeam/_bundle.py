@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ._errors import BadInput
+from ._files import copy_whole, write_whole
 from ._matrices import write_bundle
 from ._native import NativeStudy
 
@@ -45,9 +46,12 @@ class Bundle:
         """The study of a text, reading copies of the matrices in `structure` of a results or batch folder.
 
         Copies that are there already and equal are taken as they are. Other matrices are replaced as long
-        as the folder holds nothing that was computed from them, else `BadInput` is raised.
+        as the folder holds nothing that was computed from them, else `BadInput` is raised, as it is if
+        `structure` is a link.
         """
         place = out / "structure"
+        if place.is_symlink():
+            raise BadInput(f"{place}: it is a link, and nothing is written through links")
         names = sorted(path.name for path in self.folder.glob("*.mtx"))
         if any(not _equal(self.folder / name, place / name) for name in names):
             has_copies = any(place.glob("*.mtx"))
@@ -58,10 +62,10 @@ class Bundle:
                 )
             place.mkdir(parents=True, exist_ok=True)
             for name in names:
-                shutil.copyfile(self.folder / name, place / name)
+                copy_whole(self.folder / name, place / name)
         path, text = place / "study.toml", self.local(text)
         if not path.exists() or not (out / "results.db").exists():
-            path.write_text(text, encoding="utf-8")
+            write_whole(path, text)
         return NativeStudy.parse(str(path), text)
 
 

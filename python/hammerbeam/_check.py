@@ -180,6 +180,8 @@ def _array(name: str, value: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
         given = np.asarray(value)
     except (TypeError, ValueError) as error:
         raise BadInput(f"{name}: {error}") from error
+    if np.ma.is_masked(value):
+        raise BadInput(f"{name}: numbers are masked; allowed: numbers everywhere")
     if given.dtype.kind not in "iuf":
         raise BadInput(f"{name}: found an array of {given.dtype}, must be real numbers")
     return given.astype(np.float64)

@@ -84,6 +84,8 @@ def _entries(name: str, matrix: Any) -> Entries:
             dense = np.asarray(matrix)
         except (TypeError, ValueError) as error:
             raise BadInput(f"{name}: {error}") from error
+        if np.ma.is_masked(matrix):
+            raise BadInput(f"{name}: entries are masked; allowed: numbers everywhere")
         if dense.ndim != 2:
             raise shaped(name, dense, "must be a square matrix")
         array = dense

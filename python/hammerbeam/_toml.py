@@ -8,12 +8,20 @@ from typing import Any
 import numpy as np
 
 from ._check import refused
+from ._errors import BadInput
 
 
 def study_text(tables: Mapping[str, Any]) -> str:
     """TOML of nested dictionaries; tables within tables stand in one line."""
     if not isinstance(tables, Mapping):
         raise refused("tables", tables, "must be a dictionary with the tables of a study")
+    try:
+        return _document(tables)
+    except RecursionError:
+        raise BadInput("tables: they are nested too deeply, or hold themselves") from None
+
+
+def _document(tables: Mapping[str, Any]) -> str:
     plain, below = list[str](), list[str]()
     for key, value in tables.items():
         if value is None:

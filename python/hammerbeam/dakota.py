@@ -22,8 +22,8 @@ from pathlib import Path
 
 from ._check import refused
 from ._errors import BadInput, HammerbeamError
+from ._files import write_whole
 from ._study import Study
-from .batch._folder import write_whole
 from .batch._numbers import of_results
 
 _VALUE = 1

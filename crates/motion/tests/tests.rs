@@ -17,6 +17,7 @@ mod energy_loss;
 mod every_law;
 mod fast_loads;
 mod fast_modes;
+mod formula_corners;
 mod general_common;
 mod general_contact;
 mod general_fields;

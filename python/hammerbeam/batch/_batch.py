@@ -8,11 +8,12 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from .._files import write_whole
 from .. import _check
 from .._errors import BadInput
 from .._progress import Progress, interruptible, watched
 from .._study import Study
-from ._folder import Counts, ItemFolder, Status, json_text, read_json, write_whole
+from ._folder import Counts, ItemFolder, Status, json_text, read_json
 from ._item import compute_item, compute_whole
 from ._parameters import Parameters
 from ._task import Task

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._errors import BadInput
+from .._files import write_whole
 
 ITEMS_A_FOLDER = 100
 """Items that share a folder below `items`: ten thousand of them are a hundred folders of a hundred."""
@@ -105,16 +106,6 @@ def _is_whole(report: Path) -> bool:
             return file.read() == b"}\n"
     except OSError:
         return False
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Writes a file that is there whole or not at all, also after a loss of power."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    with temporary.open("w", encoding="utf-8", newline="") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    temporary.replace(path)
 
 
 def json_text(document: Any) -> str:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._files import write_whole
 from .. import _check
 from .._errors import BadInput, WriteError
 from .._look import axes, framed
 from .._results import Results
 from .._tables import Array, frame
-from ._folder import Status, read_json, write_whole
+from ._folder import Status, read_json
 
 if TYPE_CHECKING:
     from ._batch import Batch

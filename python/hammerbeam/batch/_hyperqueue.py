@@ -10,10 +10,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._files import write_whole
 from .. import _check
 from .._errors import BadInput
 from .._tables import needed
-from ._folder import json_text, write_whole
+from ._folder import json_text
 
 if TYPE_CHECKING:
     from ._batch import Batch

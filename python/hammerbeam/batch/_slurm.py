@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from .. import _check
 from .._errors import BadInput
-from ._folder import write_whole
+from .._files import write_whole
 from ._hyperqueue import item_command
 
 if TYPE_CHECKING:

@@ -10,7 +10,10 @@
 //!
 //! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step,
 //! so the state at the end has about its square; `T D^2`, the force in the polynomials of twice the degree,
-//! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Of the share
+//! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Where a force
+//! has a corner, as `abs(x)`, they fall with a power of the degree only: then the polynomials of twice the
+//! degree leave `T D`, and what happens between an end of the step and the node next to it is seen at
+//! the end alone: what the polynomial through the nodes misses there counts as a tail. Of the share
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
 //! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
 //! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,
@@ -57,8 +60,9 @@ pub(crate) struct Tail {
 
 impl Tail {
     /// Part that is left at twice the degree.
-    fn decay(self) -> f64 {
-        (self.highest / self.middle.max(f64::MIN_POSITIVE)).min(1.0).powi(2)
+    fn decay(self, has_corners: bool) -> f64 {
+        let over_half = (self.highest / self.middle.max(f64::MIN_POSITIVE)).min(1.0);
+        if has_corners { over_half } else { over_half.powi(2) }
     }
 }
 
@@ -158,7 +162,11 @@ impl ExactIntegrator {
             let driven = output.slope.abs() + output.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
-            let force = of_nodes(&step.force);
+            let mut force = of_nodes(&step.force);
+            let has_corners = self.laws[element].has_corners();
+            if has_corners {
+                force.highest = force.highest.max(self.missed_at_ends(run, a));
+            }
             let tail = impulse * force.highest / velocity;
             let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
             if step.has_holes() {
@@ -169,7 +177,7 @@ impl ExactIntegrator {
             }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
-                slow: tail * force.decay(),
+                slow: tail * force.decay(has_corners),
                 fast_share: response.fast_share,
             };
             largest = largest.max(self.relative_to_bound(errors));
@@ -198,6 +206,18 @@ impl ExactIntegrator {
             largest = largest.max(self.pressing_error(run));
         }
         largest.max(self.unresolved_excess())
+    }
+
+    /// By how much the polynomial through the nodes misses the force of the a-th active element at the ends of
+    /// the solved step.
+    fn missed_at_ends(&self, run: &Run, a: usize) -> f64 {
+        let element = self.step.active[a];
+        let ends = [(0.0, run.start[element].output), (1.0, self.free_jet_at_step_end(run, element))];
+        let missed = ends.map(|(place, Jet { value, slope, .. })| {
+            let force = self.laws[element].force(value, slope).value;
+            (self.step.interpolate(&self.step.force, a, place) - force).abs()
+        });
+        missed[0].max(missed[1])
     }
 
     /// The largest slopes of a force over nodes of the solved step.
@@ -375,7 +395,7 @@ impl ExactIntegrator {
                 };
                 let tail = impulse * highest / scale;
                 into.tail = into.tail.max(tail);
-                into.slow = into.slow.max(tail * found.tail.decay());
+                into.slow = into.slow.max(tail * found.tail.decay(self.laws[element].has_corners()));
                 into.fast_share = into.fast_share.max(response.fast_share);
             }
         }

@@ -119,6 +119,11 @@ impl Law {
         of_law!(self, law => ForceLaw::is_odd(law))
     }
 
+    /// Whether the force may have no power series somewhere, at places that nothing tells beforehand.
+    pub(crate) fn has_corners(&self) -> bool {
+        of_law!(self, law => law.has_corners())
+    }
+
     /// The magnitude of the displacement [m] beyond which the force is linear in it; `None` if it never is.
     #[must_use]
     pub fn linear_beyond(&self) -> Option<f64> {

@@ -70,6 +70,12 @@ pub(crate) trait ForceLaw: Clone {
         None
     }
 
+    /// Whether the force may have no power series somewhere, at places that nothing tells beforehand. Kinks
+    /// are told.
+    fn has_corners(&self) -> bool {
+        false
+    }
+
     /// Whether the slope of the force of a closed contact jumps somewhere, where the force is continuous.
     /// Then the law is that of one piece of the force after the other ([`ForceLaw::in_piece`]), continued
     /// smoothly beyond its kinks, as a run goes through them (`exact/kink.rs`).

@@ -12,6 +12,7 @@
 //! where every search begins, the force and its derivatives must be finite.
 
 mod arithmetic;
+mod corners;
 mod error;
 mod jet;
 mod notation;
@@ -23,6 +24,7 @@ use exmex::{Express, FlatEx};
 
 use self::{
     arithmetic::{Literals, Operators},
+    corners::Corners,
     jet::Jet,
     parity::Parity,
 };
@@ -51,6 +53,7 @@ struct Expression {
     has_displacement: bool,
     has_velocity: bool,
     is_odd: bool,
+    has_corners: bool,
 }
 
 impl Formula {
@@ -76,7 +79,12 @@ impl Formula {
         }
         let odd = vec![Parity::ODD; parity.var_names().len()];
         let is_odd = parity.eval(&odd).is_ok_and(Parity::is_odd);
-        let law = Self(Arc::new(Expression { text, program, has_displacement, has_velocity, is_odd }));
+        let corners =
+            FlatEx::<Corners, Operators, Literals>::parse(&text).map_err(|_| FormulaError::Unread)?;
+        let smooth = vec![Corners::NONE; corners.var_names().len()];
+        let has_corners = corners.eval(&smooth).is_ok_and(|found| found.can_have);
+        let found = Expression { text, program, has_displacement, has_velocity, is_odd, has_corners };
+        let law = Self(Arc::new(found));
         let Force { value, slope, damping } = law.force(0.0, 0.0);
         for (what, found) in [("force", value), ("slope by `x`", slope), ("slope by `v`", damping)] {
             if !found.is_finite() {
@@ -127,6 +135,10 @@ impl ForceLaw for Formula {
     /// Whether the force of the opposite motion is the opposite one, as the formula shows by its form.
     fn is_odd(&self) -> bool {
         self.0.is_odd
+    }
+
+    fn has_corners(&self) -> bool {
+        self.0.has_corners
     }
 
     /// Its constants are numbers of the study as any other.
