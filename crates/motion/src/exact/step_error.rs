@@ -13,7 +13,8 @@
 //! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Where a force
 //! has a corner, as `abs(x)`, they fall with a power of the degree only: then the polynomials of twice the
 //! degree leave `T D`, and what happens between an end of the step and the node next to it is seen at
-//! the end alone: what the polynomial through the nodes misses there counts as a tail. Of the share
+//! the end alone: what the polynomial through the nodes misses there counts as a tail. What it misses there of
+//! the slopes, the sensitivities miss over that part of the step, [`AT_AN_END`] of it. Of the share
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
 //! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
 //! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,
@@ -45,6 +46,7 @@ use super::{
     hole,
     run::{ElementStart, Run},
 };
+use crate::law::Force;
 
 /// Share of the velocity that a further column can reach: its scale where its own velocity is smaller.
 const LEAST_SHARE: f64 = 0.01;
@@ -122,6 +124,8 @@ const ROUNDING: f64 = 32.0;
 const HIGHEST: (i32, f64) = degree(NODES - 1);
 const ALL_NODES: (i32, f64) = degree(NODES);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
+/// Part of a step beyond the node next to an end.
+const AT_AN_END: f64 = 0.01;
 /// Largest factor from one step to the next.
 pub(super) const LONGEST_GROWTH: f64 = 5.0;
 /// Turning of a block or of the load over a step, in radians, below which the nodes resolve it to rounding.
@@ -164,8 +168,14 @@ impl ExactIntegrator {
             let of_nodes = |values: &[f64]| step.tail(&values.as_chunks::<NODES>().0[a]);
             let mut force = of_nodes(&step.force);
             let has_corners = self.laws[element].has_corners();
+            let mut missed_slope = 0.0;
             if has_corners {
-                force.highest = force.highest.max(self.missed_at_ends(run, a));
+                let missed = self.missed_at_ends(run, a);
+                force.highest = force.highest.max(missed.value);
+                if run.sensitivity.is_some() {
+                    let slowest = self.drive.circular_frequency();
+                    missed_slope = AT_AN_END * impulse * (missed.slope / slowest + missed.damping);
+                }
             }
             let tail = impulse * force.highest / velocity;
             let mut dual = impulse * step.length * of_nodes(&step.slope).highest;
@@ -177,7 +187,7 @@ impl ExactIntegrator {
             }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
-                slow: tail * force.decay(has_corners),
+                slow: (tail * force.decay(has_corners)).max(missed_slope),
                 fast_share: response.fast_share,
             };
             largest = largest.max(self.relative_to_bound(errors));
@@ -208,16 +218,23 @@ impl ExactIntegrator {
         largest.max(self.unresolved_excess())
     }
 
-    /// By how much the polynomial through the nodes misses the force of the a-th active element at the ends of
-    /// the solved step.
-    fn missed_at_ends(&self, run: &Run, a: usize) -> f64 {
-        let element = self.step.active[a];
-        let ends = [(0.0, run.start[element].output), (1.0, self.free_jet_at_step_end(run, element))];
-        let missed = ends.map(|(place, Jet { value, slope, .. })| {
-            let force = self.laws[element].force(value, slope).value;
-            (self.step.interpolate(&self.step.force, a, place) - force).abs()
-        });
-        missed[0].max(missed[1])
+    /// By how much the polynomials through the nodes miss the force of the a-th active element and its
+    /// derivatives at the ends of the solved step.
+    fn missed_at_ends(&self, run: &Run, a: usize) -> Force {
+        let (step, element) = (&self.step, self.step.active[a]);
+        let mut missed = Force::ZERO;
+        for (place, output) in
+            [(0.0, run.start[element].output), (1.0, self.free_jet_at_step_end(run, element))]
+        {
+            let force = self.laws[element].force(output.value, output.slope);
+            let off = |values: &[f64], found: f64| (step.interpolate(values, a, place) - found).abs();
+            missed.value = missed.value.max(off(&step.force, force.value));
+            missed.slope = missed.slope.max(off(&step.slope, force.slope));
+            if step.damped {
+                missed.damping = missed.damping.max(off(&step.damping, force.damping));
+            }
+        }
+        missed
     }
 
     /// The largest slopes of a force over nodes of the solved step.
