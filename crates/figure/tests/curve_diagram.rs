@@ -51,7 +51,7 @@ fn units_suit_both_ranges() {
         point.frequency_hz *= 2000.0;
     }
     let svg = small.draw(&Style::default()).unwrap().svg().to_owned();
-    for text in [">Gap of stop 1 (nm)<", ">15<", ">20<", ">Excitation frequency (kHz)<", ">60<"] {
+    for text in [">Gap of stop 1 (nm)<", ">12<", ">20<", ">Excitation frequency (kHz)<", ">60<"] {
         assert!(svg.contains(text), "{text} is missing");
     }
     let angular = Style::default().showing(FrequencyUnit::RadPerSecond);
