@@ -26,6 +26,6 @@ if ! cmp -s docs/requirements.txt "$tools/requirements.txt"; then
 fi
 rm -rf "$target/book"
 "$tools/bin/sphinx-build" -W --keep-going -n -q -E -d "$target/book-cache" docs "$target/book"
-"$tools/bin/python" docs/readability.py --check docs README.md
+"$tools/bin/python" docs/readability.py --check docs README.md CHANGELOG.md
 "$tools/bin/python" docs/_ext/check_tests.py
 echo "book: $target/book/index.html"

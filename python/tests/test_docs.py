@@ -8,13 +8,13 @@ import sys
 import warnings
 from pathlib import Path
 
+import hammerbeam
 import pytest
 from conftest import ROOT
 
 PAGE = ROOT / "docs/tutorials/python.md"
-
-
 MANY = ROOT / "docs/how-to/many-studies.md"
+README = ROOT / "README.md"
 
 
 def snippets(language: str, page: Path = PAGE) -> list[str]:
@@ -46,6 +46,17 @@ def test_the_tutorial_runs(
     out = capsys.readouterr().out
     assert "fold" in out and "<Orbit 0.25 Hz" in out
     assert (place / "export/results.json").is_file()
+
+
+def test_the_block_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    (tmp_path / "studies").symlink_to(ROOT / "studies")
+    monkeypatch.chdir(tmp_path)
+    [snippet] = snippets("python", README)
+    names: dict[str, object] = {"hammerbeam": hammerbeam}
+    exec(compile(snippet, README.name, "exec"), names)
+    results = names["results"]
+    assert isinstance(results, hammerbeam.Results) and len(results.branches()) > 1000
 
 
 def test_each_diagram_from_files_takes_six_lines() -> None:

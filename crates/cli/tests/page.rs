@@ -18,7 +18,7 @@ use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
     PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageParameter, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure, ResponseQuantity, SectionPlane,
+    PageSolution, PageStop, PageStructure, ParameterAxis, ResponseQuantity, SectionPlane,
 };
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{Side, states_at_phase};
@@ -244,7 +244,7 @@ fn everything() -> Page {
         ..PageSolution::default()
     };
     let over_the_gap =
-        |k: u32| PageSolution { frequency_hz: 20.0, parameter: 0.1 * f64::from(k), ..solution(k) };
+        |k: u32| PageSolution { frequency_hz: 20.0, parameter: 1e-8 * f64::from(k), ..solution(k) };
     let wave = |count: u32, size: f64| -> Vec<f64> {
         (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
     };
@@ -296,8 +296,7 @@ fn everything() -> Page {
         point: "first".to_owned(),
         frequency_range_hz: (10.0, 30.0),
         parameters: vec![PageParameter {
-            title: "Gap of stop 1".to_owned(),
-            unit: "mm".to_owned(),
+            axis: ParameterAxis { title: "Gap of stop 1".to_owned(), unit: "m".to_owned() },
             frequency_hz: 20.0,
         }],
         branches: vec![

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
+use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stderr, stdout};
 
 /// The impact oscillator where it has a closed branch, from 0.086 to 0.096 Hz, that no slow sweep reaches.
 fn study() -> String {
@@ -42,6 +42,14 @@ fn a_run_with_a_changed_parameter_begins_at_a_special_point_of_another_run() {
     assert_eq!(found.len(), 2, "{found:?}");
     let missing = workshop.hammerbeam(&["run", "changed.toml", "--from", "results:1000", "--out", "other"]);
     assert_bad_input(&missing, &["results has no special point 1000", "numbered from 1"]);
+    // Another range, which does not hold the point.
+    std::fs::write(workshop.path("changed.toml"), study().replace("[0.085, 0.1]", "[0.2, 0.21]") + LITTLE)
+        .unwrap();
+    let away = workshop.hammerbeam(&["run", "changed.toml", "--from", &origin, "--out", "away"]);
+    let said = format!("special point {} of results lies at 0.0", first_flip(&workshop));
+    let notice = stderr(&away);
+    assert!(notice.contains(&said), "{notice}");
+    assert!(notice.contains("outside the range of this study, 0.2 Hz to 0.21 Hz"), "{notice}");
 }
 
 /// The Duffing oscillator whose symmetric orbits lose their symmetry between two branch points: orbits

@@ -24,7 +24,7 @@ pub fn draw_compared(file: &StudyFile, compared: &ComparedQuantity, name: &str, 
             .point
             .as_ref()
             .map_or_else(|| file.study.title.clone(), |point| format!("{}, at {point}", file.study.title)),
-        parameter: String::new(),
+        parameter: None,
         curves: compared.curves.branches().iter().map(|branch| curve(branch, quantity)).collect(),
         frequency_range_hz: Some(compared.range_hz.into()),
         chaotic_ranges_hz: Vec::new(),

@@ -10,7 +10,7 @@ use hammerbeam_study::file::CurveOf;
 
 use crate::{
     Album, DrawingError,
-    parameter::{axis_label, file_name},
+    parameter::{file_name, parameter_axis},
 };
 
 /// Draws the curves of bifurcations, one figure for each parameter that they are over.
@@ -28,7 +28,8 @@ pub fn draw(store: &Store, drawn: &mut impl Album) -> Result<(), DrawingError> {
         if curves.iter().all(|curve| curve.points.is_empty()) {
             continue;
         }
-        let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
+        let (title, parameter_axis) = (store.about("title")?, parameter_axis(parameter));
+        let diagram = CurveDiagram { title, parameter: parameter_axis, curves };
         drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&drawn.wide()));
     }
     Ok(())

@@ -88,7 +88,7 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, Stor
     }
     Ok(ResponseDiagram {
         title: store.about("title")?,
-        parameter: String::new(),
+        parameter: None,
         curves,
         frequency_range_hz: Some((low, high)),
         chaotic_ranges_hz: chaotic_ranges(store)?,

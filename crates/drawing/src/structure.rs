@@ -2,6 +2,8 @@
 
 mod words;
 
+pub use words::raised;
+
 use hammerbeam_figure::{
     Figure, FigureError, FrequencyUnit, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink,
     SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,

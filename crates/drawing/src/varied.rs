@@ -7,7 +7,7 @@ use hammerbeam_study::StudyFile;
 use crate::{
     Album, DrawingError, FigureScale,
     outputs::shown_outputs,
-    parameter::{axis_label, file_name},
+    parameter::{file_name, parameter_axis},
     response::{point, quantities, settings},
 };
 
@@ -28,7 +28,7 @@ pub fn draw(
             title: format!("{title}, {}", drawn.frequency_unit().words(frequency_hz))
                 .trim_start_matches(", ")
                 .to_owned(),
-            parameter: axis_label(&piece.parameter),
+            parameter: Some(parameter_axis(&piece.parameter)),
             curves,
             ..ResponseDiagram::default()
         };

@@ -12,7 +12,7 @@ use crate::{
     layer::Layer,
     legend::{Legend, LegendEntry},
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
-    scale::{Scale, ScaleChoice, ScaleKind, extent},
+    scale::{Scale, ScaleChoice, ScaleKind, extent, span_of},
     style::Style,
     svg::{Anchor, PagePoint, SvgWriter, points},
     text::{Text, wrap},
@@ -70,7 +70,7 @@ impl Measure {
         let (least, greatest) = extent(values.filter(|value| kind.shows(*value)))?;
         Some(match (self.ends, kind) {
             (Some(ends), _) => Scale::exact(kind, ends),
-            (None, ScaleKind::Linear) if greatest - least > 1e-9 * greatest.abs().max(least.abs()) => {
+            (None, ScaleKind::Linear) if span_of((least, greatest)) > 0.0 => {
                 let margin = 0.05 * (greatest - least);
                 Scale::exact(kind, (least - margin, greatest + margin))
             }

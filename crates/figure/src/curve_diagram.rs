@@ -13,8 +13,9 @@ use crate::{
     font::CAPITAL_HEIGHT,
     legend::{Legend, LegendEntry, LegendSample},
     marks::Mark,
+    parameter_axis::ParameterAxis,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
-    scale::{Scale, ScaleChoice, ScaleKind, extent},
+    scale::{Scale, ScaleChoice, ScaleKind, extent, span_of},
     style::{Pattern, Style, bifurcation_pattern},
     svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
     text::{Text, wrap},
@@ -33,8 +34,8 @@ const NAME_GAP: f64 = 4.0;
 pub struct CurveDiagram {
     /// Title above the figure; may be empty.
     pub title: String,
-    /// Label of the horizontal axis, with its unit in brackets.
-    pub parameter: String,
+    /// What the horizontal axis shows.
+    pub parameter: ParameterAxis,
     /// The curves, in the order in which they are drawn.
     pub curves: Vec<BifurcationCurve>,
 }
@@ -53,7 +54,7 @@ pub struct BifurcationCurve {
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BifurcationCurvePoint {
-    /// Value of the parameter, in the unit of its axis.
+    /// Value of the parameter, in SI.
     pub parameter: f64,
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
@@ -98,12 +99,15 @@ impl CurveDiagram {
 
     fn laid_out(&self, (across, up): (Scale, Scale), style: &Style) -> (Plot, Legend, Vec<Text>) {
         let plot_height = points(style.height_mm) - room_below(style);
-        let unit = style.frequency_unit;
-        let label = Text::upright(unit.label("Excitation frequency"));
-        let y = PlotAxis::in_unit((up, unit.factor()), label, 0.85 * plot_height, TICK_SPACING.1);
+        let unit = style.frequency_unit.up_to(up.to);
+        let label = Text::upright(format!("Excitation frequency ({})", unit.symbol));
+        let y = PlotAxis::in_unit((up, unit.factor), label, 0.85 * plot_height, TICK_SPACING.1);
         let left = room_left(style, y.label_width(style.tick_size));
-        let right = points(style.width_mm) - MARGIN - room_right(style, (&across, 1.0), left, TICK_SPACING.0);
-        let x = PlotAxis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
+        let unit = self.parameter.unit_up_to(across.from.abs().max(across.to.abs()));
+        let room = room_right(style, (&across, unit.factor), left, TICK_SPACING.0);
+        let right = points(style.width_mm) - MARGIN - room;
+        let label = Text::upright(self.parameter.label(&unit));
+        let x = PlotAxis::in_unit((across, unit.factor), label, right - left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left);
         let legend = Legend::new(vec![self.entries()], style, right - left);
         let top = MARGIN + 1.5 * title.len() as f64 * style.label_size + legend.height(style) + GAP;
@@ -134,7 +138,7 @@ impl CurveDiagram {
         let curves = self.curves.len();
         let what = if curves == 1 { "curve" } else { "curves" };
         let marked = if names.is_empty() { String::new() } else { format!("; marked: {}", names.join(", ")) };
-        format!("excitation frequency over {}, {curves} {what} of bifurcations{marked}", self.parameter)
+        format!("excitation frequency over {}, {curves} {what} of bifurcations{marked}", self.parameter.title)
     }
 
     fn named(&self) -> impl Iterator<Item = &BifurcationCurvePoint> {
@@ -178,7 +182,7 @@ impl CurveDiagram {
 
 /// A scale close around the data, which need not include zero.
 fn close_around(kind: ScaleKind, (least, greatest): (f64, f64)) -> Scale {
-    if kind == ScaleKind::Linear && greatest > least {
+    if kind == ScaleKind::Linear && span_of((least, greatest)) > 0.0 {
         let margin = 0.05 * (greatest - least);
         return Scale::exact(kind, (least - margin, greatest + margin));
     }

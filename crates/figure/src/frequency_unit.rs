@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::text::plain_number;
+use crate::{axis_unit::AxisUnit, text::plain_number};
 
 /// Unit of the frequencies on axes and in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,10 +38,19 @@ impl FrequencyUnit {
         format!("{what} ({})", self.symbol())
     }
 
-    /// A frequency to nine digits at most, with its unit.
+    /// The unit of frequencies up to a highest one: hertz have the prefix that suits it.
+    pub(crate) fn up_to(self, highest_hz: f64) -> AxisUnit {
+        match self {
+            Self::Hertz => AxisUnit::of("Hz", highest_hz),
+            Self::RadPerSecond => AxisUnit { symbol: self.symbol().to_owned(), factor: self.factor() },
+        }
+    }
+
+    /// A frequency to nine digits at most, with the unit that suits it.
     #[must_use]
     pub fn words(self, frequency_hz: f64) -> String {
-        format!("{} {}", plain_number(self.factor() * frequency_hz), self.symbol())
+        let unit = self.up_to(frequency_hz);
+        format!("{} {}", plain_number(unit.factor * frequency_hz), unit.symbol)
     }
 }
 
@@ -52,6 +61,7 @@ mod tests {
     #[test]
     fn a_cycle_is_two_pi_rad() {
         assert_eq!(FrequencyUnit::Hertz.words(36.2), "36.2 Hz");
+        assert_eq!(FrequencyUnit::Hertz.words(64_600.0), "64.6 kHz");
         assert_eq!(FrequencyUnit::RadPerSecond.words(31.4 / TAU), "31.4 rad/s");
     }
 }

@@ -28,8 +28,8 @@
 //! layers over one axis:
 //!
 //! * `style`: the look: sizes for a journal column, line widths, colours; the only place to change it.
-//! * `scale`, `ticks`, `axis`, `axis_unit`, `plot`: linear and logarithmic scales, their ticks, units that
-//!   suit them, a frame with two axes.
+//! * `scale`, `ticks`, `axis`, `axis_unit`, `parameter_axis`, `plot`: linear and logarithmic scales, their
+//!   ticks, units that suit them, a frame with two axes.
 //! * `stretch`: a branch divided where its stability changes.
 //! * `decimate`, `line`: fewer points for the same line, dashes.
 //! * `chart`: panels on top of each other under one legend.
@@ -88,6 +88,7 @@ mod motion_section;
 mod multiplier_diagram;
 mod orbit_diagram;
 mod page;
+mod parameter_axis;
 mod pdf;
 mod plot;
 mod png;
@@ -122,6 +123,7 @@ pub use page::{
     PageLink, PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageOutput, PageParameter,
     PagePlace, PageSection, PageSolution, PageStop, PageStructure, SectionPlane,
 };
+pub use parameter_axis::ParameterAxis;
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
     MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,

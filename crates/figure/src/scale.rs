@@ -4,6 +4,9 @@
 /// decade as a line.
 const LINEAR_UP_TO_RATIO: f64 = 40.0;
 
+/// Part of the largest value up to which a range is rounding: nothing is to be seen in it.
+const ROUNDING: f64 = 1e-9;
+
 /// Values beyond this are as good as infinite: differences and ratios of those below it stay finite.
 const LARGEST: f64 = 1e100;
 
@@ -57,6 +60,12 @@ pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
+/// The width of a linear range; zero where it is rounding.
+pub(crate) fn span_of((least, greatest): (f64, f64)) -> f64 {
+    let span = greatest - least;
+    if span > ROUNDING * greatest.abs().max(least.abs()) { span } else { 0.0 }
+}
+
 /// A scale with its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
@@ -81,7 +90,11 @@ impl Scale {
             }
             ScaleKind::Linear if least == 0.0 && greatest == 0.0 => Self::exact(kind, (-1.0, 1.0)),
             ScaleKind::Linear => {
-                let span = if greatest > least { greatest - least } else { greatest.abs() }.max(1e-30);
+                let span = match span_of((least, greatest)) {
+                    0.0 => greatest.abs(),
+                    span => span,
+                };
+                let span = span.max(1e-30);
                 let from_zero = least >= 0.0 && least < 0.5 * greatest;
                 let from = if from_zero { 0.0 } else { least - 0.06 * span };
                 Self::exact(kind, (from, greatest + 0.06 * span))
@@ -122,6 +135,18 @@ mod tests {
         assert_eq!(Scale::around(ScaleKind::Linear, (3.0, 80.0)).from, 0.0);
         let zero = Scale::around(ScaleKind::Linear, (0.0, 0.0));
         assert_eq!((zero.from, zero.to, zero.share(0.0)), (-1.0, 1.0, 0.5));
+    }
+
+    /// A motion that does not reach the stop is the same for every gap, up to rounding.
+    #[test]
+    fn a_range_of_rounding_is_no_range() {
+        let size = 4.720_929_604_915_06e-9;
+        let rounding = (size, size * (1.0 + 3e-13));
+        assert_eq!(span_of(rounding), 0.0);
+        let scale = Scale::around(ScaleKind::Linear, rounding);
+        assert!((scale.share(rounding.1) - scale.share(rounding.0)).abs() < 1e-9, "{scale:?}");
+        assert!(span_of((size, size * (1.0 + 3e-8))) > 0.0);
+        assert!(span_of((-2.0, -1.0)) == 1.0 && span_of((0.0, 0.0)) == 0.0);
     }
 
     #[test]

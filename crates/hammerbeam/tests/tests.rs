@@ -11,6 +11,7 @@ mod custom_sweep;
 mod lumped_rattle;
 #[path = "../examples/paper_beam.rs"]
 mod paper_beam;
+mod readme;
 
 use std::{fs, path::Path};
 

@@ -56,7 +56,13 @@ impl BranchOver<'_> {
     fn place(self, value: f64) -> String {
         match self {
             Self::Frequency => format!("{value:.6} Hz"),
-            Self::Parameter(name) | Self::Curve(name, _) => format!("{name} = {value}"),
+            // As one would write it in a study file.
+            Self::Parameter(name) | Self::Curve(name, _)
+                if (1e-4..1e6).contains(&value.abs()) || value == 0.0 =>
+            {
+                format!("{name} = {value}")
+            }
+            Self::Parameter(name) | Self::Curve(name, _) => format!("{name} = {value:e}"),
         }
     }
 }
@@ -271,5 +277,14 @@ mod tests {
         assert_eq!(range_end.to_string(), "end of the frequency range at 12.5 Hz");
         let splits = StopReason::ContactSplits { frequency_hz: 12.5, element: "s2".to_owned(), phase: 0.25 };
         assert!(BranchEnd::Walk(splits).to_string().starts_with("beyond 12.500000 Hz s2 opens"));
+    }
+
+    #[test]
+    fn small_and_large_values_of_a_parameter_have_no_row_of_zeros() {
+        let at = |value: f64| BranchOver::Parameter("stop.1.gap_m").place(value);
+        assert_eq!(at(6e-8), "stop.1.gap_m = 6e-8");
+        assert_eq!(at(0.002), "stop.1.gap_m = 0.002");
+        assert_eq!(at(-4.5e9), "stop.1.gap_m = -4.5e9");
+        assert_eq!(at(0.0), "stop.1.gap_m = 0");
     }
 }

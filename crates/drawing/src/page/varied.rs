@@ -7,7 +7,7 @@ use hammerbeam_results::{
 };
 
 use super::solution::solution;
-use crate::parameter::axis_label;
+use crate::parameter::parameter_axis;
 
 /// Adds the branches of every `[[vary]]` of the study, with their leading multipliers.
 ///
@@ -19,8 +19,8 @@ pub fn add(store: &Store, page: &mut Page) -> Result<(), StoreError> {
         let mut branches = branches(store, &piece)?;
         branches.retain(|branch| !branch.solutions.is_empty());
         let Some(first) = branches.first().and_then(|branch| branch.solutions.first()) else { continue };
-        let (title, unit) = named(&piece.parameter);
-        page.parameters.push(PageParameter { title, unit, frequency_hz: first.frequency_hz });
+        let axis = parameter_axis(&piece.parameter);
+        page.parameters.push(PageParameter { axis, frequency_hz: first.frequency_hz });
         for branch in branches {
             id += 1;
             for solution in &branch.solutions {
@@ -44,13 +44,4 @@ fn branches(store: &Store, piece: &PieceRecord) -> Result<Vec<PageBranch>, Store
         Ok(PageBranch { period_multiple: record.period_multiple, solutions, ..PageBranch::default() })
     };
     piece.branches.iter().map(branch).collect()
-}
-
-/// What a parameter is, and its unit.
-fn named(parameter: &str) -> (String, String) {
-    let label = axis_label(parameter);
-    let parts = label.strip_suffix(')').and_then(|label| label.rsplit_once(" ("));
-    parts.map_or((label.clone(), String::new()), |(title, unit)| {
-        (title.to_owned(), unit.trim_matches('–').to_owned())
-    })
 }

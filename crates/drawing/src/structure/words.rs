@@ -149,7 +149,7 @@ fn value_words(key: &LawKey, value: &LawValue, is_first: bool) -> String {
 }
 
 /// A unit with its exponents raised.
-fn raised(unit: &str) -> String {
+pub fn raised(unit: &str) -> String {
     let Some((base, exponent)) = unit.split_once('^') else { return unit.to_owned() };
     format!("{base}{}", exponent.chars().map(raise).collect::<String>())
 }

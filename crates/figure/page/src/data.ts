@@ -32,7 +32,11 @@ export interface Branch {
 /** A parameter other than the frequency over which there are branches. */
 export interface Parameter {
     title: string;
+    /** Its SI unit. */
+    si: string;
+    /** The unit that suits its values, and the factor from SI to it. */
     unit: string;
+    factor: number;
     /** The frequency that its branches are at (Hz). */
     frequency: number;
 }

@@ -157,7 +157,7 @@ function diagramCsv(frame: Frame, { meta, solutions, curves, state }: Scene): st
         parameter === undefined
             ? []
             : [
-                  `${parameter.title} ${parameter.unit}`
+                  `${parameter.title} ${parameter.si}`
                       .trim()
                       .toLowerCase()
                       .replaceAll(/[^a-z0-9]+/g, "_"),

@@ -28,12 +28,12 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
     const [re, im] = [solutions.multiplierRe[solution] ?? NaN, solutions.multiplierIm[solution] ?? NaN];
     const events = eventNames(solutions.flags[solution] ?? 0);
     const over = branch?.over ?? 0;
-    const { name, unit } = parameterMeasure(meta, over);
+    const { name, unit, factor } = parameterMeasure(meta, over);
     const energy = solutions.energy[solution] ?? NaN;
     return [
         ["Frequency", hertz(solutions.frequency[solution] ?? NaN)],
         ...(over > 0
-            ? [[name, `${digits(solutions.parameter[solution] ?? NaN, 7)} ${unit}`] as [string, string]]
+            ? [[name, `${digits(factor * (solutions.parameter[solution] ?? NaN), 7)} ${unit}`] as [string, string]]
             : []),
         [
             "Branch",

@@ -134,7 +134,7 @@ export function parameterMeasure(meta: Meta, over: number): Measure {
     const parameter = meta.parameters[over - 1];
     return parameter === undefined
         ? MEASURES.frequency
-        : { name: parameter.title, title: parameter.title, unit: parameter.unit, factor: 1 };
+        : { name: parameter.title, title: parameter.title, unit: parameter.unit, factor: parameter.factor };
 }
 
 export function measureOf(meta: Meta, axis: Axis, over: number): Measure {

@@ -7,6 +7,7 @@ use super::{
     multipliers::MultiplierRecords,
     orbits::OrbitRecords,
 };
+use crate::parameter_axis::ParameterAxis;
 
 /// Data of the whole page.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -48,10 +49,8 @@ pub struct Page {
 /// A parameter over which branches were followed at a fixed frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PageParameter {
-    /// What it is, without its unit.
-    pub title: String,
-    /// Its unit; may be empty.
-    pub unit: String,
+    /// What it is, and its SI unit.
+    pub axis: ParameterAxis,
     /// The excitation frequency of its branches (Hz).
     pub frequency_hz: f64,
 }

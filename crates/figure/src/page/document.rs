@@ -67,7 +67,7 @@ fn meta(page: &Page) -> Value {
         "range": page.frequency_range_hz,
         "notice": page.notice,
         "branches": branches,
-        "parameters": page.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "parameters": parameters(page),
         "outputs": page.outputs.iter().map(output).collect::<Vec<_>>(),
         "folder": page.folder_name,
         "orbits": {
@@ -89,8 +89,21 @@ fn output(output: &PageOutput) -> Value {
     json!({ "title": output.title, "unit": output.unit })
 }
 
-fn parameter(parameter: &PageParameter) -> Value {
-    json!({ "title": parameter.title, "unit": parameter.unit, "frequency": parameter.frequency_hz })
+/// The parameters, each with the unit that suits the values of its branches.
+fn parameters(page: &Page) -> Vec<Value> {
+    let describe = |(place, PageParameter { axis, frequency_hz }): (usize, &PageParameter)| {
+        let own = page.branches.iter().filter(|branch| branch.over as usize == place + 1);
+        let values = own.flat_map(|branch| &branch.solutions).map(|solution| solution.parameter.abs());
+        let unit = axis.unit_up_to(values.filter(|value| value.is_finite()).fold(0.0, f64::max));
+        json!({
+            "title": axis.title,
+            "si": axis.unit,
+            "unit": unit.symbol,
+            "factor": unit.factor,
+            "frequency": frequency_hz,
+        })
+    };
+    page.parameters.iter().enumerate().map(describe).collect()
 }
 
 fn structure(structure: &PageStructure) -> Value {

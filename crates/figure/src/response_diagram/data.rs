@@ -2,6 +2,7 @@
 
 use crate::{
     dots::{Dot, Shape},
+    parameter_axis::ParameterAxis,
     scale::ScaleChoice,
     style::{INK, Style},
 };
@@ -11,9 +12,9 @@ use crate::{
 pub struct ResponseDiagram {
     /// Title above the figure; empty for most journals.
     pub title: String,
-    /// Label of the horizontal axis for branches over another parameter, with its unit: fields for the
-    /// frequency then hold that parameter. Empty for the frequency.
-    pub parameter: String,
+    /// The horizontal axis of branches over another parameter: fields for the frequency then hold that
+    /// parameter. `None` for the frequency.
+    pub parameter: Option<ParameterAxis>,
     /// The branches, in the order in which they are drawn.
     pub curves: Vec<ResponseCurve>,
     /// Ends of the frequency axis (Hz); by default the range of the data.

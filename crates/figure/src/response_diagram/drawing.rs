@@ -6,16 +6,14 @@ use super::{
 };
 use crate::{
     axis::PlotAxis,
-    axis_unit::AxisUnit,
     error::FigureError,
     figure::Figure,
     font::CAPITAL_HEIGHT,
-    frequency_unit::FrequencyUnit,
     layer::Layer,
     legend::{Legend, LegendEntry, LegendSample},
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
-    scale::{Scale, ScaleKind, extent},
+    scale::{Scale, ScaleKind, extent, span_of},
     stretch::LineLook,
     style::{INK, PALE_INK, PeriodLook, SHADE, Style, period_look},
     svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
@@ -69,7 +67,10 @@ fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError>
     let frequencies = diagram.curves.iter().flat_map(|curve| &curve.points).map(|point| point.frequency_hz);
     let (least, greatest) =
         extent(frequencies.filter(|&frequency| ScaleKind::Linear.shows(frequency))).unwrap_or((0.0, 1.0));
-    let margin = if greatest > least { 0.015 * (greatest - least) } else { 0.05 * greatest.abs().max(1e-3) };
+    let margin = match span_of((least, greatest)) {
+        0.0 => 0.05 * if greatest == 0.0 { 1e-3 } else { greatest.abs() },
+        span => 0.015 * span,
+    };
     Ok((least - margin, greatest + margin))
 }
 
@@ -185,7 +186,7 @@ impl<'a> ResponseLayout<'a> {
         let mut description = format!(
             "{names} over {}, {curves} {branches} with {solutions} solutions; \
              stable solid, {}unstable dashed",
-            if self.diagram.parameter.is_empty() { "excitation frequency" } else { &self.diagram.parameter },
+            self.diagram.parameter.as_ref().map_or("excitation frequency", |parameter| &parameter.title),
             if has_marginal { "marginal dotted, " } else { "" }
         );
         if !self.diagram.chaotic_ranges_hz.is_empty() {
@@ -226,16 +227,17 @@ impl<'a> ResponseLayout<'a> {
 
 /// Label of the horizontal axis, and the factor of its numbers.
 fn horizontal(diagram: &ResponseDiagram, panels: &[ResponsePanel], style: &Style) -> (String, f64) {
-    if !diagram.parameter.is_empty() {
-        return (diagram.parameter.clone(), 1.0);
-    }
-    match style.frequency_unit {
-        FrequencyUnit::Hertz => {
-            let highest_hz = panels.iter().map(|panel| panel.range_hz.1).fold(0.0, f64::max);
-            let unit = AxisUnit::of_frequencies(highest_hz);
+    let ends = panels.iter().map(|panel| panel.range_hz);
+    let largest = ends.fold(0.0, |most: f64, (low, high)| most.max(low.abs()).max(high.abs()));
+    match &diagram.parameter {
+        Some(parameter) => {
+            let unit = parameter.unit_up_to(largest);
+            (parameter.label(&unit), unit.factor)
+        }
+        None => {
+            let unit = style.frequency_unit.up_to(largest);
             (format!("Excitation frequency ({})", unit.symbol), unit.factor)
         }
-        unit @ FrequencyUnit::RadPerSecond => (unit.label("Excitation frequency"), unit.factor()),
     }
 }
 

@@ -22,15 +22,16 @@ impl PanelQuantity {
             inside.map(|point| si(quantity, point)).chain(marks.map(|mark| measured(quantity, mark)));
         let values = values.filter(|&value| ScaleKind::Linear.shows(value));
         let largest = values.fold(0.0_f64, |most, value| most.max(value.abs()));
-        let (base, most, none) = match quantity {
-            ResponseQuantity::Displacement => ("m", 1.0, 1e-3),
-            ResponseQuantity::Acceleration => ("m/s²", 1.0, 1.0),
-            ResponseQuantity::ContactForce => ("N", f64::INFINITY, 1.0),
-            ResponseQuantity::ImpactVelocity => ("m/s", 1.0, 1.0),
-            ResponseQuantity::Output => of_output(&diagram.output.unit),
+        let base = match quantity {
+            ResponseQuantity::Displacement => "m",
+            ResponseQuantity::Acceleration => "m/s²",
+            ResponseQuantity::ContactForce => "N",
+            ResponseQuantity::ImpactVelocity => "m/s",
+            ResponseQuantity::Output => &diagram.output.unit,
         };
-        let largest = if largest > 0.0 { largest } else { none };
-        let unit = AxisUnit::suiting(largest, base, most);
+        // Lengths that are all zero are in millimetres.
+        let none = if base == "m" { 1e-3 } else { 1.0 };
+        let unit = AxisUnit::of(base, if largest > 0.0 { largest } else { none });
         Self { quantity, unit, title: diagram.output.title.clone() }
     }
 
@@ -63,15 +64,6 @@ impl PanelQuantity {
             ResponseQuantity::ImpactVelocity => Text::upright(format!("Largest impact velocity ({symbol})")),
             ResponseQuantity::Output => Text::upright(format!("{} ({symbol})", self.title)),
         }
-    }
-}
-
-/// Unit of an output, the largest prefix that it takes, and the largest value where all are zero.
-fn of_output(unit: &str) -> (&str, f64, f64) {
-    match unit {
-        "N" => (unit, f64::INFINITY, 1.0),
-        "m" => (unit, 1.0, 1e-3),
-        _ => (unit, 1.0, 1.0),
     }
 }
 

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{
-    BasinMap, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
-    Style,
+    BasinMap, ParameterAxis, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,
+    ResponseSettings, ScaleChoice, Style,
 };
 
 use super::samples::{basins, sweep};
@@ -91,17 +91,21 @@ fn contact_forces_and_impact_velocities_have_their_diagrams() {
 #[test]
 fn branches_over_another_parameter_say_which() {
     let point = |k: i32| ResponsePoint {
-        frequency_hz: 0.1 * f64::from(k),
-        displacement_m: 1e-3,
+        frequency_hz: 1e-8 * f64::from(k),
+        displacement_m: 1e-3 * (1.0 + 1e-13 * f64::from(k % 3)),
         ..ResponsePoint::default()
     };
     let curve = ResponseCurve { period_multiple: 1, points: (1..9).map(point).collect() };
     let diagram = ResponseDiagram {
-        parameter: "Gap of stop 1 (m)".to_owned(),
+        parameter: Some(ParameterAxis { title: "Gap of stop 1".to_owned(), unit: "m".to_owned() }),
         curves: vec![curve],
         ..ResponseDiagram::default()
     };
     let figure = diagram.draw(ResponseQuantity::Displacement).unwrap();
-    assert!(figure.svg().contains(">Gap of stop 1 (m)<") && !figure.svg().contains("Excitation frequency"));
-    assert!(figure.description().contains("over Gap of stop 1 (m)"));
+    let svg = figure.svg();
+    assert!(svg.contains(">Gap of stop 1 (nm)<") && svg.contains(">60<"), "a range in nanometres");
+    assert!(!svg.contains("Excitation frequency"));
+    // Rounding is no range: the labels are 0.95, 1.00, ..., and not 1.0000000000001.
+    assert!(svg.contains(">1.00<"), "few digits");
+    assert!(figure.description().contains("over Gap of stop 1"));
 }

@@ -8,6 +8,7 @@ use hammerbeam_results::{
     Store,
     summary::{summarise, summarise_pieces},
 };
+use hammerbeam_study::readable;
 
 use super::{Plan, RunOutcome, RunReport, run};
 use crate::{
@@ -76,7 +77,7 @@ pub fn run_study(
     let solver = OrbitSolver::new(model, &file.study);
     let mut met = Vec::new();
     for origin in request.from {
-        met.extend(met_at(origin, &solver, observer)?);
+        met.extend(met_at(origin, (&solver, file.study.excitation.range_hz()), observer)?);
     }
     let mut store = Store::open_for_run(request.out, file)?;
     let plan = Plan { met, ..Plan::of(&file.study) };
@@ -100,9 +101,11 @@ pub fn run_study(
 }
 
 /// The periodic solutions of the study at stored motions.
+///
+/// * `range_hz`: of the study.
 fn met_at(
     origin: &RunOrigin,
-    solver: &OrbitSolver<'_>,
+    (solver, range_hz): (&OrbitSolver<'_>, [f64; 2]),
     observer: &mut dyn Observer,
 ) -> Result<Vec<PeriodicSolution>, JobError> {
     let store = Store::open(&origin.folder)?;
@@ -116,10 +119,16 @@ fn met_at(
     };
     let found = solver.near(&states);
     if found.is_empty() {
-        let results = origin.folder.display();
-        observer.notice(&format!(
-            "no periodic solution of this study was found near special point {number} of {results}"
-        ));
+        let point = format!("special point {number} of {}", origin.folder.display());
+        let [low, high] = range_hz;
+        let outside = states.first().filter(|state| !(low..=high).contains(&state.frequency_hz));
+        observer.notice(&match outside {
+            Some(state) => {
+                let [at, low, high] = [state.frequency_hz, low, high].map(|hertz| readable(hertz, "Hz"));
+                format!("{point} lies at {at}, outside the range of this study, {low} to {high}")
+            }
+            None => format!("no periodic solution of this study was found near {point}"),
+        });
     }
     Ok(found)
 }

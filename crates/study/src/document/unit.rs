@@ -159,9 +159,14 @@ fn shifted(number: &str, exponent: f64) -> Option<f64> {
     format!("{mantissa}e{}", own.parse::<i64>().ok()?.checked_add(exponent as i64)?).parse().ok()
 }
 
+/// The form of a key without its unit, and that SI unit: `gap` and `m` of `gap_m`.
+pub fn stem_and_unit(key: &str) -> Option<(&str, &'static str)> {
+    SUFFIXES.iter().find_map(|(end, name)| Some((key.strip_suffix(end)?, *name)))
+}
+
 /// The form of a key without its unit, and the dimension that this has.
 pub fn without_unit(key: &str) -> Option<(&str, Dimension)> {
-    let (stem, name) = SUFFIXES.iter().find_map(|(end, name)| Some((key.strip_suffix(end)?, name)))?;
+    let (stem, name) = stem_and_unit(key)?;
     Some((stem, Dimension(product(name)?.powers)))
 }
 

@@ -42,13 +42,13 @@ impl GivenSection {
 
 /// The forms of a section, each with its keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+pub(super) enum Form {
     Rectangle,
     Round,
     General,
 }
 
-const FORMS: [(Form, [&str; 2]); 3] = [
+pub(super) const FORMS: [(Form, [&str; 2]); 3] = [
     (Form::Rectangle, ["width_m", "height_m"]),
     (Form::Round, ["outer_diameter_m", "wall_m"]),
     (Form::General, ["area_m2", "second_moment_m4"]),

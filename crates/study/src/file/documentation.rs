@@ -3,7 +3,7 @@
 
 use hammerbeam_motion::law::{DESCRIPTIONS, LawDescription, LawKey, LawSides};
 
-use super::StudyFile;
+use super::{StudyFile, beam_section::FORMS, reduction::METHODS};
 use crate::Model;
 
 const PAGE: &str = include_str!("../../../../docs/reference/study-file.md");
@@ -34,6 +34,67 @@ fn rows_with(first: &str) -> Vec<Vec<&'static str>> {
     let cells = |line: &'static str| line.trim_matches('|').split(" | ").map(str::trim).collect::<Vec<_>>();
     let rows = PAGE.lines().filter(|line| line.starts_with("| ")).map(cells);
     rows.filter(|row| row[0].split(", ").any(|name| name.split(" of ").next() == Some(first))).collect()
+}
+
+/// Cells of the rows of the table with this head.
+fn table(head: &str) -> Vec<Vec<&'static str>> {
+    let (_, behind) = PAGE.split_once(head).unwrap_or_else(|| panic!("no table {head}"));
+    let rows = behind.lines().skip(2).take_while(|line| line.starts_with('|'));
+    rows.map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect()).collect()
+}
+
+/// The table of methods against the list of methods; a second name stands below the first.
+#[test]
+fn every_method_of_reduction_has_its_row() {
+    let method = |name: &str| METHODS.iter().find(|(known, _)| format!("`\"{known}\"`") == name);
+    let rows = table("| method | basis |");
+    assert_eq!(rows.len(), METHODS.len());
+    let described: Vec<_> =
+        rows.iter().map(|row| method(row[0]).unwrap_or_else(|| panic!("{row:?}"))).collect();
+    for (name, _) in METHODS {
+        assert_eq!(described.iter().filter(|(other, _)| other == name).count(), 1, "{name}");
+    }
+    for (place, row) in rows.iter().enumerate() {
+        let is_second = place > 0 && described[place].1 == described[place - 1].1;
+        assert_eq!(row[1] == "another name of it", is_second, "{row:?}");
+    }
+}
+
+/// A beam with a section of these keys.
+fn with_section(keys: &[&str]) -> String {
+    let size = |key: &str| match key {
+        "width_m" | "outer_diameter_m" => "0.02",
+        "height_m" | "wall_m" => "0.002",
+        "area_m2" => "4e-5",
+        "second_moment_m4" => "1.3e-11",
+        other => panic!("{other} has no size here"),
+    };
+    let section: Vec<String> = keys.iter().map(|key| format!("{key} = {}", size(key))).collect();
+    format!(
+        "[structure]\nkind = \"beam\"\nlength_m = 0.5\nelements = 10\nsection = {{ {} }}\n\
+         youngs_modulus_pa = 2.1e11\ndensity_kg_m3 = 7800.0\nleft = \"clamped\"\nright = \"free\"\n\
+         [reduction]\nmethod = \"guyan\"\ncut_off_hz = 500.0\n",
+        section.join(", ")
+    )
+}
+
+/// The forms of a section that the page has are those that are read, with all keys and with one alone.
+#[test]
+fn every_form_of_a_section_has_its_row() {
+    let rows = table("| form of `section` | is |");
+    let on_page: Vec<&str> = rows.iter().map(|row| row[0]).collect();
+    let mut accepted = Vec::new();
+    for (_, [first, second]) in FORMS {
+        for keys in [&[first, second][..], &[first], &[second]] {
+            if StudyFile::parse("section", with_section(keys)).is_ok() {
+                accepted.push(format!("`{{ {} }}`", keys.join(", ")));
+            }
+        }
+    }
+    assert_eq!(accepted.len(), on_page.len(), "{accepted:?}");
+    for form in accepted {
+        assert!(on_page.contains(&form.as_str()), "{form} is not in {on_page:?}");
+    }
 }
 
 /// The table of laws against the list of laws: the formula of the force, on which sides it acts, every key.

@@ -46,7 +46,7 @@ impl ReductionMethod {
 }
 
 /// The methods; those of Rubin and of Craig and Bampton have two names.
-const METHODS: &[(&str, ReductionMethod)] = &[
+pub(super) const METHODS: &[(&str, ReductionMethod)] = &[
     ("free-interface", ReductionMethod::FreeInterface),
     ("rubin", ReductionMethod::FreeInterface),
     ("macneal", ReductionMethod::MacNeal),

@@ -21,6 +21,7 @@ use hammerbeam_results::{
     store::JobRecord,
     summary::{BranchSummary, Peak, PieceSummary},
 };
+use hammerbeam_study::{document::unit::stem_and_unit, readable};
 
 use crate::{
     args::RunOptions,
@@ -298,10 +299,11 @@ fn marginal_words(marginal: u64) -> String {
 fn piece_text(piece: &PieceSummary) -> String {
     let record = &piece.record;
     let (name, is_curve) = (&record.parameter, record.kind.is_curve());
+    let unit = stem_and_unit(name).map_or("", |(_, unit)| unit);
     let mut lines = Vec::new();
     for branch in &piece.branches {
         let what = if is_curve { format!("{} curve", record.kind.name()) } else { "branch".to_owned() };
-        let [low, high] = branch.range;
+        let [low, high] = branch.range.map(|end| readable(end, unit).trim_end().to_owned());
         lines.push(format!(
             "\n{what} over {name} (period {}): {} solutions, {low} to {high}, {} of them stable{}",
             branch.record.period_multiple,

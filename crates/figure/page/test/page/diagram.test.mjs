@@ -110,7 +110,10 @@ test("branches over another parameter are shown over it, and the others over the
     await choose(tab, "Branches over", "1");
     await drawn(tab);
     assert.equal(await seen(), String(branches.length - own));
-    assert.ok((await labels(tab)).titles[0].startsWith("Gap of stop 1 (mm)"));
+    // Gaps to 40 nm, which are metres in the data.
+    const { titles, x } = await labels(tab);
+    assert.ok(titles[0].startsWith("Gap of stop 1 (nm)"), titles[0]);
+    assert.ok(x.includes("20") && !x.includes("2e-8"), `${x}`);
     assert.ok((await tab.value(`document.querySelector("#branches tbody").innerText`)).includes("8"));
     await tab.until(`location.hash.includes("parameter=1")`);
     const again = await open(rich, await tab.value(`location.hash`));
