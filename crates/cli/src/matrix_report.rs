@@ -37,6 +37,7 @@ pub fn lines(report: &MatrixReport) -> Vec<String> {
         counted(report.parts as u64, "part"),
         report.rigid_residual
     ));
+    lines.extend(without_place(report));
     if let Some(mass) = report.mass {
         lines.push(format!(
             "mass         {:.6e} kg along x, {:.6e} along y, {:.6e} along z",
@@ -48,6 +49,27 @@ pub fn lines(report: &MatrixReport) -> Vec<String> {
     }
     lines.extend(doubtful_units(report));
     lines
+}
+
+/// What rows of nodes without a place do when the structure is displaced, and rows that cannot all move then.
+fn without_place(report: &MatrixReport) -> Option<String> {
+    match (report.internal_rows, report.unplaced_rows) {
+        (0, 0) if report.mass.is_some() => None,
+        (0, 0) => report.translation_strain.map(|strain| {
+            format!(
+                "mass         not known: displacing all rows labelled x, y and z strains the structure \
+                ({strain:.1e}), so that some are internal freedoms of elements; give `nodes` with the places \
+                of all nodes"
+            )
+        }),
+        (0, moving) => {
+            Some(format!("no place     {moving} rows of nodes that have none, and move as the others"))
+        }
+        (internal, _) => Some(format!(
+            "no place     {internal} rows of nodes that have none, internal freedoms of elements: gravity and \
+            the base do not move them"
+        )),
+    }
 }
 
 /// A mass that no material gives to a body of that size.
