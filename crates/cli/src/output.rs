@@ -7,6 +7,7 @@ use std::{
 
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_signal::text::is_control;
+use hammerbeam_study::readable;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -38,6 +39,11 @@ pub fn decimals(value: f64, decimals: usize) -> String {
     } else {
         format!("{value:.decimals$e}")
     }
+}
+
+/// A frequency in a unit in which it is neither tiny nor huge.
+pub fn readable_frequency(unit: FrequencyUnit, frequency_hz: f64) -> String {
+    readable(unit.factor() * frequency_hz, unit.symbol())
 }
 
 impl Output {
