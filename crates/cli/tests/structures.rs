@@ -168,7 +168,8 @@ fn orbits_of_the_beam_are_those_of_its_matrices_in_each_format() {
     hammerbeam().arg("import").arg(&study).arg("--out").arg(folder.path()).assert().success();
     let mut studies = vec![at("study.toml")];
     let bundle = fs::read_to_string(at("study.toml")).unwrap().replace("dofs = \"dofs.csv\"\n", "");
-    let formats: [(&str, fn(u32, u32, &str) -> String); 2] = [
+    type LineOf = fn(u32, u32, &str) -> String;
+    let formats: [(&str, LineOf); 2] = [
         // CalculiX: one triangle. Abaqus: both.
         ("sti", |row, column, value| format!("{column} {row} {value}\n")),
         ("abaqus", |row, column, value| match row == column {
