@@ -46,6 +46,7 @@ pub fn lines(report: &MatrixReport) -> Vec<String> {
         report.rigid_residual
     ));
     lines.extend(without_place(report));
+    lines.extend(strained(report));
     if let Some(mass) = report.mass {
         let [x, y, z] = mass.map(|mass| readable_to(mass, "kg", DIGITS));
         lines.push(format!("mass         {x} along x, {y} along y, {z} along z"));
@@ -61,25 +62,10 @@ pub fn lines(report: &MatrixReport) -> Vec<String> {
     lines
 }
 
-/// What rows of nodes without a place do when the structure is displaced, and rows that cannot all move then.
+/// What rows of nodes without a place do when the structure is displaced.
 fn without_place(report: &MatrixReport) -> Option<String> {
     match (report.internal_rows, report.unplaced_rows) {
-        (0, 0) if report.mass.is_some() => {
-            let strain = report.translation_strain.filter(|strain| *strain > STRAINED);
-            strain.filter(|_| report.extent.is_none()).map(|strain| {
-                format!(
-                    "translation  strains the matrices ({strain:.1e}): so does what holds them, and so do rows \
-                    that are internal freedoms of elements (CalculiX C3D8I); with `nodes` these are told apart"
-                )
-            })
-        }
-        (0, 0) => report.translation_strain.map(|strain| {
-            format!(
-                "mass         not known: displacing all rows labelled x, y and z strains the structure \
-                ({strain:.1e}), so that some are internal freedoms of elements; give `nodes` with the places \
-                of all nodes"
-            )
-        }),
+        (0, 0) => None,
         (0, moving) => {
             Some(format!("no place     {moving} rows of nodes that have none, and move as the others"))
         }
@@ -87,6 +73,23 @@ fn without_place(report: &MatrixReport) -> Option<String> {
             "no place     {internal} rows of nodes that have none, internal freedoms of elements: gravity and \
             the base do not move them"
         )),
+    }
+}
+
+/// What is not known of a translation that strains the matrices.
+fn strained(report: &MatrixReport) -> Option<String> {
+    let strain = report.translation_strain.filter(|strain| *strain > STRAINED)?;
+    match (report.mass, report.extent) {
+        (None, _) => Some(format!(
+            "mass         not known: displacing all rows labelled x, y and z strains the structure \
+            ({strain:.1e}), so that some are internal freedoms of elements; give `nodes` with the places of all \
+            nodes"
+        )),
+        (Some(_), None) => Some(format!(
+            "translation  strains the matrices ({strain:.1e}): so does what holds them, and so do rows that are \
+            internal freedoms of elements (CalculiX C3D8I); with `nodes` these are told apart"
+        )),
+        (Some(_), Some(_)) => None,
     }
 }
 
