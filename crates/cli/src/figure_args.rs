@@ -33,6 +33,11 @@ pub struct FigureOptions {
     #[arg(long, value_name = "FROM:TO", value_parser = detail)]
     pub detail: Option<(f64, f64)>,
 
+    /// Lay the response diagrams of a further results folder over these, as thin lines; may be given several
+    /// times
+    #[arg(long, value_name = "DIR")]
+    pub with: Vec<PathBuf>,
+
     /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may
     /// be given several times [default: those of the study]
     #[arg(long, value_name = "HZ[:N]", value_parser = orbit)]

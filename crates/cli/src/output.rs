@@ -7,6 +7,7 @@ use std::{
 
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_signal::text::is_control;
+use hammerbeam_study::readable;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -30,14 +31,21 @@ pub fn six_decimals(value: f64) -> String {
     }
 }
 
-/// A number with so many decimals; what they would round to next to nothing has as many digits instead.
+/// A number with so many decimals, 0 without any; what they would round to next to nothing has as many digits instead.
 pub fn decimals(value: f64, decimals: usize) -> String {
     let least = 10_f64.powi(3 - decimals as i32);
-    if value == 0.0 || value.abs() >= least.min(1e-2) {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if value.abs() >= least.min(1e-2) {
         format!("{value:.decimals$}")
     } else {
         format!("{value:.decimals$e}")
     }
+}
+
+/// A frequency in a unit in which it is neither tiny nor huge.
+pub fn readable_frequency(unit: FrequencyUnit, frequency_hz: f64) -> String {
+    readable(unit.factor() * frequency_hz, unit.symbol())
 }
 
 impl Output {
@@ -129,7 +137,7 @@ mod tests {
     #[test]
     fn small_numbers_keep_their_digits() {
         let shown = [0.0, 36.2, 0.0123, 7.33e-8].map(|value| decimals(value, 6));
-        assert_eq!(shown, ["0.000000", "36.200000", "0.012300", "7.330000e-8"]);
+        assert_eq!(shown, ["0", "36.200000", "0.012300", "7.330000e-8"]);
         assert_eq!(decimals(0.05, 4), "0.0500");
     }
 

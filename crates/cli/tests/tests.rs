@@ -16,6 +16,7 @@ mod every_law;
 mod failing_writes;
 mod figure;
 mod figure_refused;
+mod figure_with;
 mod formats;
 mod formula;
 mod impact_oscillator;

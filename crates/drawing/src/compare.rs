@@ -2,8 +2,8 @@
 //! paper.
 
 use hammerbeam_figure::{
-    MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,
-    ResponseQuantity as Drawing, ResponseSettings,
+    MeasuredMark, MeasuredMotion, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity as Drawing,
+    ResponseSettings,
 };
 use hammerbeam_jobs::comparison::{BranchCurve, ComparedQuantity, CurvePoint, PointOutcome};
 use hammerbeam_signal::{MeasuredQuantity, points::MeasuredKind};
@@ -24,12 +24,10 @@ pub fn draw_compared(file: &StudyFile, compared: &ComparedQuantity, name: &str, 
             .point
             .as_ref()
             .map_or_else(|| file.study.title.clone(), |point| format!("{}, at {point}", file.study.title)),
-        parameter: None,
         curves: compared.curves.branches().iter().map(|branch| curve(branch, quantity)).collect(),
         frequency_range_hz: Some(compared.range_hz.into()),
-        chaotic_ranges_hz: Vec::new(),
         measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
-        output: OutputAxis::default(),
+        ..ResponseDiagram::default()
     };
     let figure = diagram
         .draw_with(&[drawing], &ResponseSettings { style: drawn.wide(), ..ResponseSettings::default() });

@@ -30,6 +30,9 @@ pub enum DrawingError {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// Results that do not belong into one diagram.
+    #[error("the response diagrams of {folder} cannot be laid over these: {difference}")]
+    NotAlike { folder: String, difference: String },
     /// The observer said stop.
     #[error(
         "interrupted while drawing; {written} files are drawn anew in {folder}, the others are as they were"

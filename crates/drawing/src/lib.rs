@@ -9,6 +9,7 @@
 //! | `drawn.rs` | files as they are drawn, on the threads of a pool |
 //! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
 //! | `response.rs`, `varied.rs` | branches over the frequency, over other parameters |
+//! | `overlaid.rs` | branches of further folders behind them |
 //! | `curves.rs`, `multipliers.rs`, `motions.rs` | curves of bifurcations, multipliers, motions |
 //! | `parameter.rs` | parameters in words |
 //! | [`orbit`] | one orbit over its period |
@@ -41,6 +42,7 @@ mod motions;
 mod multipliers;
 pub mod orbit;
 mod outputs;
+mod overlaid;
 mod page;
 mod parameter;
 mod response;
@@ -55,6 +57,7 @@ pub use compare::draw_compared;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, RESOLUTION, draw_into};
 pub use error::DrawingError;
 pub use linear::draw_linear;
+pub use overlaid::ensure_alike;
 pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};
 
 /// Draws what is selected of a results folder, or some of it when the observer says stop.

@@ -1,7 +1,7 @@
 //! Numbers of outputs that figures and the page show, over the branches.
 
 use hammerbeam_figure::{
-    Figure, FigureError, OutputAxis, ResponseDiagram, ResponseQuantity, ResponseSettings,
+    Figure, FigureError, OutputAxis, ResponseCurve, ResponseDiagram, ResponseQuantity, ResponseSettings,
 };
 use hammerbeam_orbit::SignalStatistics;
 use hammerbeam_results::{
@@ -59,6 +59,26 @@ impl ShownOutput {
         format!("{}_{}_{}", self.place + 1, file_name(&self.output.name), file_name(self.value.word()))
     }
 
+    /// Whether it is the same number of the same output, in other results.
+    pub fn shows_as(&self, other: &Self) -> bool {
+        self.output == other.output && self.value == other.value
+    }
+
+    /// Gives the points of curves its values along these branches.
+    pub fn fill(
+        &self,
+        store: &Store,
+        branches: &[BranchRecord],
+        curves: &mut [ResponseCurve],
+    ) -> Result<(), StoreError> {
+        for (curve, branch) in curves.iter_mut().zip(branches) {
+            for (point, value) in curve.points.iter_mut().zip(self.along(store, branch)?) {
+                point.output = value;
+            }
+        }
+        Ok(())
+    }
+
     /// The diagram of it over these branches, which are those of a diagram with other quantities.
     pub fn draw(
         &self,
@@ -69,11 +89,7 @@ impl ShownOutput {
     ) -> Result<Result<Figure, FigureError>, StoreError> {
         let mut diagram = diagram.clone();
         diagram.output = OutputAxis { title: self.title(), unit: self.unit().to_owned() };
-        for (curve, branch) in diagram.curves.iter_mut().zip(branches) {
-            for (point, value) in curve.points.iter_mut().zip(self.along(store, branch)?) {
-                point.output = value;
-            }
-        }
+        self.fill(store, branches, &mut diagram.curves)?;
         Ok(diagram.draw_with(&[ResponseQuantity::Output], settings))
     }
 

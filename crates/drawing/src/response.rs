@@ -1,15 +1,19 @@
 //! Response diagrams over the frequency.
 
+use std::path::PathBuf;
+
 use hammerbeam_figure::{
-    OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings,
-    ScaleChoice,
+    ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
 };
 use hammerbeam_orbit::{BranchEventKind, Stability};
 use hammerbeam_results::{Store, StoreError, row::Row};
 use hammerbeam_study::StudyFile;
 
 use crate::{
-    Album, DrawingError, Drawn, FigureScale, FigureSelection, motions::chaotic_ranges, outputs::shown_outputs,
+    Album, DrawingError, Drawn, FigureScale, FigureSelection,
+    motions::chaotic_ranges,
+    outputs::shown_outputs,
+    overlaid::{Overlaid, names},
 };
 
 /// Quantities of response diagrams, with the words that files have for them.
@@ -27,11 +31,17 @@ pub fn draw(
     selection: &FigureSelection,
     drawn: &mut Drawn<'_>,
 ) -> Result<(), DrawingError> {
-    let diagram = diagram(store, file.study.excitation.range_hz())?;
+    let overlaid = overlaid(store, file, selection)?;
+    let mut diagram = diagram(store, file.study.excitation.range_hz(), &overlaid)?;
     if diagram.curves.is_empty() {
         return Ok(());
     }
-    for (word, quantity) in quantities(&diagram.curves) {
+    if !overlaid.is_empty() {
+        diagram.name = names_of(store, selection).remove(0);
+    }
+    let others = diagram.overlaid.iter().flat_map(|other| &other.curves);
+    let all: Vec<ResponseCurve> = diagram.curves.iter().chain(others).cloned().collect();
+    for (word, quantity) in quantities(&all) {
         let settings =
             ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
         drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
@@ -40,6 +50,8 @@ pub fn draw(
     let settings = ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
     for shown in shown_outputs(store, file)? {
         let name = format!("response_output_{}", shown.file_name());
+        let with_output = overlaid.iter().filter_map(|other| other.with_output(&shown).transpose());
+        diagram.overlaid = with_output.collect::<Result<_, _>>()?;
         let figure = shown.draw(store, &branches, &diagram, &settings)?;
         drawn.add_unless_empty(&name, figure);
     }
@@ -76,7 +88,8 @@ pub fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
     }
 }
 
-fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, StoreError> {
+/// The branches of a store.
+pub fn curves(store: &Store) -> Result<Vec<ResponseCurve>, StoreError> {
     let mut curves = Vec::new();
     for branch in store.branches()? {
         let mut points = Vec::new();
@@ -86,14 +99,40 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> Result<ResponseDiagram, Stor
         })?;
         curves.push(ResponseCurve { period_multiple: branch.period_multiple, points });
     }
+    Ok(curves)
+}
+
+/// What the folders are called, that of the store first.
+fn names_of(store: &Store, selection: &FigureSelection) -> Vec<String> {
+    let further = selection.with.iter().map(PathBuf::as_path);
+    names(&std::iter::once(store.folder()).chain(further).collect::<Vec<_>>())
+}
+
+/// The further folders.
+fn overlaid(
+    store: &Store,
+    file: &StudyFile,
+    selection: &FigureSelection,
+) -> Result<Vec<Overlaid>, DrawingError> {
+    let names = names_of(store, selection).into_iter().skip(1);
+    let folders = selection.with.iter().zip(names);
+    folders.map(|(folder, name)| Overlaid::open(folder, &name, &file.study)).collect()
+}
+
+fn diagram(
+    store: &Store,
+    [low, high]: [f64; 2],
+    overlaid: &[Overlaid],
+) -> Result<ResponseDiagram, StoreError> {
+    let low = overlaid.iter().map(|other| other.range_hz[0]).fold(low, f64::min);
+    let high = overlaid.iter().map(|other| other.range_hz[1]).fold(high, f64::max);
     Ok(ResponseDiagram {
         title: store.about("title")?,
-        parameter: None,
-        curves,
+        curves: curves(store)?,
         frequency_range_hz: Some((low, high)),
         chaotic_ranges_hz: chaotic_ranges(store)?,
-        measured: Vec::new(),
-        output: OutputAxis::default(),
+        overlaid: overlaid.iter().map(|other| other.branches.clone()).collect(),
+        ..ResponseDiagram::default()
     })
 }
 

@@ -1,5 +1,7 @@
 //! What of a results folder is drawn, and how.
 
+use std::path::PathBuf;
+
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 
 /// Format of a figure.
@@ -91,6 +93,8 @@ pub struct FigureSelection {
     pub scale: FigureScale,
     /// Part of the frequency axis of response diagrams that is drawn again below, larger [Hz].
     pub detail_hz: Option<(f64, f64)>,
+    /// Further results folders, whose branches lie behind those of response diagrams.
+    pub with: Vec<PathBuf>,
     /// Orbits at frequencies.
     pub orbits: Vec<DrawnOrbit>,
     /// Cut-off of the filter behind which accelerations of orbits are drawn as well [Hz].
@@ -106,6 +110,7 @@ impl FigureSelection {
             kinds: FigureKind::ALL.to_vec(),
             scale: FigureScale::Automatic,
             detail_hz: None,
+            with: Vec::new(),
             orbits: figures.orbits.clone(),
             low_pass_hz: figures.low_pass_hz,
         }

@@ -17,6 +17,8 @@ use crate::{
 pub(crate) enum LegendSample {
     /// The line of a kind of solutions, stable or not.
     Line { look: PeriodLook, line: LineLook },
+    /// The thin line of other results.
+    Overlaid(PeriodLook),
     /// The look of all lines of a period, as a broad line.
     Period(PeriodLook),
     /// The line of a kind of curves.
@@ -48,7 +50,7 @@ const GAP_BETWEEN_ENTRIES: f64 = 11.0;
 impl LegendEntry {
     fn sample_width(&self) -> f64 {
         match self.sample {
-            LegendSample::Line { .. } | LegendSample::Pattern(_) => LINE_LENGTH,
+            LegendSample::Line { .. } | LegendSample::Overlaid(_) | LegendSample::Pattern(_) => LINE_LENGTH,
             LegendSample::Period(_) => COLOUR_LENGTH,
             LegendSample::Mark(_) | LegendSample::Dot(_) => MARK_WIDTH,
             LegendSample::Cell(_) => CELL_WIDTH,
@@ -64,6 +66,9 @@ impl LegendEntry {
         let ends = [PagePoint { x: at.x, y }, PagePoint { x: at.x + self.sample_width(), y }];
         match self.sample {
             LegendSample::Line { look, line } => draw_stretches(svg, &[ends.to_vec()], line, look, style),
+            LegendSample::Overlaid(look) => {
+                draw_stretches(svg, &[ends.to_vec()], LineLook::Stable, look, &style.thin());
+            }
             LegendSample::Pattern(Pattern { colour, dashes }) => {
                 let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
                 let stroke = Stroke { colour, width: style.stable_width };

@@ -126,8 +126,8 @@ pub use page::{
 pub use parameter_axis::ParameterAxis;
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
-    MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,
-    ResponseQuantity, ResponseSettings,
+    MeasuredMark, MeasuredMotion, OutputAxis, OverlaidBranches, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseQuantity, ResponseSettings,
 };
 pub use scale::ScaleChoice;
 pub use structure_diagram::{

@@ -12,8 +12,8 @@ mod quantity;
 mod spread;
 
 pub use data::{
-    MeasuredMark, MeasuredMotion, OutputAxis, ResponseCurve, ResponseDiagram, ResponsePoint,
-    ResponseQuantity, ResponseSettings,
+    MeasuredMark, MeasuredMotion, OutputAxis, OverlaidBranches, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseQuantity, ResponseSettings,
 };
 
 use crate::{error::FigureError, figure::Figure};

@@ -87,6 +87,18 @@ pub(crate) fn period_look(period_multiple: u32) -> PeriodLook {
     PeriodLook { colour: PERIOD_COLOURS[place], strokes: place / LIGHTNESSES }
 }
 
+/// Colours of other results behind the branches, in the order in which they are given: those of the page.
+const OVERLAID_COLOURS: [&str; 4] = [PALE_INK, PERIOD_COLOURS[7], PERIOD_COLOURS[3], PERIOD_COLOURS[5]];
+
+/// The look of the lines of other results with a place in their list: after the last colour the first comes
+/// again, with one stroke more.
+pub(crate) fn overlaid_look(place: usize) -> PeriodLook {
+    PeriodLook {
+        colour: OVERLAID_COLOURS[place % OVERLAID_COLOURS.len()],
+        strokes: place / OVERLAID_COLOURS.len(),
+    }
+}
+
 /// Colours of period multiples on a dark page, in the same order: the same hues, lighter.
 const PERIOD_COLOURS_DARK: [&str; 9] =
     ["#71a1fb", "#fcc155", "#91fbd1", "#fd7962", "#f7d3f9", "#ba9ab4", "#f79694", "#9eb0e8", "#d7f197"];
@@ -191,6 +203,15 @@ impl Style {
     #[must_use]
     pub fn showing(self, frequency_unit: FrequencyUnit) -> Self {
         Self { frequency_unit, ..self }
+    }
+
+    /// With the lines of other results.
+    pub(crate) fn thin(&self) -> Self {
+        Self {
+            stable_width: 0.6 * self.stable_width,
+            unstable_width: 0.6 * self.unstable_width,
+            ..self.clone()
+        }
     }
 
     /// For one column of a journal: 84 mm wide.

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod calculix;
+mod incompatible_modes;
 mod mat;
 mod output4;
 mod shared_files;

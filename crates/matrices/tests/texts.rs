@@ -134,17 +134,43 @@ fn harwell_boeing_in_fixed_columns() {
     refused(&text[..cut], &["ends within"]);
 }
 
+const SCIPY: &str = "Default title                                                           0       \n\
+    \x20            3             1             1             1\n\
+    RUA                        2             2             4             0\n\
+    (40I2)          (40I2)          (3E25.16)           \n 1 3 5\n 1 2 1 2\n\
+    \x20 2.0000000000000000E+04 -1.0000000000000000E+04 -1.0000000000000000E+04\n\
+    \x20 3.0000000000000000E+04\n";
+
 /// SciPy writes lines whose columns are not those of the format in the head: blanks are between the numbers.
 #[test]
 fn harwell_boeing_as_scipy_writes_it() {
-    let text = "Default title                                                           0       \n\
-                \x20            3             1             1             1\n\
-                RUA                        2             2             4             0\n\
-                (40I2)          (40I2)          (3E25.16)           \n 1 3 5\n 1 2 1 2\n\
-                \x20 2.0000000000000000E+04 -1.0000000000000000E+04 -1.0000000000000000E+04\n\
-                \x20 3.0000000000000000E+04\n";
+    let text = SCIPY;
     assert_eq!(values(&one(text)), [(0, 0, 2e4), (1, 0, -1e4), (0, 1, -1e4), (1, 1, 3e4)]);
     refused(&text.replace("3.0000000000000000E+04", "3.0 4.0"), &["an entry should be a number"]);
+}
+
+/// A format that the user names is the one that is read: a file of another one is no matrix of it.
+#[test]
+fn files_of_another_format_than_the_named_one_are_refused() {
+    let market = format!("{HEAD}6 6 2\n1 1 2.5\n6 6 1.0\n");
+    let texts = [
+        (MatrixFormat::MatrixMarket, market.as_str()),
+        (MatrixFormat::Triplets, "1 1 1.5\n1 2 -2.0\n2 2 4.0\n"),
+        (MatrixFormat::UserElement, SUBSTRUCTURE),
+        (MatrixFormat::Punch, DMIG),
+        (MatrixFormat::HarwellBoeing, SCIPY),
+    ];
+    for (of, text) in texts {
+        assert!(parse_matrices(text.as_bytes(), Some(of)).is_ok(), "{of:?}");
+        for (other, _) in texts.iter().filter(|(other, _)| *other != of) {
+            let read = parse_matrices(text.as_bytes(), Some(*other));
+            assert!(read.is_err(), "{of:?} was read as {other:?}");
+        }
+        assert!(parse_matrices(text.as_bytes(), Some(MatrixFormat::Mat5)).is_err(), "{of:?}");
+        assert!(parse_matrices(text.as_bytes(), Some(MatrixFormat::Output4)).is_err(), "{of:?}");
+    }
+    let error = parse_matrices(market.as_bytes(), Some(MatrixFormat::Triplets)).unwrap_err().to_string();
+    assert!(error.contains("line 1") && error.contains("head of another format"), "{error}");
 }
 
 #[test]

@@ -126,6 +126,14 @@ pub enum StructureError {
     /// Nodes and directions can only be found with labels.
     #[error("it is not known which node and direction each row is; give `dofs`")]
     NoLabels,
+    /// Rows are not the displacements that their labels say.
+    #[error(
+        "nothing holds the matrices, and yet displacing all rows that are labelled x, y or z strains them \
+        ({strain:.1e} of what the entries could give): some of these rows are no displacements of nodes, such \
+        as internal freedoms of elements (CalculiX C3D8I); give `nodes` with the places of all nodes of the \
+        mesh, and rows of others are left at rest"
+    )]
+    TranslationStrains { strain: f64 },
     /// A structure of matrices is no beam.
     #[error("the structure is given as matrices")]
     NotForMatrices,

@@ -38,7 +38,7 @@ mod setting;
 
 pub use document::{
     FaultReport, Problem,
-    unit::{hertz, readable},
+    unit::{hertz, readable, readable_to},
 };
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;

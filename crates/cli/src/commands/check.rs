@@ -19,7 +19,12 @@ use hammerbeam_study::{
 };
 
 use crate::{
-    args::StudyOptions, failure::Failure, kept::counted, matrix_report, output::Output, watch::Notices,
+    args::StudyOptions,
+    failure::Failure,
+    kept::counted,
+    matrix_report,
+    output::{Output, readable_frequency},
+    watch::Notices,
 };
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
@@ -104,9 +109,8 @@ fn text(report: &CheckReport<'_>, unit: FrequencyUnit) -> String {
     ));
     let continuation = &study.continuation;
     lines.push(format!(
-        "continuation steps of at most {} {}, tolerance {:e}, at most {} solutions on each side of a start",
-        shown(continuation.max_step_hz),
-        unit.symbol(),
+        "continuation steps of at most {}, tolerance {:e}, at most {} solutions on each side of a start",
+        readable_frequency(unit, continuation.max_step_hz),
         continuation.tolerance,
         continuation.budget_solutions
     ));
@@ -154,8 +158,11 @@ fn matrices_text(matrices: &MatricesTable, report: Option<&MatrixReport>) -> Str
 }
 
 fn lumped_text(lumped: &LumpedTable) -> String {
-    let masses: Vec<String> =
-        lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
+    let masses: Vec<String> = lumped
+        .masses
+        .iter()
+        .map(|mass| format!("{} ({})", mass.name, readable(mass.mass_kg, "kg")))
+        .collect();
     format!(
         "structure    masses {}; {}, {}",
         masses.join(", "),
@@ -170,7 +177,7 @@ fn reduction_text(reduction: &ReductionTable, dof: usize, unit: FrequencyUnit) -
         ReductionMethod::None => format!("none, {modes}"),
         ReductionMethod::Given => format!("as given, {modes}"),
         _ => {
-            let cut_off = unit.words(reduction.cut_off_hz);
+            let cut_off = readable_frequency(unit, reduction.cut_off_hz);
             format!("{}, cut-off {cut_off}, {modes} left", word(&reduction.method))
         }
     }
@@ -216,7 +223,8 @@ fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
         Amplitude::OverFrequency(points) => {
             let values = || points.iter().map(|point| point[1]);
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
-            format!("{} to {} {unit} over the frequency ({} points)", digits(low), digits(high), points.len())
+            let (low, high) = (readable(low, unit), readable(high, unit));
+            format!("{low} to {high} over the frequency ({} points)", points.len())
         }
     }
 }
@@ -243,10 +251,10 @@ fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
                 let (at, phase) = (support.at.join(", "), digits(support.phase_rad));
                 match &support.drive {
                     SupportDrive::Displacement(amplitude) => {
-                        format!("{at} by {} m at {phase} rad", digits(amplitude.largest()))
+                        format!("{at} by {} at {phase} rad", readable(amplitude.largest(), "m"))
                     }
                     SupportDrive::Acceleration(amplitude) => {
-                        format!("{at} with {} m/s^2 at {phase} rad", digits(amplitude.largest()))
+                        format!("{at} with {} at {phase} rad", readable(amplitude.largest(), "m/s^2"))
                     }
                 }
             };
@@ -262,10 +270,9 @@ fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
         _ => format!(", phase {} rad", excitation.phase_rad),
     };
     format!(
-        "{what}, {} to {} {}, order {}{phase}",
-        digits(unit.factor() * low),
-        digits(unit.factor() * high),
-        unit.symbol(),
+        "{what}, {} to {}, order {}{phase}",
+        readable_frequency(unit, low),
+        readable_frequency(unit, high),
         excitation.order,
     )
 }
@@ -296,9 +303,12 @@ fn force_text(force: &ActingForce) -> String {
 
 fn load_text(load: &LoadTable, excitation: &Excitation) -> String {
     match load {
-        LoadTable::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
+        LoadTable::Gravity { acceleration_m_s2 } => {
+            format!("gravity, {}", readable(*acceleration_m_s2, "m/s^2"))
+        }
         LoadTable::Force { at, amplitude_n, order, phase_rad } => {
-            format!("force at {at}, {amplitude_n} N, order {order}, phase {phase_rad} rad")
+            let amplitude = readable(*amplitude_n, "N");
+            format!("force at {at}, {amplitude}, order {order}, phase {phase_rad} rad")
         }
         LoadTable::ActingForce { force, order } => format!("{}, order {order}", force_text(force)),
         LoadTable::DrivenSupport { support, motion, order, phase_rad } => {
@@ -317,7 +327,8 @@ fn load_text(load: &LoadTable, excitation: &Excitation) -> String {
                 true => format!(" of {}", support_text(excitation, *support)),
                 false => String::new(),
             };
-            format!("support motion{of}, {amplitude_m} m, order {order}, phase {phase_rad} rad")
+            let amplitude = readable(*amplitude_m, "m");
+            format!("support motion{of}, {amplitude}, order {order}, phase {phase_rad} rad")
         }
     }
 }
@@ -357,12 +368,13 @@ fn law_text(law: &StopLaw) -> String {
             (format!(" {}", side_text(side)), format!(", {}", rest(approach)))
         }
         StopRest::TwoSided { gap_above_m, gap_below_m, gap_measured } => {
-            let gaps = [gap_above_m, gap_below_m].map(digits);
-            let rest =
-                format!(", gaps {} m above and {} m below ({})", gaps[0], gaps[1], word(&gap_measured));
+            let [above, below] = [gap_above_m, gap_below_m].map(|gap| readable(gap, "m"));
+            let rest = format!(", gaps {above} above and {below} below ({})", word(&gap_measured));
             (" on both sides".to_owned(), rest)
         }
-        StopRest::Around { gap_m } => (" all around".to_owned(), format!(", clearance {} m", digits(gap_m))),
+        StopRest::Around { gap_m } => {
+            (" all around".to_owned(), format!(", clearance {}", readable(gap_m, "m")))
+        }
         StopRest::Always => (String::new(), String::new()),
     };
     let values: String = law.in_words().into_iter().map(|(key, value)| value_text(key, value)).collect();
@@ -398,8 +410,8 @@ fn side_text(side: StopSide) -> &'static str {
 
 fn rest(approach: Approach) -> String {
     match approach {
-        Approach::Gap { gap_m, measured } => format!("gap {} m ({})", digits(gap_m), word(&measured)),
-        Approach::Preload { preload_n } => format!("preload {} N", digits(preload_n)),
+        Approach::Gap { gap_m, measured } => format!("gap {} ({})", readable(gap_m, "m"), word(&measured)),
+        Approach::Preload { preload_n } => format!("preload {}", readable(preload_n, "N")),
     }
 }
 

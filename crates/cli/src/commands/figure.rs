@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use hammerbeam_drawing::{
-    DrawSettings, DrawnFiles, FigureFormat, FigureKind, FigureSelection, draw, draw_into,
+    DrawSettings, DrawnFiles, FigureFormat, FigureKind, FigureSelection, draw, draw_into, ensure_alike,
 };
 use hammerbeam_figure::plain_number;
 use hammerbeam_jobs::{PreparedStudy, StoredBranches, pool::threads};
-use hammerbeam_results::Store;
+use hammerbeam_results::{Store, StoreError};
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
 
@@ -16,11 +16,17 @@ use crate::{
 };
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
-    let store = Store::open(&options.results)?;
+    let store = Store::open(&options.results).map_err(|error| of_family(&options.results, error))?;
     let snapshot = store.snapshot()?;
     let PreparedStudy { file, model } = PreparedStudy::of_store(&store)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
     let selection = selection(options, &file);
+    if !selection.with.is_empty() && !selection.kinds.contains(&FigureKind::Response) {
+        return Err(Failure::BadInput(
+            "--with lays response diagrams over one another, and --kind leaves them out".to_owned(),
+        ));
+    }
+    ensure_alike(&selection, &file)?;
     if selection.kinds.contains(&FigureKind::Orbits) {
         refuse_unknown(store.folder(), &file, &options.orbit)?;
     }
@@ -51,6 +57,29 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A folder without results that holds those of a family: how to draw them.
+fn of_family(folder: &Path, error: StoreError) -> Failure {
+    let has_none = matches!(error, StoreError::NoResults { .. });
+    let failure = Failure::from(error);
+    let members = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut members: Vec<String> = members
+        .filter(|member| has_none && member.is_dir() && Store::open(member).is_ok())
+        .map(|member| member.display().to_string())
+        .collect();
+    members.sort_unstable();
+    match (&failure, members.as_slice()) {
+        (Failure::BadInput(message), [first, others @ ..]) => {
+            let with: String = others.iter().map(|other| format!(" --with {other}")).collect();
+            Failure::BadInput(format!(
+                "{message}; it holds results of {}: draw them over one another with `hammerbeam figure \
+                {first}{with}`",
+                members.join(", ")
+            ))
+        }
+        _ => failure,
+    }
+}
+
 /// What the options ask for: of what they do not name, everything.
 fn selection(options: &FigureOptions, file: &StudyFile) -> FigureSelection {
     let all = FigureSelection::of(file);
@@ -59,6 +88,7 @@ fn selection(options: &FigureOptions, file: &StudyFile) -> FigureSelection {
         kinds: if kinds.is_empty() { all.kinds } else { kinds },
         scale: options.scale.into(),
         detail_hz: options.detail,
+        with: options.with.clone(),
         orbits: if options.orbit.is_empty() { all.orbits } else { options.orbit.clone() },
         low_pass_hz: options.low_pass.or(all.low_pass_hz),
     }

@@ -4,14 +4,18 @@ use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{PreparedStudy, orbits::orbits};
 use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_study::readable_to;
 
 use crate::{
     args::OrbitOptions,
     failure::Failure,
     interrupt::Interrupt,
-    output::{Output, notify, six_decimals},
+    output::{Output, notify, readable_frequency, six_decimals},
     watch::Watch,
 };
+
+/// Digits of maxima.
+const DIGITS: usize = 10;
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = options.study.read()?;
@@ -60,18 +64,19 @@ fn solution_text(solution: &PeriodicSolution, (point, unit): (&str, FrequencyUni
     let maxima = &solution.maxima;
     let multipliers: Vec<String> = solution.floquet_multipliers.iter().take(4).map(|m| complex(*m)).collect();
     let more = if solution.floquet_multipliers.len() > 4 { ", ..." } else { "" };
+    let shown = |value: f64, of: &str| readable_to(value, of, DIGITS);
     [
         format!(
             "{}, period {} excitation period(s), {}",
-            unit.words(solution.frequency_hz),
+            readable_frequency(unit, solution.frequency_hz),
             solution.period_multiple,
             solution.stability().word()
         ),
-        format!("  maximum displacement of {point}   {:.9e} m", maxima.displacement),
-        format!("  maximum acceleration of {point}   {:.9e} m/s^2", maxima.acceleration),
-        format!("  maximum contact force       {:.9e} N", maxima.contact_force),
-        format!("  maximum impact velocity     {:.9e} m/s", maxima.impact_velocity),
-        format!("  impulse of all contacts     {:.9e} N s", maxima.impulse),
+        format!("  maximum displacement of {point}   {}", shown(maxima.displacement, "m")),
+        format!("  maximum acceleration of {point}   {}", shown(maxima.acceleration, "m/s^2")),
+        format!("  maximum contact force       {}", shown(maxima.contact_force, "N")),
+        format!("  maximum impact velocity     {}", shown(maxima.impact_velocity, "m/s")),
+        format!("  impulse of all contacts     {}", shown(maxima.impulse, "N s")),
         format!("  contacts in an orbit period {}", maxima.contacts),
         format!("  Floquet multipliers         {}{more}", multipliers.join(", ")),
         format!("  residual                    {:.1e}", solution.residual),

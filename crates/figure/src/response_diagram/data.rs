@@ -25,6 +25,27 @@ pub struct ResponseDiagram {
     pub measured: Vec<MeasuredMark>,
     /// What [`ResponseQuantity::Output`] shows.
     pub output: OutputAxis,
+    /// What these branches are called beside those of `overlaid`.
+    pub name: String,
+    /// Branches of other results, behind these: thin lines without marks.
+    pub overlaid: Vec<OverlaidBranches>,
+}
+
+/// Branches of other results.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OverlaidBranches {
+    /// What they are called in the legend.
+    pub name: String,
+    /// The branches.
+    pub curves: Vec<ResponseCurve>,
+}
+
+impl ResponseDiagram {
+    /// All solutions, those of other results too.
+    pub(super) fn all_points(&self) -> impl Iterator<Item = &ResponsePoint> {
+        let others = self.overlaid.iter().flat_map(|other| &other.curves);
+        self.curves.iter().chain(others).flat_map(|curve| &curve.points)
+    }
 }
 
 /// A number that was read off the solutions besides their maxima.

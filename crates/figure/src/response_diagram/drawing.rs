@@ -1,7 +1,9 @@
 //! The layout of title, legend and panels.
 
 use super::{
-    data::{MeasuredMotion, ResponseDiagram, ResponseQuantity, ResponseSettings, period_name},
+    data::{
+        MeasuredMotion, OverlaidBranches, ResponseDiagram, ResponseQuantity, ResponseSettings, period_name,
+    },
     panel::ResponsePanel,
 };
 use crate::{
@@ -15,7 +17,7 @@ use crate::{
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent, span_of},
     stretch::LineLook,
-    style::{INK, PALE_INK, PeriodLook, SHADE, Style, period_look},
+    style::{INK, PALE_INK, PeriodLook, SHADE, Style, overlaid_look, period_look},
     svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, points},
     text::{Text, wrap},
 };
@@ -64,7 +66,7 @@ fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError>
     if let Some(range_hz) = diagram.frequency_range_hz {
         return in_order(range_hz);
     }
-    let frequencies = diagram.curves.iter().flat_map(|curve| &curve.points).map(|point| point.frequency_hz);
+    let frequencies = diagram.all_points().map(|point| point.frequency_hz);
     let (least, greatest) =
         extent(frequencies.filter(|&frequency| ScaleKind::Linear.shows(frequency))).unwrap_or((0.0, 1.0));
     let margin = match span_of((least, greatest)) {
@@ -198,6 +200,11 @@ impl<'a> ResponseLayout<'a> {
             let ranges: Vec<String> = self.diagram.chaotic_ranges_hz.iter().map(words).collect();
             description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
         }
+        if !self.diagram.overlaid.is_empty() {
+            let names: Vec<&str> = self.diagram.overlaid.iter().map(|other| other.name.as_str()).collect();
+            description.push_str(&format!("; behind the branches of {}, thin, those of ", self.diagram.name));
+            description.push_str(&names.join(", "));
+        }
         for panel in self.panels {
             for of in panel.measured() {
                 let (name, count) = (of.motion.name(), of.places.len());
@@ -282,7 +289,21 @@ fn entries(panels: &[ResponsePanel], diagram: &ResponseDiagram, marks: &[Mark]) 
         };
         Some(LegendEntry { sample: LegendSample::Dot(motion.dot(0.0)), name })
     });
-    vec![colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
+    vec![results(diagram), colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
+}
+
+/// Which results the lines are of, where others are behind them.
+fn results(diagram: &ResponseDiagram) -> Vec<LegendEntry> {
+    if diagram.overlaid.is_empty() {
+        return Vec::new();
+    }
+    let own = LegendSample::Line { look: period_look(1), line: LineLook::Stable };
+    let own = LegendEntry { sample: own, name: diagram.name.clone() };
+    let other = |(place, other): (usize, &OverlaidBranches)| LegendEntry {
+        sample: LegendSample::Overlaid(overlaid_look(place)),
+        name: other.name.clone(),
+    };
+    std::iter::once(own).chain(diagram.overlaid.iter().enumerate().map(other)).collect()
 }
 
 /// The name of a mark, with its second meaning.

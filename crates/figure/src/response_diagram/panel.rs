@@ -17,7 +17,7 @@ use crate::{
     plot::Plot,
     scale::{Scale, ScaleChoice, ScaleKind, extent},
     stretch::{BranchSample, BranchStretch, LineLook, Vertex, stretches},
-    style::{Style, period_look},
+    style::{PeriodLook, Style, overlaid_look, period_look},
     svg::{PagePoint, SvgWriter},
     text::Text,
 };
@@ -28,6 +28,8 @@ pub(super) struct ResponsePanel {
     pub(super) range_hz: (f64, f64),
     pub(super) scale: Scale,
     lines: Vec<BranchLine>,
+    /// Of each of the other results.
+    overlaid: Vec<Vec<BranchLine>>,
     events: JoinedEvents,
     measured: Vec<MeasuredPlaces>,
 }
@@ -57,9 +59,14 @@ impl ResponsePanel {
         let named = PanelQuantity::of(diagram, quantity, range_hz);
         let quantity = &named;
         let kind = choice.decide(visible_values(diagram, quantity, range_hz));
-        let lines: Vec<BranchLine> =
-            diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
-        let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
+        let lines_of = |curves: &[ResponseCurve]| -> Vec<BranchLine> {
+            curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect()
+        };
+        let lines = lines_of(&diagram.curves);
+        let overlaid: Vec<Vec<BranchLine>> =
+            diagram.overlaid.iter().map(|other| lines_of(&other.curves)).collect();
+        let all = lines.iter().chain(overlaid.iter().flatten());
+        let vertices = all.flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
         let measured = MeasuredMotion::ALL.map(|motion| measured(diagram, quantity, kind, range_hz, motion));
         let measured: Vec<_> =
             measured.into_iter().filter(|of| of.beyond > 0 || !of.places.is_empty()).collect();
@@ -69,7 +76,7 @@ impl ResponsePanel {
         let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
         let (scale, across) = (Scale::around(kind, ends), Scale::exact(ScaleKind::Linear, range_hz));
         let events = join(&events, |place| (across.share(place.x), scale.share(place.y)));
-        Ok(Self { quantity: named, range_hz, scale, lines, events, measured })
+        Ok(Self { quantity: named, range_hz, scale, lines, overlaid, events, measured })
     }
 
     /// What the vertical axis shows.
@@ -99,6 +106,9 @@ impl ResponsePanel {
     /// Draws marks and lines: unstable lines under marginal and stable ones, grazing marks below all lines,
     /// other marks above them.
     pub(super) fn draw(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
+        for (place, lines) in self.overlaid.iter().enumerate() {
+            draw_thin(svg, plot, style, (lines, overlaid_look(place)));
+        }
         let marks = self.marks(plot, style);
         for (mark, places) in marks.iter().filter(|(mark, _)| mark.is_behind()) {
             mark.draw(svg, places, style.mark_radius);
@@ -168,6 +178,15 @@ impl ResponsePanel {
     }
 }
 
+/// Draws the lines of other results.
+fn draw_thin(svg: &mut SvgWriter, plot: &Plot, style: &Style, (lines, look): (&[BranchLine], PeriodLook)) {
+    for of in LineLook::ALL.into_iter().rev() {
+        let stretches = lines.iter().flat_map(|line| &line.stretches).filter(|stretch| stretch.look == of);
+        let stretches: Vec<_> = stretches.map(|stretch| on_page(&stretch.vertices, plot, style)).collect();
+        draw_stretches(svg, &stretches, of, look, &style.thin());
+    }
+}
+
 fn scale_choice(quantity: ResponseQuantity, settings: &ResponseSettings) -> ScaleChoice {
     match quantity {
         ResponseQuantity::Displacement | ResponseQuantity::Output => settings.displacement_scale,
@@ -186,8 +205,7 @@ fn visible_values(
     quantity: &PanelQuantity,
     (from, to): (f64, f64),
 ) -> impl Iterator<Item = f64> {
-    let points = diagram.curves.iter().flat_map(|curve| &curve.points);
-    let inside = points.filter(move |point| (from..=to).contains(&point.frequency_hz));
+    let inside = diagram.all_points().filter(move |point| (from..=to).contains(&point.frequency_hz));
     inside.map(move |point| quantity.value(point)).filter(|&value| ScaleKind::Linear.shows(value))
 }
 

@@ -15,8 +15,7 @@ pub(super) struct PanelQuantity {
 impl PanelQuantity {
     /// A quantity in the unit that suits what is seen of a diagram between two frequencies.
     pub(super) fn of(diagram: &ResponseDiagram, quantity: ResponseQuantity, (from, to): (f64, f64)) -> Self {
-        let points = diagram.curves.iter().flat_map(|curve| &curve.points);
-        let inside = points.filter(|point| (from..=to).contains(&point.frequency_hz));
+        let inside = diagram.all_points().filter(|point| (from..=to).contains(&point.frequency_hz));
         let marks = diagram.measured.iter().filter(|mark| (from..=to).contains(&mark.frequency_hz));
         let values =
             inside.map(|point| si(quantity, point)).chain(marks.map(|mark| measured(quantity, mark)));

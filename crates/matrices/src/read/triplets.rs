@@ -29,6 +29,10 @@ pub(crate) fn read<R: BufRead>(source: R) -> Result<FileMatrix, PlacedFault> {
         }
         let comment = matches!(fields[0].first(), Some(b'*' | b'%' | b'#'));
         let taken = match count {
+            _ if comment && is_head(line) => {
+                let expected = "rows, columns and values without the head of another format";
+                Err(MatrixFault::Unexpected { expected, found: shown(line) })
+            }
             _ if comment => Ok(()),
             0 => Ok(()),
             3 => triplets.take(&fields),
@@ -44,6 +48,12 @@ pub(crate) fn read<R: BufRead>(source: R) -> Result<FileMatrix, PlacedFault> {
         return Err(MatrixFault::Truncated { what: "the entries" }.at(lines.end()));
     }
     Ok(triplets.finish())
+}
+
+/// Whether a line says that the file is of another format: below it numbers mean something else.
+fn is_head(line: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(line).to_ascii_uppercase().replace(' ', "");
+    ["%%MATRIXMARKET", "*USERELEMENT", "*MATRIX,TYPE="].iter().any(|head| text.starts_with(head))
 }
 
 #[derive(Default)]

@@ -12,6 +12,7 @@ use super::{
     constraints::{Dependent, conditions, lagrange_rows},
     map::CoordinateMap,
     model::MatrixReport,
+    translation::Unplaced,
 };
 use crate::StructureError;
 
@@ -29,6 +30,8 @@ pub(super) struct Joined {
     /// The joined row of each row of each component.
     pub rows: Vec<Vec<usize>>,
     pub precision: f64,
+    /// What the rows of nodes without a place do when the structure is displaced.
+    pub unplaced: Unplaced,
 }
 
 /// Matrices over the coordinates that are left.
@@ -109,14 +112,17 @@ impl Matrices {
             false => sum(matrix),
         };
         let damped = self.components.iter().any(|component| component.damping.is_some());
-        Ok(Joined {
+        let mut joined = Joined {
             stiffness: of(&|component| Some(component.stiffness.clone())),
             mass: of(&|component| Some(component.mass.clone())),
             damping: damped.then(|| of(&|component| component.damping.clone())),
             labels,
             rows,
             precision: self.components.iter().map(|component| component.precision).fold(0.0, f64::max),
-        })
+            unplaced: Unplaced::default(),
+        };
+        joined.unplaced = joined.unplaced(&self.nodes);
+        Ok(joined)
     }
 
     /// Assembles what is left when groups of supports move, in their order.
@@ -175,6 +181,8 @@ impl Matrices {
             lagrange_rows: lagrange.len(),
             fixed_rows,
             coordinates: free,
+            internal_rows: joined.unplaced.internal.len(),
+            unplaced_rows: joined.unplaced.moving,
             massless: massive[..free].iter().filter(|massive| !**massive).count(),
             ..MatrixReport::default()
         };
@@ -289,23 +297,6 @@ impl Joined {
             Some((row, label.direction))
         };
         self.labels.iter().enumerate().filter_map(of).collect()
-    }
-
-    /// The displacements of all rows in a translation along a direction.
-    ///
-    /// # Errors
-    /// Nothing is known of the rows.
-    pub fn translation(&self, along: [f64; 3]) -> Result<Vec<f64>, StructureError> {
-        let displacement = |label: &Option<RowLabel>| match label {
-            Some(RowLabel { direction: Direction::Translation(axis), kind: RowKind::Physical, .. }) => {
-                along[usize::from(*axis)]
-            }
-            _ => 0.0,
-        };
-        if self.labels.iter().all(Option::is_none) {
-            return Err(StructureError::NoLabels);
-        }
-        Ok(self.labels.iter().map(displacement).collect())
     }
 }
 

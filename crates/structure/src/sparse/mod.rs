@@ -40,6 +40,7 @@ mod reduce;
 mod report;
 mod statics;
 mod survey;
+mod translation;
 mod vectors;
 
 pub use label::{Direction, RowKind, RowLabel};

@@ -7,6 +7,7 @@ use super::{
     assemble::{Assembled, unit},
     prepared::{Prepared, Weights},
     statics::Statics,
+    translation::ensure_translation,
     vectors::{add, dot},
 };
 use crate::{Damping, PointOutput, ReducedModel, StructureError, SupportInput};
@@ -39,6 +40,7 @@ pub(super) fn support_shapes(
             let relief = statics.elastic(&forces[..free]);
             add(&mut shape[..free], -1.0, &relief);
         } else {
+            ensure_translation(matrices, &prepared.assembled.joined)?;
             shape[free..].fill(0.0);
             shape[free + number] = 1.0;
         }
@@ -82,6 +84,7 @@ pub(super) fn modal_form(
     let uniform = match matrices.acceleration {
         Some(along) => {
             let along = unit(&along, "the direction of the acceleration")?;
+            ensure_translation(matrices, &assembled.joined)?;
             let motion = assembled.of_rows(&assembled.joined.translation(along)?);
             projected(shapes, &assembled.mass.times(&motion))
         }

@@ -126,6 +126,14 @@ pub struct MatrixReport {
     pub lagrange_rows: usize,
     /// Rows held, supports that do not move included.
     pub fixed_rows: usize,
+    /// Rows of nodes without a place that do not move when the structure is displaced without turning: internal
+    /// freedoms of elements.
+    pub internal_rows: usize,
+    /// Rows of nodes without a place that move then.
+    pub unplaced_rows: usize,
+    /// Largest strain energy of a translation of rows along x, y and z over the sum of its parts' magnitudes:
+    /// rounding, where nothing holds the matrices. `None` where nothing is known of the rows.
+    pub translation_strain: Option<f64>,
     /// Coordinates that are left.
     pub coordinates: usize,
     /// Coordinates without mass of their own.
@@ -136,7 +144,8 @@ pub struct MatrixReport {
     pub rigid_modes: usize,
     /// Largest of their `|K phi| / (|K| |phi|)`, with the largest entries for norms.
     pub rigid_residual: f64,
-    /// Mass [kg] that each direction in space moves, where rows are labelled.
+    /// Mass [kg] that each direction in space moves, where rows are labelled and matrices that nothing holds
+    /// let them move without strain.
     pub mass: Option<[f64; 3]>,
     /// Centre of gravity [m], where nodes are known.
     pub centre: Option<[f64; 3]>,

@@ -2,12 +2,9 @@
 
 use super::{
     Matrices, MatrixReport, SymmetricMatrix, assemble::Assembled, factor::Pencil, pencil_modes::PencilModes,
-    vectors::dot,
+    translation::RIGID_MOTIONS, vectors::dot,
 };
 use crate::StructureError;
-
-/// Rigid motions of a body in space.
-const RIGID_MOTIONS: usize = 6;
 
 /// Adds what the modes show, and refuses mechanisms.
 ///
@@ -31,17 +28,29 @@ pub(super) fn complete(
         return Err(StructureError::TooManyRigidModes { found, parts, row });
     }
     let joined = &assembled.joined;
-    let along = |axis: usize| {
-        let mut direction = [0.0; 3];
-        direction[axis] = 1.0;
-        joined.translation(direction).map(|motion| dot(&motion, &joined.mass.times(&motion)))
-    };
-    if let (Ok(x), Ok(y), Ok(z)) = (along(0), along(1), along(2)) {
-        report.mass = Some([x, y, z]);
-    }
-    report.centre = centre(matrices, assembled);
     report.extent = extent(matrices);
+    if joined.labels.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    report.translation_strain = Some(joined.translation_strain());
+    if joined.is_strained() && report.is_free() {
+        return Ok(());
+    }
+    let along = |axis: usize| {
+        let motion = joined.translation(std::array::from_fn(|other| f64::from(u8::from(other == axis))))?;
+        Ok(dot(&motion, &joined.mass.times(&motion)))
+    };
+    report.mass = Some([along(0)?, along(1)?, along(2)?]);
+    report.centre = centre(matrices, assembled);
     Ok(())
+}
+
+impl MatrixReport {
+    /// Whether nothing holds the structure: each part has all motions of a rigid body in space.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        self.rigid_modes == RIGID_MOTIONS * self.parts.max(1)
+    }
 }
 
 /// Largest `|K phi| / (|K| |phi|)` of the rigid-body modes.

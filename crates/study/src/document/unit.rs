@@ -130,22 +130,30 @@ pub fn hertz(text: &str) -> Option<f64> {
 /// * `unit`: in SI.
 #[must_use]
 pub fn readable(value: f64, unit: &str) -> String {
-    let digits = |value: f64| format!("{value:.8e}").parse::<f64>().unwrap_or(value);
+    readable_to(value, unit, 9)
+}
+
+/// The same to so many digits at most, from 1.
+#[must_use]
+pub fn readable_to(value: f64, unit: &str, digits: usize) -> String {
+    let digits = |value: f64| format!("{value:.*e}", digits.max(1) - 1).parse::<f64>().unwrap_or(value);
     let rounded = digits(value);
     if rounded == 0.0 {
         // Without a sign.
         return format!("0 {unit}");
     }
-    if (1e-4..1e6).contains(&rounded.abs()) {
-        return format!("{rounded} {unit}");
-    }
     // Masses have their prefixes before grams.
     let (base, own) = if unit == "kg" { ("g", 3) } else { (unit, 0) };
     let takes_prefixes = UNITS.iter().any(|known| known.0 == base && known.4);
+    let most = if takes_prefixes { 1e4 } else { 1e6 };
+    if (1e-4..most).contains(&rounded.abs()) {
+        return format!("{rounded} {unit}");
+    }
     let fits = |exponent: i32| (1.0..1000.0).contains(&digits(value * 10_f64.powi(own - exponent)).abs());
     let prefix = PREFIXES.iter().find(|(name, exponent)| *name != "c" && fits(*exponent));
     match prefix.filter(|_| takes_prefixes) {
         Some((name, exponent)) => format!("{} {name}{base}", digits(value * 10_f64.powi(own - exponent))),
+        None if (1e-4..1e6).contains(&rounded.abs()) => format!("{rounded} {unit}"),
         None => format!("{rounded:e} {unit}"),
     }
 }
@@ -274,7 +282,10 @@ mod tests {
             (7.33e-8, "m", "73.3 nm"),
             (2.1e11, "Pa", "210 GPa"),
             (0.2579822, "m", "0.2579822 m"),
-            (64_600.0, "Hz", "64600 Hz"),
+            (64_600.0, "Hz", "64.6 kHz"),
+            (8_100.5, "Hz", "8100.5 Hz"),
+            (25_000.0, "kg", "25000 kg"),
+            (25_000.0, "N/m", "25000 N/m"),
             (6.46e6, "Hz", "6.46 MHz"),
             (-2.5e-5, "N", "-25 uN"),
             (3.756e-5, "kg", "37.56 mg"),
@@ -286,6 +297,13 @@ mod tests {
         for (value, unit, text) in shown {
             assert_eq!(readable(value, unit), text);
         }
+    }
+
+    #[test]
+    fn numbers_are_shown_to_so_many_digits() {
+        assert_eq!(readable_to(1.018_599_305_4e-6, "m", 10), "1.018599305 um");
+        assert_eq!(readable_to(9.999_96e-5, "m", 5), "0.0001 m", "rounding reaches the next unit");
+        assert_eq!(readable_to(0.0, "N", 10), "0 N");
     }
 
     /// What is shown is read again.

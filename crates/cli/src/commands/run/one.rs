@@ -21,7 +21,7 @@ use hammerbeam_results::{
     store::JobRecord,
     summary::{BranchSummary, Peak, PieceSummary},
 };
-use hammerbeam_study::{document::unit::stem_and_unit, readable};
+use hammerbeam_study::{document::unit::stem_and_unit, readable, readable_to};
 
 use crate::{
     args::RunOptions,
@@ -263,14 +263,14 @@ fn peaks_text(peaks: &[Peak], unit: FrequencyUnit) -> Vec<String> {
         group.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         let more =
             if group.len() > SHOWN { format!(", and {} more", group.len() - SHOWN) } else { String::new() };
-        let height = group[0].max_abs_displacement_m;
+        let height = readable_to(group[0].max_abs_displacement_m, "m", 5);
         let place = |peak: &&Peak| format!("{}, {}", peak_place(peak, unit), peak_stability(peak));
         let places: Vec<String> = group.iter().take(SHOWN).map(place).collect();
         match group[..] {
             [one] => {
-                format!("  peak at {}, {height:.4e} m, {}", peak_place(one, unit), peak_stability(one))
+                format!("  peak at {}, {height}, {}", peak_place(one, unit), peak_stability(one))
             }
-            _ => format!("  {} equal peaks of {height:.4e} m: {}{more}", group.len(), places.join("; ")),
+            _ => format!("  {} equal peaks of {height}: {}{more}", group.len(), places.join("; ")),
         }
     };
     groups.map(line).collect()
