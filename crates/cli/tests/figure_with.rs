@@ -71,13 +71,23 @@ fn folders_that_do_not_belong_together_are_refused() {
     let [first, second] = FAMILY;
     let message = [first, "holds results of", "--with", second];
     assert_bad_input(&workshop.hammerbeam(&["figure", "family"]), &message);
-    let other = |out: &str, set: &str| {
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", out, "--set", set]));
+    let study = short_study();
+    let other = |out: &str, changes: [(&str, &str); 2]| {
+        assert!(changes.iter().all(|(from, _)| study.contains(from)));
+        let changed = changes.iter().fold(study.clone(), |text, (from, to)| text.replacen(from, to, 1));
+        fs::write(workshop.path("other.toml"), changed).unwrap();
+        assert_success(&workshop.hammerbeam(&["run", "other.toml", "--out", out]));
         workshop.hammerbeam(&["figure", first, "--with", out, "--out", "drawn"])
     };
     let said = ["point", "response point is second instead of first"];
-    assert_bad_input(&other("point", "response.point=second"), &said);
-    let forced = "excitation={kind=\"force\",at=\"first\",amplitude_n=0.5,frequency_hz=[13.5,14.0]}";
+    assert_bad_input(
+        &other("point", [("point = \"first\"", "point = \"second\""), ("title", "title")]),
+        &said,
+    );
+    let forced = [
+        ("kind = \"support-motion\"\nat = \"ground\"", "kind = \"force\"\nat = \"first\""),
+        ("amplitude_m = 0.5e-3", "amplitude_n = 0.5"),
+    ];
     let said = ["forced", "excited by forces instead of moving supports"];
     assert_bad_input(&other("forced", forced), &said);
     assert!(!workshop.path("drawn").exists(), "nothing is drawn before");

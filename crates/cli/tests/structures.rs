@@ -168,6 +168,9 @@ fn orbits_of_the_beam_are_those_of_its_matrices_in_each_format() {
     hammerbeam().arg("import").arg(&study).arg("--out").arg(folder.path()).assert().success();
     let mut studies = vec![at("study.toml")];
     let bundle = fs::read_to_string(at("study.toml")).unwrap().replace("dofs = \"dofs.csv\"\n", "");
+    // Without labels the motion of the support is found from another start, and is rounded differently.
+    studies.push(at("market.toml"));
+    fs::write(&studies[1], &bundle).unwrap();
     type LineOf = fn(u32, u32, &str) -> String;
     let formats: [(&str, LineOf); 2] = [
         // CalculiX: one triangle. Abaqus: both.
@@ -200,8 +203,9 @@ fn orbits_of_the_beam_are_those_of_its_matrices_in_each_format() {
         let [beam, bundle] = [&beam, &bundle].map(|orbit| orbit[key].as_f64().unwrap());
         assert!((beam - bundle).abs() <= 3e-9 * beam, "{key}: {beam} {bundle}");
     }
-    for study in &studies[1..] {
-        assert_eq!(orbit(study)["state"], bundle["state"], "{}", study.display());
+    let market = orbit(&studies[1]);
+    for study in &studies[2..] {
+        assert_eq!(orbit(study)["state"], market["state"], "{}", study.display());
     }
 }
 

@@ -145,7 +145,7 @@ const SCIPY: &str = "Default title                                              
 #[test]
 fn harwell_boeing_as_scipy_writes_it() {
     let text = SCIPY;
-    assert_eq!(values(&one(text)), [(0, 0, 2e4), (1, 0, -1e4), (0, 1, -1e4), (1, 1, 3e4)]);
+    assert_eq!(values(&one(text)), [(0, 0, 2e4), (0, 1, -1e4), (1, 0, -1e4), (1, 1, 3e4)]);
     refused(&text.replace("3.0000000000000000E+04", "3.0 4.0"), &["an entry should be a number"]);
 }
 

@@ -13,6 +13,7 @@ use std::io::{self, ErrorKind, Read};
 use flate2::read::ZlibDecoder;
 use hammerbeam_structure::Entry;
 
+use super::text::shown;
 use crate::{
     error::{FilePlace, MatrixFault, PlacedFault},
     matrix::{FileMatrix, MOST_ROWS},
@@ -52,12 +53,15 @@ pub(crate) fn read<R: Read>(mut source: R) -> Result<Vec<FileMatrix>, PlacedFaul
     let mut header = [0; HEADER];
     let short = |_| MatrixFault::Truncated { what: "the header" }.at(FilePlace::Whole);
     source.read_exact(&mut header).map_err(short)?;
-    let big_endian = order(&header).unwrap_or(false);
     if header.starts_with(b"MATLAB 7.3") {
         let what = "a MAT file of version 7.3 (HDF5)".to_owned();
         let instead = "save it with -v7 or -v6";
         return Err(MatrixFault::Unsupported { what, instead }.at(FilePlace::Whole));
     }
+    let big_endian = order(&header).ok_or_else(|| {
+        let expected = "a MAT file, whose head ends with the order of its bytes";
+        MatrixFault::Unexpected { expected, found: shown(&header) }.at(FilePlace::Whole)
+    })?;
     let (mut at, mut matrices) = (HEADER as u64, Vec::new());
     loop {
         let place = FilePlace::Byte(at);
