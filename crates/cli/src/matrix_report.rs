@@ -70,8 +70,8 @@ fn without_place(report: &MatrixReport) -> Option<String> {
             Some(format!("no place     {moving} rows of nodes that have none, and move as the others"))
         }
         (internal, _) => Some(format!(
-            "no place     {internal} rows of nodes that have none, internal freedoms of elements: gravity and \
-            the base do not move them"
+            "no place     {internal} rows of nodes that have none, internal freedoms of elements: gravity \
+            and the base do not move them"
         )),
     }
 }
@@ -82,12 +82,12 @@ fn strained(report: &MatrixReport) -> Option<String> {
     match (report.mass, report.extent) {
         (None, _) => Some(format!(
             "mass         not known: displacing all rows labelled x, y and z strains the structure \
-            ({strain:.1e}), so that some are internal freedoms of elements; give `nodes` with the places of all \
-            nodes"
+            ({strain:.1e}), so that some are internal freedoms of elements; give `nodes` with the places of \
+            all nodes"
         )),
         (Some(_), None) => Some(format!(
-            "translation  strains the matrices ({strain:.1e}): so does what holds them, and so do rows that are \
-            internal freedoms of elements (CalculiX C3D8I); with `nodes` these are told apart"
+            "translation  strains the matrices ({strain:.1e}): so does what holds them, and so do rows that \
+            are internal freedoms of elements (CalculiX C3D8I); with `nodes` these are told apart"
         )),
         (Some(_), Some(_)) => None,
     }

@@ -9,6 +9,7 @@
 //! | `drawn.rs` | files as they are drawn, on the threads of a pool |
 //! | `linear.rs`, `structure.rs` | the structure, its modes, its reduction, its excitation |
 //! | `response.rs`, `varied.rs` | branches over the frequency, over other parameters |
+//! | `branches.rs` | stored branches as curves |
 //! | `overlaid.rs` | branches of further folders behind them |
 //! | `curves.rs`, `multipliers.rs`, `motions.rs` | curves of bifurcations, multipliers, motions |
 //! | `parameter.rs` | parameters in words |
@@ -33,6 +34,7 @@
 //! # Ok::<(), DrawingError>(())
 //! ```
 
+mod branches;
 mod compare;
 mod curves;
 mod drawn;

@@ -9,8 +9,8 @@ use hammerbeam_study::{Study, StudyFile, file::Excitation};
 
 use crate::{
     DrawingError, FigureSelection,
+    branches::curves,
     outputs::{ShownOutput, shown_outputs},
-    response::curves,
 };
 
 /// A further results folder.

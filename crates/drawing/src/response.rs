@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use hammerbeam_figure::{
     ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity, ResponseSettings, ScaleChoice,
 };
-use hammerbeam_orbit::{BranchEventKind, Stability};
-use hammerbeam_results::{Store, StoreError, row::Row};
+use hammerbeam_results::{Store, StoreError};
 use hammerbeam_study::StudyFile;
 
 use crate::{
     Album, DrawingError, Drawn, FigureScale, FigureSelection,
+    branches::curves,
     motions::chaotic_ranges,
     outputs::shown_outputs,
     overlaid::{Overlaid, names},
@@ -88,20 +88,6 @@ pub fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
     }
 }
 
-/// The branches of a store.
-pub fn curves(store: &Store) -> Result<Vec<ResponseCurve>, StoreError> {
-    let mut curves = Vec::new();
-    for branch in store.branches()? {
-        let mut points = Vec::new();
-        store.each_row::<StoreError>(&branch, |row| {
-            points.push(point(&row));
-            Ok(())
-        })?;
-        curves.push(ResponseCurve { period_multiple: branch.period_multiple, points });
-    }
-    Ok(curves)
-}
-
 /// What the folders are called, that of the store first.
 fn names_of(store: &Store, selection: &FigureSelection) -> Vec<String> {
     let further = selection.with.iter().map(PathBuf::as_path);
@@ -134,24 +120,4 @@ fn diagram(
         overlaid: overlaid.iter().map(|other| other.branches.clone()).collect(),
         ..ResponseDiagram::default()
     })
-}
-
-/// A row as a point of a response diagram, over what varies.
-pub fn point(row: &Row) -> ResponsePoint {
-    let has = |kind| row.events.has(kind);
-    ResponsePoint {
-        frequency_hz: row.parameter,
-        displacement_m: row.maxima.displacement,
-        acceleration_m_s2: row.maxima.acceleration,
-        contact_force_n: row.maxima.contact_force,
-        impact_velocity_m_s: row.maxima.impact_velocity,
-        output: f64::NAN,
-        stable: row.stability.may_be_stable(),
-        marginal: row.stability == Stability::Marginal,
-        fold: has(BranchEventKind::Fold),
-        grazing: has(BranchEventKind::Grazing),
-        flip: has(BranchEventKind::Flip),
-        neimark_sacker: has(BranchEventKind::NeimarkSacker),
-        branch_point: has(BranchEventKind::BranchPoint),
-    }
 }

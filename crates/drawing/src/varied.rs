@@ -6,9 +6,10 @@ use hammerbeam_study::StudyFile;
 
 use crate::{
     Album, DrawingError, FigureScale,
+    branches::point,
     outputs::shown_outputs,
     parameter::{file_name, parameter_axis},
-    response::{point, quantities, settings},
+    response::{quantities, settings},
 };
 
 /// Draws every `[[vary]]` of the study.
