@@ -53,8 +53,8 @@ pub enum JobError {
     TooLarge(#[from] SimulationTooLarge),
     /// Motions of orbits that take too much of memory.
     #[error(
-        "the motions of {orbits} orbits are {numbers} numbers, must be {most} at most; allowed: fewer orbits, \
-        or at most {most_samples} samples in a period"
+        "the motions of {orbits} orbits are {numbers} numbers, must be {most} at most; allowed: fewer \
+        orbits, or at most {most_samples} samples in a period"
     )]
     MotionsTooLarge { orbits: usize, numbers: u64, most: u64, most_samples: u64 },
     /// Measured points cannot be compared.

@@ -7,8 +7,8 @@
 //! or not (Auerbach and others, Phys. Rev. Lett. 58 (1987), 2387), to which Newton's method takes them.
 //!
 //! A chaotic motion shows within some periods where it wanders. Others that come there need not settle any
-//! more: they go on for as many periods as are kept. Once some of them have shown no orbit that was not known,
-//! further ones end as soon as they come there.
+//! more: they go on for as many periods as are kept. Once some of them have shown no orbit that was not
+//! known, further ones end as soon as they come there.
 
 use hammerbeam_motion::{Stretch, System};
 

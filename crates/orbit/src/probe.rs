@@ -3,8 +3,9 @@
 //! Motions begin from the linear response, from states about it and from those of large amplitude that a
 //! backbone suggests, and are followed as in [`MotionSearch`]. Where there is little damping they have not
 //! repeated at last: then Newton's method begins where they have come back most closely after each of the
-//! multiples. What that finds is kept if it is stable. A motion that will not settle, a chaotic one, comes back
-//! near unstable orbits: there Newton's method ends as soon as that is seen, which is before it has converged.
+//! multiples. What that finds is kept if it is stable. A motion that will not settle, a chaotic one, comes
+//! back near unstable orbits: there Newton's method ends as soon as that is seen, which is before it has
+//! converged.
 
 use hammerbeam_motion::System;
 

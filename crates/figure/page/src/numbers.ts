@@ -29,11 +29,12 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
     const events = eventNames(solutions.flags[solution] ?? 0);
     const over = branch?.over ?? 0;
     const { name, unit, factor } = parameterMeasure(meta, over);
+    const parameter = solutions.parameter[solution] ?? NaN;
     const energy = solutions.energy[solution] ?? NaN;
     return [
         ["Frequency", hertz(solutions.frequency[solution] ?? NaN)],
         ...(over > 0
-            ? [[name, `${digits(factor * (solutions.parameter[solution] ?? NaN), 7)} ${unit}`] as [string, string]]
+            ? [[name, `${digits(factor * parameter, 7)} ${unit}`] as [string, string]]
             : []),
         [
             "Branch",

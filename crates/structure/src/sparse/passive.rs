@@ -1,9 +1,9 @@
 //! Whether mass and damping are such as a structure has: no motion has negative kinetic energy, and no damper
 //! drives it.
 //!
-//! A negative entry on a diagonal shows that at once, and in which row. What it does not show of the mass, the
-//! signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many negative
-//! ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of inertia).
+//! A negative entry on a diagonal shows that at once, and in which row. What it does not show of the mass,
+//! the signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many
+//! negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of inertia).
 
 use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
 use crate::{StructureError, error::not_negative};
