@@ -31,7 +31,8 @@ pub fn six_decimals(value: f64) -> String {
     }
 }
 
-/// A number with so many decimals, 0 without any; what they would round to next to nothing has as many digits instead.
+/// A number with so many decimals, 0 without any; what they would round to next to nothing has as many digits
+/// instead.
 pub fn decimals(value: f64, decimals: usize) -> String {
     let least = 10_f64.powi(3 - decimals as i32);
     if value == 0.0 {

@@ -13,8 +13,8 @@
 //! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Where a force
 //! has a corner, as `abs(x)`, they fall with a power of the degree only: then the polynomials of twice the
 //! degree leave `T D`, and what happens between an end of the step and the node next to it is seen at
-//! the end alone: what the polynomial through the nodes misses there counts as a tail. What it misses there of
-//! the slopes, the sensitivities miss over that part of the step, [`AT_AN_END`] of it. Of the share
+//! the end alone: what the polynomial through the nodes misses there counts as a tail. What it misses there
+//! of the slopes, the sensitivities miss over that part of the step, [`AT_AN_END`] of it. Of the share
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
 //! so fast that the nodes do not resolve their part `U` in the force leave that part: of what is smooth over
 //! the step the share `(z/4)^2n/(2n)!` on n nodes, if they turn by z; of the motion of such a block itself,

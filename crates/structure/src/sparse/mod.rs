@@ -24,6 +24,7 @@ mod craig_bampton;
 mod factor;
 mod free_interface;
 mod guyan;
+mod joined;
 mod label;
 mod lanczos;
 mod map;

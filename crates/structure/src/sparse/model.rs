@@ -126,8 +126,8 @@ pub struct MatrixReport {
     pub lagrange_rows: usize,
     /// Rows held, supports that do not move included.
     pub fixed_rows: usize,
-    /// Rows of nodes without a place that do not move when the structure is displaced without turning: internal
-    /// freedoms of elements.
+    /// Rows of nodes without a place that do not move when the structure is displaced without turning:
+    /// internal freedoms of elements.
     pub internal_rows: usize,
     /// Rows of nodes without a place that move then.
     pub unplaced_rows: usize,

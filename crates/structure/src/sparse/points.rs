@@ -1,9 +1,6 @@
 //! Points of a structure given as matrices: weighted sums of its rows.
 
-use super::{
-    Along, Direction, MatrixPoint, PointPlace,
-    assemble::{Joined, unit},
-};
+use super::{Along, Direction, MatrixPoint, PointPlace, assemble::unit, joined::Joined};
 use crate::StructureError;
 
 /// Rows that a message counts up.

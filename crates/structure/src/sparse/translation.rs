@@ -6,14 +6,18 @@
 //! stand on no list of nodes. Neither do nodes that a program makes itself, as at the faces of an expanded
 //! shell, and these do move. So, where some labelled nodes have a place and others have none, both
 //! translations `t` are tried, those without a place at rest or along: a translation does not strain the
-//! structure but where the ground holds it, so that the one with the smaller strain energy `t^T K t` is meant.
+//! structure but where the ground holds it, so that the one with less strain energy `t^T K t` is meant.
 //!
 //! Where nothing holds the matrices it has none at all: then the rounding of the entries bounds
 //! `t^T K t / sum_ij |K_ij t_i t_j|`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Direction, Matrices, RowKind, RowLabel, assemble::Joined, vectors::dot};
+use super::{
+    Direction, Matrices, RowKind, RowLabel,
+    joined::{Joined, Unplaced},
+    vectors::dot,
+};
 use crate::StructureError;
 
 /// Rigid motions of a body in space.
@@ -21,15 +25,6 @@ pub(super) const RIGID_MOTIONS: usize = 6;
 /// A translation strains what nothing holds if its strain energy is larger than this part of the sum of its
 /// magnitudes, and than so many times the precision of the entries.
 const STRAINED: (f64, f64) = (1e-9, 10.0);
-
-/// Rows that are displacements of nodes without a place.
-#[derive(Debug, Default)]
-pub(super) struct Unplaced {
-    /// Those that stay at rest in a translation.
-    pub internal: BTreeSet<usize>,
-    /// Number of those that move.
-    pub moving: usize,
-}
 
 impl Joined {
     /// The displacements of all rows in a translation along a direction.
