@@ -62,7 +62,7 @@ fn opened(folder: &Path, study: &Study) -> Result<(Store, StudyFile), DrawingErr
     }
 }
 
-/// What results folders are called beside one another: by their last part, or in full where two have the same.
+/// What results folders are called: by their last part, or in full where two have the same.
 pub fn names(folders: &[&Path]) -> Vec<String> {
     let last = |folder: &Path| {
         let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
