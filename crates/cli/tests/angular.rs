@@ -25,7 +25,7 @@ fn texts_have_the_frequencies_that_were_given_in_rad_per_second() {
         serde_json::from_str(&text(&[&orbit[..], &["--angular", "--json"]].concat())).unwrap();
     assert_eq!(document["frequency_hz"], 1.05 / TAU);
     let check = text(&["check", "study.toml", "--angular"]);
-    for part in ["modes        1 rad/s", "0.9 to 1.1 rad/s, order 1"] {
+    for part in ["modes        1 rad/s", "0.9 rad/s to 1.1 rad/s, order 1"] {
         assert!(check.contains(part), "{part} is missing in\n{check}");
     }
     let modes = text(&["--angular", "modes", "study.toml"]);

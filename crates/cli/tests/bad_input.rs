@@ -391,8 +391,8 @@ fn what_depends_on_a_wrong_word_is_reported_with_it() {
             "`side` is \"over\"",
         ],
     );
-    let kind = BEAM.replace("kind = \"beam\"", "kind = \"baem\"").replace("elements = 44", "elements = 1");
-    assert_refused(&Workshop::with(&kind), &["`kind` is \"baem\"", "the beam has 1 elements"]);
+    let kind = BEAM.replace("kind = \"beam\"", "kind = \"beem\"").replace("elements = 44", "elements = 1");
+    assert_refused(&Workshop::with(&kind), &["`kind` is \"beem\"", "the beam has 1 elements"]);
 }
 
 /// What varies is looked for in the tables that could be read; in the others nothing is said of it.

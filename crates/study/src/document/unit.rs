@@ -145,7 +145,8 @@ pub fn readable_to(value: f64, unit: &str, digits: usize) -> String {
     // Masses have their prefixes before grams.
     let (base, own) = if unit == "kg" { ("g", 3) } else { (unit, 0) };
     let takes_prefixes = UNITS.iter().any(|known| known.0 == base && known.4);
-    let most = if takes_prefixes { 1e4 } else { 1e6 };
+    // Nobody writes megagrams.
+    let most = if takes_prefixes && unit != "kg" { 1e4 } else { 1e6 };
     if (1e-4..most).contains(&rounded.abs()) {
         return format!("{rounded} {unit}");
     }
