@@ -130,8 +130,8 @@ pub enum StructureError {
     #[error(
         "nothing holds the matrices, and yet displacing all rows that are labelled x, y or z strains them \
         ({strain:.1e} of what the entries could give): some of these rows are no displacements of nodes, \
-        such as internal freedoms of elements (CalculiX C3D8I); give `nodes` with the places of all nodes of the \
-        mesh, and rows of others are left at rest"
+        such as internal freedoms of elements (CalculiX C3D8I); give `nodes` with the places of all nodes of \
+        the mesh, and rows of others are left at rest"
     )]
     TranslationStrains { strain: f64 },
     /// A structure of matrices is no beam.
