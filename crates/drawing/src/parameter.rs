@@ -13,7 +13,9 @@ pub fn file_name(parameter: &str) -> String {
 /// A parameter in words, with the SI unit that its key ends in.
 pub fn parameter_axis(parameter: &str) -> ParameterAxis {
     let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
-    let (stem, unit) = stem_and_unit(key).unwrap_or((key, ""));
+    // Constants of a formula have names of their own, which end in no unit.
+    let is_constant = owner.ends_with(".constants");
+    let (stem, unit) = stem_and_unit(key).filter(|_| !is_constant).unwrap_or((key, ""));
     let title = match (owner, owner.strip_prefix("stop."), stem) {
         ("excitation", _, _) => format!("Excitation {}", stem.replace('_', " ")),
         ("damping", _, "modal_ratio") => "Modal damping ratio".to_owned(),
@@ -50,6 +52,7 @@ mod tests {
             ("structure.mass.tip.mass_kg", "Mass of structure.mass.tip", "kg"),
             ("structure.length_m", "Length of structure", "m"),
             ("stop.1.constants.mu", "stop.1.constants.mu", ""),
+            ("stop.1.constants.mu_s", "stop.1.constants.mu_s", ""),
         ];
         for (parameter, title, unit) in cases {
             let expected = ParameterAxis { title: title.to_owned(), unit: unit.to_owned() };

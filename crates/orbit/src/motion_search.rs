@@ -54,6 +54,14 @@ enum Advanced {
     SoFar,
 }
 
+/// Where Newton's method has led.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Led {
+    Nowhere,
+    ToStable,
+    ToUnstable,
+}
+
 pub(crate) struct MotionSearch<'a> {
     catalogue: Catalogue<'a>,
     reached: StableOrbits,
@@ -128,7 +136,7 @@ impl<'a> MotionSearch<'a> {
     fn follow(&mut self, state: Vec<f64>, interrupted: Interruption<'_>) -> Result<(), OrbitError> {
         let mut states = vec![state];
         let mut approach = self.reached.approached();
-        let (mut left, mut joined) = (self.extent.most, false);
+        let (mut left, mut joined, mut has_repeated) = (self.extent.most, false, false);
         while left > 0 {
             let more = (BETWEEN_LOOKS + self.largest).min(left);
             if self.advance((&mut states, &mut approach), more, &mut *interrupted)? == Advanced::ToKnownOrbit
@@ -137,10 +145,14 @@ impl<'a> MotionSearch<'a> {
             }
             left -= more;
             let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
-            if let Some(period) = repeats_after(&states, &scale, self.largest) {
-                return self.settle(&states[states.len() - 1], period as u32);
+            // From an unstable orbit, where symmetry holds it, rounding takes it away in time.
+            if !has_repeated && let Some(period) = repeats_after(&states, &scale, self.largest) {
+                has_repeated = true;
+                if self.settle(&states[states.len() - 1], period as u32)? == Led::ToStable {
+                    return Ok(());
+                }
             }
-            if !joined && self.has_joined(&states[states.len() - more..], &scale) {
+            if !joined && self.has_joined(&states[states.len().saturating_sub(more)..], &scale) {
                 if self.fruitless >= self.extent.fruitless {
                     return Ok(());
                 }
@@ -149,8 +161,10 @@ impl<'a> MotionSearch<'a> {
             }
         }
         let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
-        if let Some(period) = nearly_repeats_after(&states, &scale, self.largest) {
-            return self.settle(&states[states.len() - 1], period as u32);
+        if let Some(period) = nearly_repeats_after(&states, &scale, self.largest)
+            && self.settle(&states[states.len() - 1], period as u32)? != Led::Nowhere
+        {
+            return Ok(());
         }
         let known = self.catalogue.known.len();
         if !self.look_near_returns(&states, &scale, interrupted)? {
@@ -177,31 +191,30 @@ impl<'a> MotionSearch<'a> {
         let mut is_near_stable = false;
         for &multiple in self.multiples {
             for nodes in nearest_returns(states, scale, multiple as usize, self.extent.near_returns) {
-                is_near_stable |= self.look_from(nodes, multiple, &mut *interrupted)?;
+                is_near_stable |= self.look_from(nodes, multiple, &mut *interrupted)? == Led::ToStable;
                 // From all states and from the first one alone Newton's method goes different ways; either
                 // may arrive.
                 if multiple > 1 && self.extent.wanted == Wanted::Any {
-                    is_near_stable |= self.look_from(&nodes[..1], multiple, &mut *interrupted)?;
+                    let led = self.look_from(&nodes[..1], multiple, &mut *interrupted)?;
+                    is_near_stable |= led == Led::ToStable;
                 }
             }
         }
         Ok(is_near_stable)
     }
 
-    /// Newton's method from these nodes; whether it leads to a stable orbit.
+    /// Newton's method from these nodes.
     fn look_from(
         &mut self,
         nodes: &[Vec<f64>],
         multiple: u32,
         interrupted: Interruption<'_>,
-    ) -> Result<bool, OrbitError> {
+    ) -> Result<Led, OrbitError> {
         if interrupted() {
             return Err(OrbitError::Interrupted);
         }
         let arrived = self.catalogue.probe_for(self.extent.wanted, (0.0, nodes), multiple)?;
-        let is_stable = arrived.is_some_and(|at| self.catalogue.known[at.place].solution.stable());
-        self.note(arrived)?;
-        Ok(is_stable)
+        self.note(arrived)
     }
 
     /// Goes on by some periods and keeps the last states.
@@ -228,7 +241,7 @@ impl<'a> MotionSearch<'a> {
     }
 
     /// The orbit to which a motion has come.
-    fn settle(&mut self, state: &[f64], period_multiple: u32) -> Result<(), OrbitError> {
+    fn settle(&mut self, state: &[f64], period_multiple: u32) -> Result<Led, OrbitError> {
         let orbit = (self.catalogue.frequency_hz, period_multiple);
         let (begin, _) = search_cut(self.catalogue.integrator(), state, orbit)?;
         let arrived = self.catalogue.probe((begin.phase, &[begin.state]), period_multiple)?;
@@ -236,11 +249,12 @@ impl<'a> MotionSearch<'a> {
     }
 
     /// Motions that come to a new orbit end from now on, if it is stable.
-    fn note(&mut self, arrived: Option<Arrived>) -> Result<(), OrbitError> {
-        if let Some(place) = arrived.filter(|arrived| arrived.is_new).map(|arrived| arrived.place) {
-            let orbit = self.catalogue.known[place].solution.clone();
+    fn note(&mut self, arrived: Option<Arrived>) -> Result<Led, OrbitError> {
+        let Some(Arrived { place, is_new }) = arrived else { return Ok(Led::Nowhere) };
+        let orbit = self.catalogue.known[place].solution.clone();
+        if is_new {
             self.reached.add(self.catalogue.integrator(), &orbit)?;
         }
-        Ok(())
+        Ok(if orbit.stable() { Led::ToStable } else { Led::ToUnstable })
     }
 }

@@ -21,7 +21,7 @@ const FRUITLESS: usize = 2;
 pub struct SurveyEffort {
     /// Starts at each frequency.
     pub starts: usize,
-    /// Excitation periods after which a motion is observed.
+    /// Excitation periods that a motion has to settle at most; one that repeats ends sooner.
     pub settling: usize,
     /// Excitation periods observed, at least three times the largest multiple.
     pub observed: usize,

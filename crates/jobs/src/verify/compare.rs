@@ -252,12 +252,11 @@ fn maxima(
     push(VerifiedQuantity::Impulse, stored.impulse, new.impulse, measure);
 }
 
-/// As many contacts may come or go as graze, or are touched where the orbit is cut. One that grazes may be
-/// counted twice: rounding takes it off its level for a moment.
+/// As many contacts may come or go as graze, or are touched where the orbit is cut.
 fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     let (stored, new) = (row.maxima.contacts, found.maxima.contacts);
     let missing = stored.abs_diff(new);
-    let allowed = missing > 0 && missing as usize <= 2 * grazing;
+    let allowed = missing > 0 && missing as usize <= grazing;
     Comparison {
         grazing: allowed,
         ..plain(

@@ -89,7 +89,7 @@ impl Unresolved {
 pub(super) struct Errors {
     /// `T`.
     pub tail: f64,
-    /// `T D^2`.
+    /// `T D^2`; of a force with corners `T D`, or what sensitivities miss at the ends if that is larger.
     pub slow: f64,
     /// `S`.
     pub fast_share: f64,

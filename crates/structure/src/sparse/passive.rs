@@ -1,8 +1,8 @@
 //! Whether mass and damping are such as a structure has: no motion has negative kinetic energy, and no damper
 //! drives it.
 //!
-//! A negative entry on a diagonal shows that at once, and in which row. What it does not show of the mass,
-//! the signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many
+//! A negative entry on a diagonal shows that at once, and in which row; of the damping no more is asked. What
+//! it does not show of the mass, the signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many
 //! negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of inertia).
 
 use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
@@ -10,6 +10,9 @@ use crate::{StructureError, error::not_negative};
 
 /// Eigenvalues of the mass below this part of its diagonal are zero.
 const RANK: f64 = 1e-9;
+/// Eigenvalues of the mass below this part of its diagonal are negative by more than a file with six digits
+/// makes them: rounding does not leave a singular matrix singular.
+const NEGATIVE: f64 = 1e-5;
 /// Entries of a diagonal below this part of its largest are zero.
 const ROUNDING: f64 = 1e-12;
 
@@ -27,7 +30,7 @@ pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<
             not_negative(&format!("{what} on the diagonal of {row}"), diagonal[column])?;
         }
     }
-    match counted_below(&assembled.mass, -RANK, limit_bytes)? {
+    match counted_below(&assembled.mass, -NEGATIVE, limit_bytes)? {
         Some(negative) if negative > 0 => Err(StructureError::MassNegative { negative }),
         _ => Ok(()),
     }

@@ -82,7 +82,7 @@ impl Formula {
         let corners =
             FlatEx::<Corners, Operators, Literals>::parse(&text).map_err(|_| FormulaError::Unread)?;
         let smooth = vec![Corners::NONE; corners.var_names().len()];
-        let has_corners = corners.eval(&smooth).is_ok_and(|found| found.can_have);
+        let has_corners = corners.eval(&smooth).map_err(|_| FormulaError::Unread)?.can_have;
         let found = Expression { text, program, has_displacement, has_velocity, is_odd, has_corners };
         let law = Self(Arc::new(found));
         let Force { value, slope, damping } = law.force(0.0, 0.0);

@@ -150,6 +150,16 @@ fn powers_are_finite_where_their_base_vanishes() {
 }
 
 #[test]
+fn corners_are_seen_by_the_form() {
+    for text in ["x*abs(v)", "x*sqrt(x^2 + 1)", "x*(x*x)^1.75", "x^3 + 0.1*abs(x)^(2+1)"] {
+        assert!(formula(text).has_corners(), "{text}");
+    }
+    for text in ["x", "x^3 - v^2*x", "tanh(20*v)", "x/(1 + v^2)", "exp(x) - 1", "sin(2.5*x)"] {
+        assert!(!formula(text).has_corners(), "{text}");
+    }
+}
+
+#[test]
 fn oddness_is_seen_by_the_form() {
     let odd = [
         "x",
