@@ -75,8 +75,8 @@ impl NativeResults {
         }
     }
 
-    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait for
-    /// it.
+    /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait
+    /// for it.
     fn check_open(&self, py: Python<'_>) -> PyResult<()> {
         if py.detach(|| self.store().is_none()) { Err(self.closed(py)) } else { Ok(()) }
     }

@@ -2,8 +2,9 @@
 //! drives it.
 //!
 //! A negative entry on a diagonal shows that at once, and in which row; of the damping no more is asked. What
-//! it does not show of the mass, the signs of the pivots of `M + e D` do, with the diagonal `D` of M and a small `e`: there are as many
-//! negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of inertia).
+//! it does not show of the mass, the signs of the pivots of `M + e D` do, with the diagonal `D` of M and a
+//! small `e`: there are as many negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of
+//! inertia).
 
 use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
 use crate::{StructureError, error::not_negative};

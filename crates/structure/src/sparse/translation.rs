@@ -107,8 +107,8 @@ pub(super) fn ensure_translation(matrices: &Matrices, joined: &Joined) -> Result
         acceleration: None,
         ..matrices.clone()
     };
-    // Freed, they may be no structure at all, as with a mechanism that the study holds: then the ground is not
-    // shown to be all that strains.
+    // Freed, they may be no structure at all, as with a mechanism that the study holds: then the ground is
+    // not shown to be all that strains.
     match free.survey(RIGID_MOTIONS + 1) {
         Ok(survey) if survey.report.is_free() => {
             Err(StructureError::TranslationStrains { strain: joined.translation_strain() })
