@@ -33,7 +33,7 @@ class NativeOrbits:
         """
         One row for each.
         """
-    def tables_of_all(self, /, samples: SupportsIndex) -> list[tuple[str, list[tuple[str, str, int | None]], int, bytearray]]:
+    def tables_of_all(self, /, samples: SupportsIndex, callbacks: tuple[Any | None, Any | None]) -> list[tuple[str, list[tuple[str, str, int | None]], int, bytearray]]:
         """
         All of them with their motions.
         """
@@ -66,7 +66,7 @@ class NativeResults:
         Writes what is stored as `csv`, `json` or `npz`: the files.
         """
     @staticmethod
-    def export_orbits(orbits: NativeOrbits, format: str, folder: str | PathLike[str], samples: SupportsIndex) -> list[Path]:
+    def export_orbits(orbits: NativeOrbits, format: str, folder: str | PathLike[str], samples: SupportsIndex, callbacks: tuple[Any | None, Any | None]) -> list[Path]:
         """
         Writes orbits and their motions as `csv`, `json` or `npz`: the files.
         """
@@ -160,7 +160,7 @@ class NativeStudy:
     def text_with(self, /, settings: SupportsGetItem[int, str]) -> str:
         """
         The text of this study with other values of keys, in the form of `--set`, which can stand in another
-        folder. It is read again, unless that meant to read files of matrices once more.
+        folder. It is read again; of files of matrices only whether they are there.
         """
     @property
     def title(self, /) -> str: ...
