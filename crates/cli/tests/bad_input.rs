@@ -350,13 +350,15 @@ fn a_file_without_end_is_refused() {
     assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "/dev/zero"]), &[sentence]);
 }
 
+fn beam_without_reduction() -> String {
+    let [from, to] = ["[reduction]", "[damping]"].map(|table| BEAM.find(table).unwrap());
+    format!("{}{}", &BEAM[..from], &BEAM[to..])
+}
+
 /// A part that is missing, or wrong, hides nothing of what can be judged without it.
 #[test]
 fn all_faults_are_reported_in_one_pass() {
-    let from = BEAM.find("[reduction]").unwrap();
-    let to = BEAM.find("[damping]").unwrap();
-    let without_reduction = format!("{}{}", &BEAM[..from], &BEAM[to..]);
-    let crowded = without_reduction.replace("elements = 44", "elements = 1");
+    let crowded = beam_without_reduction().replace("elements = 44", "elements = 1");
     let study = crowded.replacen("amplitude_m = 0.5015e-3", "amplitude_m = 2", 1);
     let vary = "[[vary]]\nparameter = \"stop.1.gap_m\"\nrange = [2, 1]\nfrequency_hz = 20";
     assert_refused(
@@ -374,9 +376,7 @@ fn all_faults_are_reported_in_one_pass() {
 /// fault of the structure hide that its reduction is missing.
 #[test]
 fn what_depends_on_a_wrong_word_is_reported_with_it() {
-    let from = BEAM.find("[reduction]").unwrap();
-    let to = BEAM.find("[damping]").unwrap();
-    let study = format!("{}{}", &BEAM[..from], &BEAM[to..])
+    let study = beam_without_reduction()
         .replace("left = \"clamped\"", "left = \"fixed\"")
         .replace("law = \"hertz\"", "law = \"herz\"")
         .replace("gap_m = 0.0", "gap_m = -1.0")
