@@ -4,7 +4,7 @@
 #   release/archives.sh              every target of the list below that this machine can build
 #   release/archives.sh TARGET...    these, and it is a fault if one of them cannot be built
 #
-# An archive holds the command, the licences, README and CHANGELOG, manual pages and completions. The same
+# An archive holds the command, the licences with those of its packages, README and CHANGELOG, manual pages and completions. The same
 # commit gives the same archive, as far as the compiler gives the same command. SHA256SUMS has all of them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -55,7 +55,7 @@ archive() {
     case $target in *windows*) suffix=.exe ;; esac
     rm -rf "${out:?}/$name"
     mkdir -p "$out/$name/completions" "$out/$name/man"
-    cp "$built/$target/release/hammerbeam$suffix" README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE docs/third-party.md "$out/$name"
+    cp "$built/$target/release/hammerbeam$suffix" README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE THIRD-PARTY.txt "$out/$name"
     "$command" man --out "$out/$name/man" > /dev/null
     for shell in bash elvish fish powershell zsh; do
         "$command" completions "$shell" > "$out/$name/completions/hammerbeam.$shell"

@@ -12,11 +12,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_jobs::update::UpdateData;
+use hammerbeam_jobs::{PreparedStudy, Quiet, check::check, update::UpdateData};
 use hammerbeam_matrices::{parse_matrices, read_labels, read_lines, read_nodes};
 use hammerbeam_results::{Store, StoreError, export_csv, summary::summarise};
 use hammerbeam_signal::{RecordOptions, points, read};
-use hammerbeam_study::StudyFile;
+use hammerbeam_study::{StudyFile, file::StructureTable};
 
 use crate::attractors::Random;
 
@@ -24,6 +24,8 @@ use crate::attractors::Random;
 pub const MOST_MEMORY: u64 = 1 << 30;
 /// Longest time that a reader may take.
 pub const PATIENCE: Duration = Duration::from_secs(2);
+/// Finite elements of a beam whose model is built at once.
+pub const MOST_ELEMENTS: u32 = 100;
 /// Files beyond that are no use: they are read slowly for their length alone.
 const LARGEST: usize = 1 << 20;
 
@@ -32,6 +34,8 @@ const LARGEST: usize = 1 << 20;
 pub enum Reader {
     /// A study file.
     Study,
+    /// A study file and what `check` computes of it, if its beam has no more than [`MOST_ELEMENTS`].
+    Model,
     /// A time series, in any format.
     Signal,
     /// A table of measured points.
@@ -48,14 +52,23 @@ pub enum Reader {
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Study, Self::Signal, Self::Points, Self::Matrices, Self::Tables, Self::Update, Self::Results];
+    pub const ALL: [Self; 8] = [
+        Self::Study,
+        Self::Model,
+        Self::Signal,
+        Self::Points,
+        Self::Matrices,
+        Self::Tables,
+        Self::Update,
+        Self::Results,
+    ];
 
     /// Name, also of its folder in the corpus.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Study => "study",
+            Self::Model => "model",
             Self::Signal => "signal",
             Self::Points => "points",
             Self::Matrices => "matrices",
@@ -71,6 +84,7 @@ impl Reader {
             Self::Study => {
                 String::from_utf8(bytes.to_vec()).is_ok_and(|text| StudyFile::parse("input", text).is_ok())
             }
+            Self::Model => String::from_utf8(bytes.to_vec()).is_ok_and(checked),
             Self::Signal => {
                 read::parse(bytes).is_ok_and(|raw| raw.validate(&RecordOptions::default()).is_ok())
             }
@@ -91,6 +105,16 @@ impl Reader {
 
 /// The study whose model is fitted.
 const FITTED: &str = include_str!("../../studies/beam-with-stop.toml");
+
+/// Whether a study is taken by everything that `check` does.
+fn checked(text: String) -> bool {
+    let Ok(file) = StudyFile::parse("input", text) else { return false };
+    // More of them are work that was asked for.
+    if matches!(&file.study.structure, StructureTable::Beam(beam) if beam.elements > MOST_ELEMENTS) {
+        return true;
+    }
+    PreparedStudy::new(file).is_ok_and(|study| check(&study, &mut Quiet).is_ok())
+}
 
 /// Whether any reader of tables takes the bytes: the ending of a name says which one it is.
 fn tables(folder: &Path, bytes: &[u8]) -> std::io::Result<bool> {
@@ -200,6 +224,7 @@ pub fn corpus(reader: Reader, root: &Path) -> std::io::Result<Vec<Vec<u8>>> {
     let own = format!("verification/corpus/{}", reader.name());
     let folders: &[&str] = match reader {
         Reader::Study => &["studies", "verification/studies", &own],
+        Reader::Model => &["studies", "verification/studies", "verification/corpus/study", &own],
         Reader::Signal => &["crates/signal/tests/fixtures", &own],
         Reader::Matrices => &["crates/matrices/tests/fixtures", "crates/matrices/tests/data", &own],
         Reader::Tables => &["crates/matrices/tests/fixtures", &own],

@@ -1,36 +1,31 @@
-//! Licences of everything that is built into the program: allowed ones, and listed in `docs/third-party.md`.
+//! Licences of everything that is built into the program: allowed by `deny.toml`, listed in
+//! `docs/third-party.md`, with their texts in `THIRD-PARTY.txt`.
 //!
 //! The list is what `cargo tree` says of the lock file, without a network. With `HAMMERBEAM_UPDATE=1` the
-//! test writes it anew instead of comparing.
+//! test writes both files anew instead of comparing.
+
+mod texts;
 
 use std::{collections::BTreeSet, env, fs, path::Path, process::Command};
 
-/// Licences under which code may be given on with a program under MIT or Apache-2.0.
-const ALLOWED: [&str; 11] = [
-    "MIT",
-    "Apache-2.0",
-    "Apache-2.0 WITH LLVM-exception",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "BSL-1.0",
-    "0BSD",
-    "ISC",
-    "Unicode-3.0",
-    "Unlicense",
-    "Zlib",
-];
-
-const HEAD: &str = "# Third-party code\n\nWhat is built into the program besides this repository, with its \
-licence; made by \
-    the test `licences`\nof `verification` (`HAMMERBEAM_UPDATE=1`). The texts of the licences are in the \
-    packages. \
-    The figures\nhold the font Arimo (SIL Open Font License), the page holds uPlot (MIT).\n\n\
+const HEAD: &str = "# Third-party code\n\n\
+    What is built into the program besides this repository, with its licence; made by the test `licences`\n\
+    of `verification` (`HAMMERBEAM_UPDATE=1`). The texts of the licences are in `THIRD-PARTY.txt`. The\n\
+    figures hold the font Arimo (SIL Open Font License), the page holds uPlot (MIT).\n\n\
     | package | version | licence |\n|---|---|---|\n";
 
+/// Licences that `deny.toml` allows.
+fn allowed(root: &Path) -> Vec<String> {
+    let table: toml::Table = fs::read_to_string(root.join("deny.toml")).unwrap().parse().unwrap();
+    let names = table["licenses"]["allow"].as_array().unwrap();
+    names.iter().map(|name| name.as_str().unwrap().to_owned()).collect()
+}
+
 /// Whether all parts of an expression are allowed: of `OR` one side, of `AND` both.
-fn is_allowed(expression: &str) -> bool {
+fn is_allowed(expression: &str, allowed: &[String]) -> bool {
     let plain = expression.replace(['(', ')'], "").replace('/', " OR ");
-    plain.split(" AND ").all(|part| part.split(" OR ").any(|name| ALLOWED.contains(&name.trim())))
+    let holds = |name: &str| allowed.iter().any(|allowed| allowed == name.trim());
+    plain.split(" AND ").all(|part| part.split(" OR ").any(holds))
 }
 
 /// Package, version and licence of everything that is linked or runs while building.
@@ -51,29 +46,33 @@ fn packages(root: &Path) -> BTreeSet<[String; 3]> {
     others.map(package).collect()
 }
 
+/// Holds a file to what it has to be, or writes it where that is asked for.
+fn hold(path: &Path, wanted: &str) {
+    if env::var_os("HAMMERBEAM_UPDATE").is_some() {
+        fs::write(path, wanted).unwrap();
+    }
+    let written = fs::read_to_string(path).unwrap();
+    let what = path.display();
+    assert!(written == wanted, "{what} is not what the lock file gives; HAMMERBEAM_UPDATE=1 writes it");
+}
+
 #[test]
-fn what_is_built_in_has_a_licence_that_allows_it_and_is_listed() {
+fn what_is_built_in_has_a_licence_that_allows_it_and_is_listed_with_its_text() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let packages = packages(&root);
+    let (packages, allowed) = (packages(&root), allowed(&root));
     assert!(packages.len() > 50, "{}", packages.len());
     for [name, version, licence] in &packages {
-        assert!(is_allowed(licence), "{name} {version}: \"{licence}\"");
+        assert!(is_allowed(licence, &allowed), "{name} {version}: \"{licence}\"");
     }
     let rows = packages.iter().map(|package| format!("| {} |\n", package.join(" | ")));
-    let list = format!("{HEAD}{}", rows.collect::<String>());
-    let page = root.join("docs/third-party.md");
-    if env::var_os("HAMMERBEAM_UPDATE").is_some() {
-        fs::write(&page, &list).unwrap();
-    }
-    let written = fs::read_to_string(&page).unwrap();
-    assert!(
-        written == list,
-        "docs/third-party.md is not what the lock file gives; HAMMERBEAM_UPDATE=1 writes it"
-    );
+    hold(&root.join("docs/third-party.md"), &format!("{HEAD}{}", rows.collect::<String>()));
+    hold(&root.join("THIRD-PARTY.txt"), &texts::texts(&root, &packages));
 }
 
 #[test]
 fn of_two_licences_one_has_to_be_allowed_and_of_two_that_both_hold_both() {
+    let allowed = ["MIT", "Apache-2.0", "Unicode-3.0"].map(str::to_owned);
+    let is_allowed = |expression| is_allowed(expression, &allowed);
     assert!(is_allowed("MIT OR GPL-3.0") && is_allowed("(MIT OR Apache-2.0) AND Unicode-3.0"));
     assert!(is_allowed("MIT/Apache-2.0"));
     assert!(!is_allowed("GPL-3.0") && !is_allowed("MIT AND GPL-3.0") && !is_allowed(""));

@@ -96,11 +96,27 @@ pub fn give_text(text: &str) -> Result<(), Failure> {
 
 /// Prints a text; a reader that has gone away (`| head`) is no failure.
 fn print(text: &str) -> io::Result<()> {
+    ensure_writable()?;
     let mut stdout = anstream::stdout();
     match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         written => written,
     }
+}
+
+/// Whether standard output can be written at all. The standard library takes a descriptor that was opened for
+/// reading only (`1< file`) for one that nobody wants to see, and says that all is well.
+#[cfg(unix)]
+fn ensure_writable() -> io::Result<()> {
+    use std::{fs::File, os::fd::AsFd};
+    let mut stdout = File::from(io::stdout().as_fd().try_clone_to_owned()?);
+    // The system looks at the descriptor before it sees that there is nothing to write.
+    stdout.write(&[]).map(|_| ())
+}
+
+#[cfg(not(unix))]
+fn ensure_writable() -> io::Result<()> {
+    Ok(())
 }
 
 /// A text without what a terminal would obey: names and words out of files may hold anything.

@@ -3,6 +3,7 @@
 
 mod angular;
 mod bad_input;
+mod beam_from_formats;
 mod book;
 mod borders;
 mod both_sides;
@@ -44,4 +45,5 @@ mod unwritable;
 mod update;
 mod varied;
 mod verify;
+mod weak_touches;
 mod wide_range;

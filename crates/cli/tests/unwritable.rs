@@ -86,6 +86,9 @@ fn standard_output_that_takes_nothing_is_an_error_and_a_closed_pipe_is_none() {
         assert_eq!(full.status.code(), Some(1));
         let text = String::from_utf8(full.stderr).unwrap();
         assert!(text.contains("cannot write to standard output"), "{text}");
+        // A descriptor that was opened for reading only.
+        let unwritable = run(std::fs::File::open("/dev/null").unwrap().into());
+        assert_eq!(unwritable.status.code(), Some(1), "{arguments:?}");
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         assert_eq!(run(writer.into()).status.code(), Some(0));

@@ -35,7 +35,7 @@ fn a_bounce_has_the_force_and_impulse_of_its_speed() {
         assert_near(found.displacement, gap + depth, 1e-12, "displacement");
         assert_near(found.impulse, 2.0 * speed, 1e-9, "impulse");
         assert_near(found.impact_velocity, speed, 1e-12, "speed");
-        assert_eq!((found.touches, found.closed_throughout), (1, 0));
+        assert_eq!((found.touches.len(), found.closed_throughout), (1, 0));
         assert_eq!((found.extrema.len(), found.kinks.len()), (1, 0));
         assert_near(found.extrema[0], depth, 1e-9 * depth, "penetration");
     }
@@ -53,7 +53,7 @@ fn a_response_takes_its_part_of_the_support() {
     let found = watch(&system, &stretch, &[0.0, 0.0], (&[1.0], &[0.5]));
     assert_near(found.displacement, 1.5e-3, 1e-12, "displacement");
     assert_near(found.acceleration, 1.5e-3 * (4.0 * TAU).powi(2), 1e-9, "acceleration");
-    assert_eq!((found.touches, found.contact_force, found.impulse), (0, 0.0, 0.0));
+    assert_eq!((found.touches.len(), found.contact_force, found.impulse), (0, 0.0, 0.0));
     // Twice in a period nearest to the stop, twice farthest from it.
     let nearest = found.extrema.iter().filter(|extremum| (*extremum + 2e-3).abs() < 1e-12).count();
     let farthest = found.extrema.iter().filter(|extremum| (*extremum + 8e-3).abs() < 1e-12).count();
@@ -70,7 +70,7 @@ fn a_stop_under_heavy_preload_is_closed_throughout() {
     // `q = 0.02 cos 20 t` about the balance of preload and load.
     let stretch = Stretch { frequency_hz: 20.0 / TAU, start: 0.0, end: 3.0 };
     let found = watch(&system, &stretch, &[0.02, 0.0], (&[1.0], &[0.0]));
-    assert_eq!((found.touches, found.closed_throughout), (0, 1));
+    assert_eq!((found.touches.len(), found.closed_throughout), (0, 1));
     assert_near(found.contact_force, 56.0, 1e-9, "force");
     assert_near(found.impulse, 50.0 * stretch.duration(), 1e-8, "impulse");
 }
@@ -88,7 +88,7 @@ fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
         let top = ((1.0 + 2.0 * speed * speed).sqrt() - 1.0).sqrt();
         assert_near(found.displacement, top, 1e-11 * top, "displacement");
         assert_near(found.acceleration, top + top.powi(3), 1e-11 * (top + top.powi(3)), "acceleration");
-        assert_eq!((found.touches, found.contact_force, found.impulse), (0, 0.0, 0.0));
+        assert_eq!((found.touches.len(), found.contact_force, found.impulse), (0, 0.0, 0.0));
     }
 }
 
@@ -113,7 +113,7 @@ fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
         near(found.impulse, expected.impulse, 1e-8, "impulse");
         near(found.acceleration, expected.acceleration, 1e-5, "acceleration");
         near(found.contact_force, expected.contact_force, 1e-5, "force");
-        assert_eq!(found.touches, expected.touches);
+        assert_eq!(found.touches.len(), expected.touches as usize);
     }
 }
 
@@ -140,7 +140,7 @@ fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
             let found = exact.observe(&[(stretch, &state)]).unwrap();
             let end = exact.advance(&stretch, &state).unwrap();
             let general = watch(&system, &stretch, &state, response);
-            assert_eq!(found.touches, general.touches);
+            assert_eq!(found.touches as usize, general.touches.len());
             touches.push(found.touches);
             let largest = |state: &[f64]| state.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
             let apart: Vec<f64> = end.iter().zip(&general.flow.state).map(|(a, b)| a - b).collect();
@@ -171,7 +171,7 @@ fn an_impact_elsewhere_turns_a_contact_with_a_kink() {
     let system = System::new(free, &Load::default(), stops).unwrap();
     let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.8 };
     let found = watch(&system, &stretch, &[0.0, 0.3, 2.0, 0.0], (&[1.0, 0.0], &[]));
-    assert_eq!((found.touches, found.kinks.len()), (0, 1), "{:?}", found.kinks);
+    assert_eq!((found.touches.len(), found.kinks.len()), (0, 1), "{:?}", found.kinks);
     assert_eq!(found.kinks[0].0, 1);
     assert_near(found.kinks[0].1, -0.05, 1e-12, "penetration");
 }

@@ -271,7 +271,7 @@ fn maxima_agree_with_the_general_integrator() {
         let settings = GeneralSettings::with_tolerance(1e-12).state_only();
         let expected = observe(&system, &stretch, &state, (&shape, &[]), &settings).unwrap();
         let same = |a: f64, b: f64| (a - b).abs() <= 1e-7 * b.abs();
-        assert_eq!(found.touches, expected.touches, "{what}");
+        assert_eq!(found.touches as usize, expected.touches.len(), "{what}");
         assert!(same(found.displacement, expected.displacement), "{what}: {found:?} {expected:?}");
         assert!(same(found.acceleration, expected.acceleration), "{what}: {found:?} {expected:?}");
         assert!(same(found.contact_force, expected.contact_force), "{what}: {found:?} {expected:?}");

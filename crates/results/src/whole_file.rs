@@ -4,7 +4,7 @@
 //! finished: whoever reads meanwhile has the old one or the new one, and where a link was the file is
 //! afterwards, not what the link led to. The part is locked while it is written, and the system lets the lock
 //! go however the program ends; so a part that nobody holds was left by a program that was killed, and goes
-//! when the next file is written into that folder.
+//! when the next file is written into that folder, or into one of ours within it.
 
 use std::{
     collections::BTreeSet,
@@ -64,14 +64,18 @@ pub fn refuse_link(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A folder of its own within a results folder, for what is written when no other folder is named.
+/// A folder of its own within a results folder, for what is written when no other folder is named. Parts that
+/// killed programs have left in the results folder go.
 ///
 /// # Errors
 /// [`WriteError`]: it is a link.
 pub fn subfolder(results: &Path, name: &str) -> Result<PathBuf, WriteError> {
     let path = results.join(name);
     match refuse_link(&path) {
-        Ok(()) => Ok(path),
+        Ok(()) => {
+            sweep(results);
+            Ok(path)
+        }
         Err(source) => Err(WriteError { path, source }),
     }
 }

@@ -165,13 +165,16 @@ pub(super) fn compare(
     let margin = tolerance * found.gain * measures.contact[0];
     let rigid = nearest(system, found, |law| law.rigid().is_some());
     let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
-    let slow = if damped <= margin { (2.0 * measures.approach * margin).sqrt() } else { 0.0 };
+    let slowest = (2.0 * measures.approach * margin).sqrt();
+    let slow = if damped <= margin { slowest } else { 0.0 };
     let cut = touches_at_nodes(system, solution, margin);
     let unknown = Unknown::of((system, response), found, (margin, slow), &cut);
     maxima(row, (solution, found), (&measures, unknown), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     let turned = found.kinks.iter().filter(|(_, penetration)| penetration.abs() <= margin).count();
-    list.push(contacts(row, found, grazing + turned + cut.len()));
+    // The motion may cross the level again and again within rounding.
+    let crossed = found.touches.iter().filter(|speed| **speed <= slowest).count();
+    list.push(contacts(row, found, grazing.max(crossed) + turned + cut.len()));
     // At a damper multipliers jump on the row of the grazing.
     let damped_row = if claims.has(BranchEventKind::Grazing) {
         damped.min(nearest_kink(system, found))
@@ -252,7 +255,8 @@ fn maxima(
     push(VerifiedQuantity::Impulse, stored.impulse, new.impulse, measure);
 }
 
-/// As many contacts may come or go as graze, or are touched where the orbit is cut.
+/// As many contacts may come or go as graze, or touch so slowly that they come no deeper than what is known
+/// of the penetration, or are touched where the orbit is cut.
 fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     let (stored, new) = (row.maxima.contacts, found.maxima.contacts);
     let missing = stored.abs_diff(new);

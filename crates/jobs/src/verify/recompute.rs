@@ -27,6 +27,8 @@ pub(super) struct Recomputed {
     pub(super) extrema: Vec<f64>,
     /// Where the motion of an element turns in an impact elsewhere: its number and penetration [m].
     pub(super) kinks: Vec<(usize, f64)>,
+    /// Speeds with which contacts closed [m/s].
+    pub(super) touches: Vec<f64>,
     /// What the contacts of each element do.
     pub(super) of_elements: Vec<ElementMaxima>,
 }
@@ -144,6 +146,7 @@ pub(super) fn recompute(
         },
         extrema: observed.extrema,
         kinks: observed.kinks,
+        touches: observed.touches,
         of_elements: observed.of_elements,
     })
 }
@@ -155,7 +158,7 @@ fn join(earlier: Observed, later: Observed) -> Observed {
         contact_force: earlier.contact_force.max(later.contact_force),
         impact_velocity: earlier.impact_velocity.max(later.impact_velocity),
         impulse: earlier.impulse + later.impulse,
-        touches: earlier.touches + later.touches,
+        touches: [earlier.touches, later.touches].concat(),
         impacts: earlier
             .impacts
             .iter()

@@ -134,7 +134,7 @@ impl<'a, F: VectorField> March<'a, F> {
                 self.accept(step, watcher);
             }
             Verdict::TooLong { .. } if step > self.finest.max(self.instant()) => {
-                self.step = step / 16.0;
+                self.step = (step / 16.0).max(self.finest.max(self.instant()));
                 self.counts.rejected += 1;
             }
             Verdict::TooLong { switch } => self.cross(switch, watcher),
@@ -250,7 +250,8 @@ impl<'a, F: VectorField> March<'a, F> {
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
         self.stepper.impact(self.field, self.time, (&mut self.region.inside, &before));
         self.stepper.jump(self.field, self.time, (&self.region.inside, &before));
-        self.step = first_step.unwrap_or(self.step);
+        // A contact at a grazing may last no longer than rounding; the step behind the next one may.
+        self.step = first_step.unwrap_or(self.step).max(instant);
         self.restart = self.time;
         self.unmoved += 1;
         self.counts.crossings += 1;

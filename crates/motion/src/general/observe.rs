@@ -38,8 +38,8 @@ pub struct Observed {
     pub impact_velocity: f64,
     /// Sum of the impulses of all contacts [N s].
     pub impulse: f64,
-    /// Number of contacts that closed, apart from rigid stops.
-    pub touches: u32,
+    /// Speeds with which contacts closed, apart from rigid stops, in the order of time [m/s].
+    pub touches: Vec<f64>,
     /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid
     /// stops.
     pub impacts: Vec<[u32; 2]>,
@@ -150,7 +150,9 @@ impl Observed {
     #[must_use]
     pub fn contacts(&self) -> u32 {
         let of_stop = |[all, stuck]: &[u32; 2]| if *stuck > 0 { *stuck } else { *all };
-        self.touches + self.closed_throughout.count_ones() + self.impacts.iter().map(of_stop).sum::<u32>()
+        self.touches.len() as u32
+            + self.closed_throughout.count_ones()
+            + self.impacts.iter().map(of_stop).sum::<u32>()
     }
 }
 
@@ -158,7 +160,7 @@ impl Observed {
 struct Maxima {
     displacement: f64,
     acceleration: f64,
-    touches: u32,
+    touches: Vec<f64>,
 }
 
 /// What is read off: the response, or the relative displacement of an element.
@@ -305,7 +307,7 @@ impl<'a> Observer<'a> {
         }
     }
 
-    fn add_touch(&mut self, element: usize, speed: f64) {
+    fn add_speed(&mut self, element: usize, speed: f64) {
         self.of_elements[element].impact_velocity = self.of_elements[element].impact_velocity.max(speed);
     }
 
@@ -374,7 +376,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         for impact in &impacts {
             self.impacts[impact.element][0] += 1;
             self.impacts[impact.element][1] += u32::from(impact.sticks);
-            self.add_touch(impact.element, impact.speed);
+            self.add_speed(impact.element, impact.speed);
             self.of_elements[impact.element].impulse += impact.impulse;
             if impact.depth.is_finite() {
                 self.add_extremum(impact.element, impact.depth);
@@ -384,8 +386,8 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             self.add_kinks(field, at, &impacts);
         }
         for (element, speed) in std::mem::take(&mut field.rigid.touches) {
-            self.maxima.touches += 1;
-            self.add_touch(element, speed);
+            self.maxima.touches.push(speed);
+            self.add_speed(element, speed);
         }
         for place in 0..self.contacts.len() {
             let watched = &self.contacts[place];
@@ -393,8 +395,8 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             if !is_rigid && at.inside[watched.penetration] && !self.inside[watched.penetration] {
                 let element = watched.element;
                 let [_, velocity] = self.read(field, Output::Element(element), at.time, at.state);
-                self.maxima.touches += 1;
-                self.add_touch(element, velocity.abs());
+                self.maxima.touches.push(velocity.abs());
+                self.add_speed(element, velocity.abs());
             }
             self.closed[place] &= at.inside[self.contacts[place].penetration];
         }
