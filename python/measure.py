@@ -1,11 +1,12 @@
 """What Python costs, as the table of docs/performance.md: size and import, a run by the command and by the
-package, a million rows into NumPy, many studies.
+package, a million samples and a million solutions into NumPy, many studies.
 
-    python python/measure.py COMMAND [--whole] [--wheel FILE] [--rounds N]
+    python python/measure.py COMMAND [--whole] [--wheel FILE] [--rounds N] [--only PART ...]
 
 * COMMAND: the command `hammerbeam`, built with the same profile as the extension module.
 * `--whole`: figure 3 of the paper over its whole range, 19 to 110 Hz, instead of 30 to 38 Hz alone.
 * `--wheel`: the wheel; by default the newest in `target/wheels`.
+* `--only`: some parts alone, of `size`, `import`, `overhead`, `samples`, `solutions`, `planned`, `throughput`.
 
 All seconds but those of the last line are processor time of all threads and processes, the least of some
 rounds: other programs may be at work.
@@ -14,11 +15,15 @@ rounds: other programs may be at work.
 import argparse
 import os
 import resource
+import sqlite3
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import zlib
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 
 import hammerbeam
@@ -62,12 +67,17 @@ def imported(rounds: int) -> Iterator[Row]:
     yield "import", f"{numpy_s + own_s:.3f} s, of it NumPy {numpy_s:.3f} s", "0.3 s"
 
 
-def overhead(command: str, whole: bool, rounds: int, folder: Path) -> Iterator[Row]:
-    """Figure 3 of the paper by the command and by the package, in turn: figures and page among it."""
+def figure_3(whole: bool) -> str:
+    """Its study, over the whole range or a part of it."""
     study = hammerbeam.Study.read(ROOT / "studies/beam-with-stop.toml")
     settings = {} if whole else {"excitation.frequency_hz": [30.0, 38.0], "response.period_multiples": [1]}
+    return study.text_with(settings)
+
+
+def overhead(command: str, whole: bool, rounds: int, folder: Path) -> Iterator[Row]:
+    """Figure 3 of the paper by the command and by the package, in turn: figures and page among it."""
     path = folder / "figure-3.toml"
-    path.write_text(study.text_with(settings), encoding="utf-8")
+    path.write_text(figure_3(whole), encoding="utf-8")
     times = dict[str, list[float]](command=[], python=[])
     for turn in range(rounds):
         out = [str(folder / f"{name}-{turn}") for name in times]
@@ -83,23 +93,77 @@ def overhead(command: str, whole: bool, rounds: int, folder: Path) -> Iterator[R
     )
 
 
-def million(rounds: int, folder: Path) -> Iterator[Row]:
+def samples(rounds: int, folder: Path) -> Iterator[Row]:
     """A motion of a million samples, from its results folder into a structured array."""
     study = hammerbeam.Study.read(ROOT / "studies/duffing.toml")
     study.simulate(0.25, periods=10, samples_per_period=100_000, out=folder / "motion", progress=False)
     read = NativeResults.open(folder / "motion")
 
-    def taken() -> tuple[float, float, int]:
+    def taken() -> tuple[float, int]:
         start = time.process_time()
-        packed = read.request_tables(1)
-        middle = time.process_time()
-        tables = {one[0]: array(one) for one in packed}
-        return middle - start, time.process_time() - middle, len(tables["samples"])
+        tables = {one[0]: array(one) for one in read.request_tables(1)}
+        return time.process_time() - start, len(tables["samples"])
 
     found = [taken() for _ in range(rounds)]
-    read_s, into_s = (min(one[k] for one in found) for k in (0, 1))
-    yield f"{found[0][2]} rows of a folder, read and packed", f"{read_s:.3f} s", "0.2 s with the next"
-    yield "the same, packed rows as an array of NumPy", f"{into_s:.5f} s", ""
+    rows = found[0][1]
+    yield f"{rows:_} samples of a motion".replace("_", " "), f"{min(one[0] for one in found):.3f} s", "0.2 s"
+
+
+def solutions(rounds: int, folder: Path) -> Iterator[Row]:
+    """A folder of a million solutions: opened, and its rows as a structured array."""
+    hammerbeam.Study.parse(figure_3(whole=False)).run(folder / "diagram", progress=False, figures=False).close()
+    enlarge(folder / "diagram/results.db", 1_000_000)
+
+    def taken() -> tuple[float, float, int]:
+        start = time.process_time()
+        with hammerbeam.Results(folder / "diagram") as results:
+            middle = time.process_time()
+            rows = len(results.branches())
+            return middle - start, time.process_time() - middle, rows
+
+    found = [taken() for _ in range(rounds)]
+    open_s, rows_s = (min(one[k] for one in found) for k in (0, 1))
+    size = (folder / "diagram/results.db").stat().st_size / 1e6
+    yield f"a folder of {found[0][2]:_} solutions opened".replace("_", " "), f"{open_s:.2f} s, {size:.0f} MB", ""
+    yield "the rows of these solutions", f"{rows_s:.3f} s", "0.2 s"
+
+
+def enlarge(database: Path, count: int) -> None:
+    """Copies the branches of a results folder, under new numbers, until it has so many solutions."""
+    with closing(sqlite3.connect(database)) as store, store:
+        store.create_function("row_checksum", -1, checksum, deterministic=True)
+        [(there, starts, branches)] = store.execute(
+            "SELECT (SELECT count(*) FROM solution), max(id) + 1, max(branch) FROM start"
+        )
+        # A start has two walks, and a walk 2^32 solutions.
+        shifts = {
+            "start": {"id": starts, "branch": branches},
+            "walk": {"id": 2 * starts, "start": starts},
+            "solution": {"id": starts << 33},
+        }
+        for table, shifted in shifts.items():
+            known = [name for _, name, *_ in store.execute(f"PRAGMA table_info({table})") if name != "checksum"]
+            copied = [f"{name} + ?1 * {shifted[name]}" if name in shifted else name for name in known]
+            rows = f"SELECT {', '.join(copied)} FROM {table} WHERE id < {shifted['id']}"
+            for copy in range(1, -(-count // there)):
+                store.execute(f"INSERT INTO {table} ({', '.join(known)}) {rows}", (copy,))
+
+
+def checksum(*values: float | str | bytes | None) -> int:
+    """That of crates/results/src/store/checksum.rs."""
+    parts = list[bytes]()
+    for value in values:
+        match value:
+            case None:
+                parts.append(b"\0")
+            case int():
+                parts.append(struct.pack("<bq", 1, value))
+            case float():
+                parts.append(struct.pack("<bd", 2, value + 0.0))
+            case _:
+                data, tag = (value.encode(), 3) if isinstance(value, str) else (value, 4)
+                parts.append(struct.pack("<bQ", tag, len(data)) + data)
+    return zlib.crc32(b"".join(parts))
 
 
 def planned(folder: Path) -> Iterator[Row]:
@@ -158,20 +222,22 @@ def main() -> None:
     parser.add_argument("--whole", action="store_true")
     parser.add_argument("--wheel", type=Path)
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--only", nargs="+")
     given = parser.parse_args()
     print("| what | measured | allowed |\n|---|---|---|")
     with tempfile.TemporaryDirectory() as temporary:
         folder, rounds = Path(temporary), given.rounds
-        parts = (
-            size(given.wheel),
-            imported(rounds),
-            overhead(given.command, given.whole, rounds, folder),
-            million(rounds, folder),
-            planned(folder),
-            throughput(folder),
-        )
-        for part in parts:
-            for row in part:
+        parts = {
+            "size": size(given.wheel),
+            "import": imported(rounds),
+            "overhead": overhead(given.command, given.whole, rounds, folder),
+            "samples": samples(rounds, folder),
+            "solutions": solutions(rounds, folder),
+            "planned": planned(folder),
+            "throughput": throughput(folder),
+        }
+        for name in given.only or parts:
+            for row in parts[name]:
                 print(f"| {' | '.join(row)} |", flush=True)
     print(f"\n{np.__name__} {np.__version__}, Python {sys.version.split()[0]}, {os.cpu_count()} cores")
 

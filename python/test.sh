@@ -18,18 +18,28 @@ skip() {
 if ! command -v python3 > /dev/null || ! python3 -c "import sys; assert sys.version_info >= (3, 11)" 2> /dev/null; then
     skip "the Python package needs Python 3.11 or later"
 fi
-if ! cat python/requirements.txt python/requirements-clusters.txt | cmp -s - "$tools/requirements.txt"; then
+# Each list that is installed whole leaves a copy behind: what is missing is tried again by the next call.
+if ! cmp -s python/requirements.txt "$tools/requirements.txt"; then
     rm -rf "$tools"
     python3 -m venv "$tools" || skip "Python has no venv here"
     if ! "$tools/bin/pip" install --quiet --requirement python/requirements.txt; then
         rm -rf "$tools"
         skip "the tests need the packages of python/requirements.txt, and no package registry answers"
     fi
+    cp python/requirements.txt "$tools/requirements.txt"
+fi
+if ! cmp -s python/requirements-clusters.txt "$tools/requirements-clusters.txt"; then
+    missing=0
     # One by one: none of them is there for every system.
-    grep -v "^#" python/requirements-clusters.txt | while read -r package; do
-        "$tools/bin/pip" install --quiet "$package" || echo "skipped: tests with $package, which is not to be had here"
+    for package in $(grep -v "^#" python/requirements-clusters.txt); do
+        if ! "$tools/bin/pip" install --quiet "$package"; then
+            echo "skipped: tests with $package, which is not to be had here"
+            missing=1
+        fi
     done
-    cat python/requirements.txt python/requirements-clusters.txt > "$tools/requirements.txt"
+    if [ "$missing" = 0 ]; then
+        cp python/requirements-clusters.txt "$tools/requirements-clusters.txt"
+    fi
 fi
 if [ "${1:-}" = wheel ]; then
     exec "$tools/bin/maturin" build --release --out "$target/wheels"

@@ -1,6 +1,5 @@
 """Formats that are written from Python: MAT, Parquet, HDF5."""
 
-import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ import numpy as np
 
 from ._check import unknown
 from ._errors import ExportError
+from ._files import whole_files
 from ._tables import Array, needed
 
 NATIVE = ("csv", "json", "npz")
@@ -27,9 +27,9 @@ def write(tables: Mapping[str, Array], format: str, folder: Path, name: str) -> 
     it was before."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".export-", dir=folder) as unfinished:
-            written = WRITERS[format](tables, Path(unfinished), name)
-            return [path.replace(folder / path.name) for path in written]
+        with whole_files(folder) as place:
+            written = WRITERS[format](tables, place, name)
+        return [folder / path.name for path in written]
     except OSError as error:
         raise ExportError(f"{folder}: {error.strerror or error}") from error
 

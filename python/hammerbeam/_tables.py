@@ -10,7 +10,8 @@ from ._errors import BadInput
 Array = np.ndarray[Any, np.dtype[Any]]
 """An array; where rows of a table are meant, a structured one."""
 
-Packed = tuple[str, list[tuple[str, str, int | None]], int, bytearray]
+Packed = tuple[str, list[tuple[str, str, int | None]], int, Array]
+"""Name, fields, number of rows, and the rows as an array of bytes."""
 
 
 def array(packed: Packed) -> Array:
@@ -24,7 +25,7 @@ def array(packed: Packed) -> Array:
     )
     if rows == 0:
         return np.empty(0, dtype=kind)
-    return np.frombuffer(data, dtype=kind)
+    return data.view(kind)
 
 
 def frame(table: Array) -> Any:

@@ -18,6 +18,7 @@ import pytest
 from conftest import ROOT, STUDIES
 from hammerbeam import batch
 from hammerbeam.batch import Batch, Local, Parameters, Status, Task
+from hammerbeam.batch.__main__ import main as terminal
 
 EXAMPLE = ROOT / "python/examples/dakota/oscillator.toml"
 GAP = "stop.stop.gap_m"
@@ -193,6 +194,39 @@ def test_a_batch_from_a_terminal(tmp_path: Path) -> None:
         with pytest.raises(subprocess.CalledProcessError) as error:
             asked("plan", "other", str(EXAMPLE), table)
         assert error.value.returncode == 2 and words in error.value.stderr
+
+
+def test_samples_from_a_terminal_are_those_of_the_class(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def planned(name: str, *words: str) -> tuple[int, str]:
+        code = terminal(["plan", str(tmp_path / name), str(EXAMPLE), *words])
+        said = capsys.readouterr()
+        return code, said.out + said.err
+
+    force = "excitation.amplitude_n"
+    ranges = ("--latin", f"{GAP}=0.8:1.2", "--latin", f"{force}=0.2:3e-1", "--samples", "5")
+    assert planned("b", *ranges, "--seed", "3")[0] == 0
+    expected = Parameters.latin_hypercube({GAP: (0.8, 1.2), force: (0.2, 0.3)}, 5, seed=3)
+    made = Batch(tmp_path / "b")
+    assert (made.parameters.rows, made.task) == (expected.rows, Task.run())
+    (tmp_path / "sweep.json").write_text('{"method": "sweep", "options": {"starts": 4}, "parts": 2}')
+    assert planned("s", *ranges, "--task", str(tmp_path / "sweep.json"))[1].startswith("0 of 10")
+    assert Batch(tmp_path / "s").task == Task.sweep(starts=4, parts=2)
+    (tmp_path / "t.json").write_text('{"method": "sweep"}')
+    for given, words in (
+        ((), "which studies are meant is missing"),
+        (("--latin", f"{GAP}=0:1"), "with --samples N"),
+        (("--latin", f"{GAP}=0.8", "--samples", "2"), "must be KEY=LOW:HIGH"),
+        (("--latin", f"{GAP}=2:1", "--samples", "2"), "is empty"),
+        (("--latin", f"{GAP}=nan:1", "--samples", "2"), "nan"),
+        ((*ranges, "--latin", f"{GAP}=1:2"), "the same key is given twice"),
+        (("gaps.csv", "--seed", "1"), "there is one already, gaps.csv"),
+        ((*ranges, "--task", str(tmp_path / "t.json")), "must have method, options and parts"),
+    ):
+        code, said = planned("n", *given)
+        assert code == 2 and words in said, said
+    assert not (tmp_path / "n").exists()
 
 
 def test_matrices_of_arrays_go_with_the_batch(tmp_path: Path) -> None:

@@ -176,3 +176,54 @@ fn waveform_table(model: &Model, waveforms: &[OrbitWaveform]) -> ArrayTable {
     columns.push(("state".to_owned(), ArrayValues::vectors(&states)));
     ArrayTable::new("waveforms", columns)
 }
+
+#[cfg(test)]
+mod tests {
+    use hammerbeam_orbit::OrbitMaxima;
+
+    use super::*;
+    use crate::{FailureKind, Quiet};
+
+    const STUDY: &str = include_str!("../../../studies/duffing.toml");
+
+    fn orbit(period_multiple: u32) -> ChosenOrbit {
+        let solution = PeriodicSolution {
+            phase: 0.0,
+            frequency_hz: 0.25,
+            period_multiple,
+            nodes: vec![vec![0.0; 2]],
+            floquet_multipliers: Vec::new(),
+            on_circle: Vec::new(),
+            residual: 0.0,
+            error_estimate: 0.0,
+            maxima: OrbitMaxima::default(),
+        };
+        ChosenOrbit { branch: None, event: String::new(), solution }
+    }
+
+    /// A sample of one mass with one spring is eight numbers: time, phase, three of the point, a force, two of
+    /// the state. 50 000 000 of them are 6 250 000 samples.
+    #[test]
+    fn motions_are_as_large_as_is_allowed_and_no_larger() {
+        let model = PreparedStudy::parse("duffing.toml", STUDY).unwrap().model;
+        let orbits = vec![orbit(5), orbit(20)];
+        ensure_small(&model, &orbits, 250_000).unwrap();
+        let refused = orbit_tables(&model, &orbits, 250_001, &mut Quiet).unwrap_err();
+        let words = "the motions of 2 orbits are 50000200 numbers, must be 50000000 at most; allowed: fewer orbits, \
+            or at most 250000 samples in a period";
+        assert_eq!(refused.to_string(), words);
+        assert_eq!(refused.kind(), FailureKind::BadInput);
+    }
+
+    /// 120 orbits of 65 536 periods are 7 864 320 periods, more than there may be samples.
+    #[test]
+    fn where_one_sample_in_a_period_is_too_much_fewer_orbits_are_allowed() {
+        let model = PreparedStudy::parse("duffing.toml", STUDY).unwrap().model;
+        let refused = orbit_tables(&model, &vec![orbit(1 << 16); 120], 1, &mut Quiet).unwrap_err();
+        assert!(matches!(refused, JobError::MotionsTooLarge { orbits: 120, most_samples: 0, .. }));
+        assert!(
+            refused.to_string().ends_with("must be 50000000 at most; allowed: fewer orbits"),
+            "{refused}"
+        );
+    }
+}

@@ -51,10 +51,11 @@ pub enum JobError {
     /// A motion that takes too much of memory or of the disk.
     #[error(transparent)]
     TooLarge(#[from] SimulationTooLarge),
-    /// Motions of orbits that take too much of memory.
+    /// Motions of orbits that take too much of memory, `most_samples` 0 if there is no number that is small
+    /// enough.
     #[error(
-        "the motions of {orbits} orbits are {numbers} numbers, must be {most} at most; allowed: fewer \
-        orbits, or at most {most_samples} samples in a period"
+        "the motions of {orbits} orbits are {numbers} numbers, must be {most} at most; allowed: {}",
+        fewer(*most_samples)
     )]
     MotionsTooLarge { orbits: usize, numbers: u64, most: u64, most_samples: u64 },
     /// Measured points cannot be compared.
@@ -140,5 +141,13 @@ fn known_outputs(known: &[String]) -> String {
     match known {
         [] => "they have none: `hammerbeam run` computes those of [[output]]".to_owned(),
         _ => format!("they have {}", known.join(", ")),
+    }
+}
+
+/// What takes less of memory than motions that are too large.
+fn fewer(most_samples: u64) -> String {
+    match most_samples {
+        0 => "fewer orbits".to_owned(),
+        _ => format!("fewer orbits, or at most {most_samples} samples in a period"),
     }
 }

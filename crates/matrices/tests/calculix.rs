@@ -22,14 +22,9 @@ fn bar() -> Matrices {
     };
     let tip = PointPlace::Node { node: 3, along: Along::Row(Direction::Translation(1)) };
     Matrices {
-        components: vec![read_component(&files).unwrap()],
         nodes: read_nodes(&fixture("bar.inp")).unwrap(),
         points: vec![MatrixPoint { name: "tip".into(), place: tip }],
-        supports: Vec::new(),
-        fixed: Vec::new(),
-        acceleration: None,
-        lines: Vec::new(),
-        memory_limit_bytes: 1 << 30,
+        ..Matrices::new(vec![read_component(&files).unwrap()], 1 << 30)
     }
 }
 

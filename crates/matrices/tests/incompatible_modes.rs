@@ -31,16 +31,7 @@ fn structure(name: &str, nodes: Nodes) -> Matrices {
         damping: None,
         labels: Some(fixture(&format!("{name}.dof"))),
     };
-    Matrices {
-        components: vec![read_component(&files).unwrap()],
-        nodes,
-        points: Vec::new(),
-        supports: Vec::new(),
-        fixed: Vec::new(),
-        acceleration: None,
-        lines: Vec::new(),
-        memory_limit_bytes: 1 << 30,
-    }
+    Matrices { nodes, ..Matrices::new(vec![read_component(&files).unwrap()], 1 << 30) }
 }
 
 fn supported(nodes: Nodes, rows: SupportRows) -> Matrices {

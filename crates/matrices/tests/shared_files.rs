@@ -32,16 +32,7 @@ fn component(stiffness: PathBuf, mass: PathBuf, labels: Option<PathBuf>, factor:
 }
 
 fn modes(components: Vec<MatrixComponent>, cut_off_hz: f64) -> Reduced {
-    let matrices = Matrices {
-        components,
-        nodes: std::collections::BTreeMap::new(),
-        points: Vec::new(),
-        supports: Vec::new(),
-        fixed: Vec::new(),
-        acceleration: None,
-        lines: Vec::new(),
-        memory_limit_bytes: 1 << 30,
-    };
+    let matrices = Matrices::new(components, 1 << 30);
     let reduction = Reduction::Truncation { cut_off_hz };
     matrices.reduce(&[], &reduction, &Damping::none(), &[]).unwrap_or_else(|error| panic!("{error}")).0
 }

@@ -202,11 +202,19 @@ impl Row {
     /// What the row has in a column; `None` where the column is not one of a row.
     #[must_use]
     pub fn value(&self, column: TableColumn) -> Option<RowValue> {
+        match column {
+            TableColumn::Contacts => Some(RowValue::Count(self.maxima.contacts)),
+            TableColumn::Stable => Some(RowValue::Stability(self.stability)),
+            TableColumn::Event => Some(RowValue::Events(self.events)),
+            _ => self.number(column).map(RowValue::Number),
+        }
+    }
+
+    /// The number that the row has in a column; `None` where it has something else or nothing.
+    #[must_use]
+    pub fn number(&self, column: TableColumn) -> Option<f64> {
         let maxima = &self.maxima;
-        let number = match column {
-            TableColumn::Contacts => return Some(RowValue::Count(maxima.contacts)),
-            TableColumn::Stable => return Some(RowValue::Stability(self.stability)),
-            TableColumn::Event => return Some(RowValue::Events(self.events)),
+        Some(match column {
             TableColumn::Parameter => self.parameter,
             TableColumn::Frequency => self.frequency_hz,
             TableColumn::Displacement => maxima.displacement,
@@ -219,8 +227,7 @@ impl Row {
             TableColumn::Residual => self.residual,
             TableColumn::ErrorEstimate => self.error_estimate,
             _ => return None,
-        };
-        Some(RowValue::Number(number))
+        })
     }
 
     /// Takes a value into a column of a row; whether it is one of its kind.

@@ -37,6 +37,17 @@ pub(crate) enum Cell {
     Complex(Vec<[f64; 2]>),
 }
 
+impl From<RowValue> for Cell {
+    fn from(value: RowValue) -> Self {
+        match value {
+            RowValue::Number(number) => Self::Number(number),
+            RowValue::Count(count) => Self::Whole(count.into()),
+            RowValue::Stability(stability) => Self::Stability(stability),
+            RowValue::Events(events) => Self::Words(events.label().into()),
+        }
+    }
+}
+
 /// A branch with the piece that it is of, if it is of one.
 pub(crate) struct OwnedBranch<'a> {
     piece: Option<&'a PieceRecord>,
@@ -88,6 +99,31 @@ impl OwnedBranch<'_> {
             TableLines::States => self.each_state(store, take),
             TableLines::Outputs => self.each_output(store, take),
         }
+    }
+
+    /// What is the same in each line of [`TableLines::Rows`].
+    pub fn common_line(&self) -> Line<'_> {
+        self.line(Row::default())
+    }
+
+    /// The rows of the lines of [`TableLines::Rows`], so many at a time.
+    pub fn each_block(
+        &self,
+        store: &Store,
+        size: usize,
+        mut take: impl FnMut(&[Row]),
+    ) -> Result<(), StoreError> {
+        let mut rows = Vec::with_capacity(size);
+        store.each_row::<StoreError>(self.branch, |row| {
+            rows.push(row);
+            if rows.len() == size {
+                take(&rows);
+                rows.clear();
+            }
+            Ok(())
+        })?;
+        take(&rows);
+        Ok(())
     }
 
     fn line(&self, row: Row) -> Line<'_> {
@@ -207,12 +243,7 @@ pub(crate) struct Line<'a> {
 impl Line<'_> {
     /// What the line has in a column.
     pub fn cell(&self, column: TableColumn) -> Cell {
-        let of_row = self.row.value(column).map(|value| match value {
-            RowValue::Number(number) => Cell::Number(number),
-            RowValue::Count(count) => Cell::Whole(count.into()),
-            RowValue::Stability(stability) => Cell::Stability(stability),
-            RowValue::Events(events) => Cell::Words(events.label().into()),
-        });
+        let of_row = self.row.value(column).map(Cell::from);
         of_row
             .or_else(|| self.of_branch(column))
             .or_else(|| self.of_point(column))

@@ -1,6 +1,6 @@
 //! Structures given as matrices: against beams and masses that are assembled here, and closed forms.
 
-use std::{collections::BTreeMap, f64::consts::TAU};
+use std::f64::consts::TAU;
 
 use hammerbeam_structure::{
     Along, Connection, Damping, Direction, Entry, GROUND, Lumped, LumpedMass, Matrices, MatrixComponent,
@@ -15,23 +15,15 @@ fn matrix(size: usize, entries: &[(usize, usize, f64)]) -> SymmetricMatrix {
 }
 
 fn of_matrices(stiffness: SymmetricMatrix, mass: SymmetricMatrix) -> Matrices {
-    Matrices {
-        components: vec![MatrixComponent {
-            name: String::new(),
-            stiffness,
-            mass,
-            damping: None,
-            labels: Vec::new(),
-            precision: 1.2e-16,
-        }],
-        nodes: BTreeMap::new(),
-        lines: Vec::new(),
-        points: Vec::new(),
-        supports: Vec::new(),
-        fixed: Vec::new(),
-        acceleration: None,
-        memory_limit_bytes: 1 << 30,
-    }
+    let component = MatrixComponent {
+        name: String::new(),
+        stiffness,
+        mass,
+        damping: None,
+        labels: Vec::new(),
+        precision: 1.2e-16,
+    };
+    Matrices::new(vec![component], 1 << 30)
 }
 
 fn at_row(name: &str, row: usize) -> MatrixPoint {

@@ -48,7 +48,7 @@ impl NativeOrbits {
     }
 
     /// One row for each.
-    fn table<'py>(&self, py: Python<'py>) -> PackedTable<'py> {
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<PackedTable<'py>> {
         packed(py, &orbit_table(&self.orbits))
     }
 
@@ -60,7 +60,7 @@ impl NativeOrbits {
         callbacks: (Callback, Callback),
     ) -> PyResult<Vec<PackedTable<'py>>> {
         let tables = PythonObserver::run(py, callbacks, |observer| self.tables(samples, observer))?;
-        Ok(all_packed(py, &tables.map_err(|error| exception(py, error))?))
+        all_packed(py, &tables.map_err(|error| exception(py, error))?)
     }
 
     /// Some of them, in the order that is given.
@@ -76,7 +76,7 @@ impl NativeOrbits {
         let one = std::slice::from_ref(orbit);
         let tables = py.detach(|| orbit_tables(&self.study.model, one, samples, &mut Quiet));
         let [_, waveform] = tables.map_err(|error| exception(py, error))?;
-        Ok(packed(py, &waveform))
+        packed(py, &waveform)
     }
 
     /// Shooting nodes of one of them.

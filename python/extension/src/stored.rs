@@ -94,7 +94,7 @@ impl NativeResults {
     #[staticmethod]
     fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
         let opened = py.detach(|| {
-            let store = Store::open(&folder)?;
+            let store = Store::open_with_rows(&folder)?;
             let study = Study::of_store(&store)?;
             Ok((store, study))
         });
@@ -133,7 +133,7 @@ impl NativeResults {
     ) -> PyResult<Vec<PackedTable<'py>>> {
         let found = self.ask(py, |store| tables(store, name, &branches))?;
         match found {
-            Some(tables) => Ok(all_packed(py, &tables)),
+            Some(tables) => all_packed(py, &tables),
             None => Err(unknown(py, "table", name, &TABLES.map(String::from))),
         }
     }
@@ -145,7 +145,7 @@ impl NativeResults {
             let record = requests.iter().find(|record| record.id == request);
             record.map_or_else(|| Ok(Vec::new()), |record| request_tables(store, record))
         })?;
-        Ok(all_packed(py, &found))
+        all_packed(py, &found)
     }
 
     /// Number of rows of each branch.

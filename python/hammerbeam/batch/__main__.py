@@ -1,6 +1,7 @@
 """`python -m hammerbeam.batch`: a batch folder from a terminal, and what engines call.
 
-    python -m hammerbeam.batch plan FOLDER STUDY TABLE.csv
+    python -m hammerbeam.batch plan FOLDER STUDY TABLE.csv [--task TASK.json]
+    python -m hammerbeam.batch plan FOLDER STUDY --latin KEY=LOW:HIGH ... --samples N [--seed S] [--task TASK.json]
     python -m hammerbeam.batch run FOLDER [--processes N] [--hyperqueue]
     python -m hammerbeam.batch status FOLDER
     python -m hammerbeam.batch gather FOLDER
@@ -8,7 +9,8 @@
     python -m hammerbeam.batch item [--jobs N] FOLDER WHICH ...
 
 WHICH is a number, a range such as 101-200, `--entry` for the entry of HyperQueue, or `-` for numbers from
-standard input. Exit codes are those of the command `hammerbeam`.
+standard input. TASK.json says what is computed instead of a run, such as
+`{"method": "sweep", "options": {"starts": 20}, "parts": 4}`. Exit codes are those of the command `hammerbeam`.
 """
 
 import argparse
@@ -16,6 +18,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from .. import _check
 from .._errors import BadInput, HammerbeamError
@@ -25,6 +28,7 @@ from ._hyperqueue import HyperQueue
 from ._local import Local
 from ._parameters import Parameters
 from ._slurm import slurm_script
+from ._task import Task
 from ._watch import Lines
 
 
@@ -60,8 +64,13 @@ def _parser() -> argparse.ArgumentParser:
     ):
         commands.add_parser(name).set_defaults(does=does)
         commands.choices[name].add_argument("folder")
-    commands.choices["plan"].add_argument("study")
-    commands.choices["plan"].add_argument("table")
+    plan = commands.choices["plan"]
+    plan.add_argument("study")
+    plan.add_argument("table", nargs="?")
+    plan.add_argument("--latin", action="append", default=[], metavar="KEY=LOW:HIGH")
+    plan.add_argument("--samples", type=int)
+    plan.add_argument("--seed", type=int)
+    plan.add_argument("--task", metavar="TASK.json")
     commands.choices["run"].add_argument("--processes", type=int)
     commands.choices["run"].add_argument("--hyperqueue", action="store_true")
     item = commands.add_parser("item")
@@ -77,8 +86,34 @@ def _none(rest: Sequence[str]) -> None:
 
 def _plan(given: argparse.Namespace, rest: Sequence[str]) -> int:
     _none(rest)
-    print(Batch.plan(given.folder, given.study, Parameters.read(given.table)).counts())
+    task = None if given.task is None else Task.from_document(read_json(Path(given.task)))
+    print(Batch.plan(given.folder, given.study, _table(given), task).counts())
     return 0
+
+
+def _table(given: argparse.Namespace) -> Parameters:
+    """The table that is read, or made from ranges."""
+    samples = (given.samples, given.seed)
+    if given.table is not None:
+        if given.latin or samples != (None, None):
+            raise BadInput("--latin, --samples and --seed make a table; there is one already, " + given.table)
+        return Parameters.read(given.table)
+    if not given.latin or given.samples is None:
+        raise BadInput("which studies are meant is missing: a table, or --latin KEY=LOW:HIGH with --samples N")
+    ranges = dict(_range(text) for text in given.latin)
+    if len(ranges) < len(given.latin):
+        raise BadInput("--latin: the same key is given twice")
+    return Parameters.latin_hypercube(ranges, given.samples, 0 if given.seed is None else given.seed)
+
+
+def _range(text: str) -> tuple[str, tuple[float, float]]:
+    """A key with the ends of its range."""
+    key, _, ends = text.partition("=")
+    low, _, high = ends.partition(":")
+    try:
+        return key, (float(low), float(high))
+    except ValueError:
+        raise BadInput(f"--latin: found {text!r}, must be KEY=LOW:HIGH, as in stop.1.gap_m=1e-3:2e-3") from None
 
 
 def _run(given: argparse.Namespace, rest: Sequence[str]) -> int:

@@ -78,16 +78,8 @@ fn import_files(options: &ImportOptions, output: Output) -> Result<(), Failure> 
         nodes = scaled.map(|(node, place)| (node, place.map(|part| factor * part))).collect();
     }
     let lines = parts.lines.as_ref().map_or(Ok(Vec::new()), |path| read_lines(path).map_err(bad))?;
-    let matrices = Matrices {
-        components: vec![component],
-        nodes,
-        points: Vec::new(),
-        supports: Vec::new(),
-        fixed: Vec::new(),
-        acceleration: None,
-        lines: Vec::new(),
-        memory_limit_bytes: (1e9 * options.memory_gb) as u64,
-    };
+    let memory_limit_bytes = (1e9 * options.memory_gb) as u64;
+    let matrices = Matrices { nodes, ..Matrices::new(vec![component], memory_limit_bytes) };
     let survey = matrices.survey(FREQUENCIES).map_err(|error| Failure::BadInput(error.to_string()))?;
     let bundle = Bundle {
         stiffness: &survey.stiffness,

@@ -2,13 +2,17 @@
 
 use hammerbeam_orbit::Stability;
 
-use super::{ArrayTable, ArrayValues};
+use super::{ArrayTable, ArrayValues, or_nan};
 use crate::{
-    columns::TableColumn,
+    columns::{RowValue, TableColumn},
     export::{BranchTable, TableLines, TableOver},
-    lines::{Branches, Cell, Line},
+    lines::{Branches, Cell, Line, OwnedBranch},
+    row::Row,
     store::{Store, StoreError},
 };
+
+/// Rows that are taken at a time, column by column.
+const BLOCK: usize = 512;
 
 /// Branches over the frequency: their rows, events, ends or states, with the columns of the CSV file.
 /// Behind `stable` comes `stability`, which says it in a word.
@@ -47,10 +51,16 @@ fn array(
     branches: &[u32],
 ) -> Result<ArrayTable, StoreError> {
     let mut columns: Vec<ColumnBuilder> = table.columns().map(ColumnBuilder::of).collect();
-    for branch in all.over(table.over) {
-        if branches.is_empty() || branches.contains(&branch.id()) {
+    let is_wanted = |branch: &OwnedBranch<'_>| branches.is_empty() || branches.contains(&branch.id());
+    for branch in all.over(table.over).into_iter().filter(is_wanted) {
+        if table.lines == TableLines::Rows {
+            let common = branch.common_line();
+            branch.each_block(store, BLOCK, |rows| {
+                columns.iter_mut().for_each(|column| column.add_rows(&common, rows));
+            })?;
+        } else {
             branch.each_line::<StoreError>(store, table.lines, |line| {
-                columns.iter_mut().for_each(|column| column.add(line));
+                columns.iter_mut().for_each(|column| column.add(line.cell(column.column)));
                 Ok(())
             })?;
         }
@@ -99,8 +109,25 @@ impl ColumnBuilder {
         Self { column, entries }
     }
 
-    fn add(&mut self, line: &Line<'_>) {
-        match (&mut self.entries, line.cell(self.column)) {
+    /// Adds a line for each row, all the same but for what is of the row.
+    fn add_rows(&mut self, common: &Line<'_>, rows: &[Row]) {
+        let column = self.column;
+        let (Some(first), same) = (rows.first(), common.cell(column)) else { return };
+        match (&mut self.entries, first.value(column), same) {
+            // Most columns, so without a detour over cells.
+            (Entries::Numbers(values), Some(RowValue::Number(_)), _) => {
+                values.extend(rows.iter().map(|row| or_nan(row.number(column))));
+            }
+            (Entries::Whole(values), None, Cell::Whole(same)) => {
+                values.extend(std::iter::repeat_n(same as i64, rows.len()));
+            }
+            (_, None, same) => rows.iter().for_each(|_| self.add(same.clone())),
+            _ => rows.iter().for_each(|row| self.add(row.value(column).map_or(Cell::None, Cell::from))),
+        }
+    }
+
+    fn add(&mut self, cell: Cell) {
+        match (&mut self.entries, cell) {
             (Entries::Numbers(values), Cell::Number(value)) => values.push(value),
             (Entries::Numbers(values), _) => values.push(f64::NAN),
             (Entries::Whole(values), Cell::Whole(value)) => values.push(value as i64),

@@ -6,6 +6,7 @@ use super::{ArrayTable, branch_array, motion_tables, piece_arrays, write_json, w
 use crate::{
     export::{ExportError, TableLines, export_csv, export_states},
     store::{Store, StoreError, StoredOutputs},
+    whole_file::ensure_written,
 };
 
 /// Format of exported tables.
@@ -60,7 +61,7 @@ pub fn all_tables(store: &Store, with_states: bool) -> Result<Vec<ArrayTable>, S
 /// # Returns
 /// The files.
 /// # Errors
-/// [`ExportError`].
+/// [`ExportError`]; [`ExportError::Write`] also if a file was removed while later ones were written.
 pub fn export_all(
     store: &Store,
     folder: &Path,
@@ -77,6 +78,7 @@ pub fn export_all(
     if with_states {
         files.extend(export_states(store, folder)?);
     }
+    ensure_written(Path::new(""), &files)?;
     Ok(files)
 }
 
@@ -87,17 +89,21 @@ pub fn export_all(
 /// # Returns
 /// The files.
 /// # Errors
-/// [`ExportError::Write`].
+/// [`ExportError::Write`], also if a file was removed while later ones were written.
 pub fn write_tables(
     tables: &[ArrayTable],
     folder: &Path,
     (name, format): (&str, TableFormat),
 ) -> Result<Vec<PathBuf>, ExportError> {
     let path = folder.join(format!("{name}.{}", format.name()));
+    let mut files = vec![path.clone()];
     match format {
-        TableFormat::Csv => return tables.iter().map(|table| write_table(table, folder)).collect(),
+        TableFormat::Csv => {
+            files = tables.iter().map(|table| write_table(table, folder)).collect::<Result<_, _>>()?;
+        }
         TableFormat::Json => write_json(tables, &path)?,
         TableFormat::Npz => write_npz(tables, &path)?,
     }
-    Ok(vec![path])
+    ensure_written(Path::new(""), &files)?;
+    Ok(files)
 }

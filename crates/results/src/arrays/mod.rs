@@ -27,7 +27,7 @@ pub use export::{TableFormat, all_tables, export_all, write_tables};
 pub use json::write_json;
 pub use motions::{motion_tables, request_tables};
 pub use npz::write_npz;
-pub use records::{Records, pack};
+pub use records::{Layout, Records, pack};
 
 /// The entries of a column, one for each row.
 #[derive(Debug, Clone, PartialEq)]

@@ -22,27 +22,64 @@ pub struct Records {
     pub bytes: Vec<u8>,
 }
 
-/// Packs a table; columns of vectors that have no entry in any row are left out.
-#[must_use]
-pub fn pack(table: &ArrayTable) -> Records {
-    let rows = table.rows();
-    let columns: Vec<&ArrayColumn> = table.columns.iter().filter(|column| width(column) > 0).collect();
-    let fields = columns.iter().map(|column| field(column)).collect();
-    let widths: Vec<usize> = columns.iter().map(|column| width(column)).collect();
-    let size = widths.iter().sum::<usize>();
-    let mut bytes = vec![0; rows * size];
-    for first in (0..rows).step_by(BLOCK) {
-        let block = first..rows.min(first + BLOCK);
-        let mut offset = 0;
-        for (column, width) in columns.iter().zip(&widths) {
-            for row in block.clone() {
-                let start = row * size + offset;
-                put(column, row, &mut bytes[start..start + width]);
+/// How a table is packed: columns of vectors that have no entry in any row are left out.
+#[derive(Debug, Clone)]
+pub struct Layout<'a> {
+    /// Each column with the bytes of an entry.
+    columns: Vec<(&'a ArrayColumn, usize)>,
+    rows: usize,
+}
+
+impl<'a> Layout<'a> {
+    /// The one layout of a table.
+    #[must_use]
+    pub fn of(table: &'a ArrayTable) -> Self {
+        let columns = table.columns.iter().map(|column| (column, width(column)));
+        Self { columns: columns.filter(|(_, width)| *width > 0).collect(), rows: table.rows() }
+    }
+
+    /// Bytes of a record.
+    #[must_use]
+    pub fn record(&self) -> usize {
+        self.columns.iter().map(|(_, width)| width).sum()
+    }
+
+    /// Number of records.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Of each field its name, its type in NumPy's letters, and its length if it is a vector.
+    #[must_use]
+    pub fn fields(&self) -> Vec<(String, String, Option<usize>)> {
+        self.columns.iter().map(|(column, width)| field(column, *width)).collect()
+    }
+
+    /// Writes records, as many as there is room for.
+    ///
+    /// * `first`: number of the first one.
+    pub fn fill(&self, first: usize, bytes: &mut [u8]) {
+        let size = self.record();
+        for (number, block) in bytes.chunks_mut((BLOCK * size).max(1)).enumerate() {
+            let mut offset = 0;
+            for (column, width) in &self.columns {
+                for (row, record) in (first + number * BLOCK..).zip(block.chunks_exact_mut(size)) {
+                    put(column, row, &mut record[offset..offset + width]);
+                }
+                offset += width;
             }
-            offset += width;
         }
     }
-    Records { fields, rows, bytes }
+}
+
+/// Packs a table.
+#[must_use]
+pub fn pack(table: &ArrayTable) -> Records {
+    let layout = Layout::of(table);
+    let mut bytes = vec![0; layout.rows * layout.record()];
+    layout.fill(0, &mut bytes);
+    Records { fields: layout.fields(), rows: layout.rows, bytes }
 }
 
 /// Bytes of an entry.
@@ -61,12 +98,12 @@ fn longest(words: &[std::borrow::Cow<'static, str>]) -> usize {
     words.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1)
 }
 
-fn field(column: &ArrayColumn) -> (String, String, Option<usize>) {
+fn field(column: &ArrayColumn, bytes: usize) -> (String, String, Option<usize>) {
     let (letters, length) = match &column.values {
         ArrayValues::Numbers(_) => ("<f8".to_owned(), None),
         ArrayValues::Whole(_) => ("<i8".to_owned(), None),
         ArrayValues::Flags(_) => ("|b1".to_owned(), None),
-        ArrayValues::Words(words) => (format!("<U{}", longest(words)), None),
+        ArrayValues::Words(_) => (format!("<U{}", bytes / 4), None),
         ArrayValues::Vectors { width, .. } => ("<f8".to_owned(), Some(*width)),
         ArrayValues::Complex { width, .. } => ("<c16".to_owned(), Some(*width)),
     };
@@ -79,6 +116,7 @@ fn put(column: &ArrayColumn, row: usize, place: &mut [u8]) {
         ArrayValues::Whole(values) => place.copy_from_slice(&values[row].to_le_bytes()),
         ArrayValues::Flags(values) => place[0] = u8::from(values[row]),
         ArrayValues::Words(words) => {
+            place.fill(0);
             for (letter, place) in words[row].chars().zip(place.chunks_exact_mut(4)) {
                 place.copy_from_slice(&u32::from(letter).to_le_bytes());
             }

@@ -24,7 +24,7 @@
 
 use crc32fast::Hasher;
 use rusqlite::{
-    Connection,
+    Connection, Row as SqlRow,
     functions::{Context, FunctionFlags},
     types::ValueRef,
 };
@@ -39,13 +39,15 @@ use super::StoreError;
 pub fn add_checksums(connection: &Connection) -> rusqlite::Result<()> {
     let flags =
         FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC | FunctionFlags::SQLITE_INNOCUOUS;
-    connection.create_scalar_function("row_checksum", -1, flags, |row| Ok(i64::from(of_row(row))))
+    connection.create_scalar_function("row_checksum", -1, flags, |row: &Context<'_>| {
+        Ok(of_values((0..row.len()).map(|column| row.get_raw(column))))
+    })
 }
 
-fn of_row(row: &Context<'_>) -> u32 {
+fn of_values<'a>(values: impl Iterator<Item = ValueRef<'a>>) -> i64 {
     let mut hasher = Hasher::new();
-    for column in 0..row.len() {
-        match row.get_raw(column) {
+    for value in values {
+        match value {
             ValueRef::Null => hasher.update(&[0]),
             ValueRef::Integer(number) => number_of(&mut hasher, 1, number.to_le_bytes()),
             // SQLite does not keep the sign of zero.
@@ -54,7 +56,7 @@ fn of_row(row: &Context<'_>) -> u32 {
             ValueRef::Blob(bytes) => bytes_of(&mut hasher, 4, bytes),
         }
     }
-    hasher.finalize()
+    hasher.finalize().into()
 }
 
 fn number_of(hasher: &mut Hasher, tag: u8, number: [u8; 8]) {
@@ -108,6 +110,8 @@ fn columns_of(connection: &Connection, table: &str) -> rusqlite::Result<String> 
 /// Reads the whole database, and refuses it where it is damaged, but for rows of solutions.
 ///
 /// * `create_tables`: makes all tables that there are to be.
+/// * `take`: gets each solution that is as it was stored, in the order of their keys: its key, and the row
+///   with the columns of the table from its first one on, the key.
 ///
 /// # Returns
 /// Keys of the solutions that are not as they were stored, in increasing order.
@@ -116,10 +120,9 @@ fn columns_of(connection: &Connection, table: &str) -> rusqlite::Result<String> 
 pub(super) fn check(
     connection: &Connection,
     create_tables: impl Fn(&Connection) -> Result<(), StoreError>,
+    take: impl FnMut(i64, &SqlRow<'_>),
 ) -> Result<Vec<i64>, StoreError> {
     let damaged = |what: String| StoreError::DamagedFile { what };
-    // All of one moment, even while a run writes.
-    let _moment = connection.unchecked_transaction()?;
     let made = Connection::open_in_memory()?;
     add_checksums(&made)?;
     create_tables(&made)?;
@@ -128,25 +131,41 @@ pub(super) fn check(
             "its tables are not those that were made, or there is more than tables".to_owned(),
         ));
     }
-    let tables = tables_of(connection)?;
     let found: String = connection.query_row("PRAGMA integrity_check(1)", [], |row| row.get(0))?;
     if found != "ok" {
         return Err(damaged(found));
     }
-    let mut solutions = Vec::new();
-    for (table, _) in tables {
-        let columns = columns_of(connection, &table)?;
-        let key = columns.split(',').next().unwrap_or_default();
-        let select = format!("SELECT {key} FROM {table} WHERE {CHECKSUM} IS NOT row_checksum({columns})");
-        let mut statement = connection.prepare(&select)?;
-        let mut rows = statement.query([])?;
-        while let Some(row) = rows.next()? {
-            if table != "solution" {
-                return Err(damaged(format!("a row of table {table} is not as it was stored")));
-            }
-            solutions.push(row.get(0)?);
+    for (table, _) in tables_of(connection)?.iter().filter(|(table, _)| table != SOLUTIONS) {
+        let columns = columns_of(connection, table)?;
+        let select = format!("SELECT 1 FROM {table} WHERE {CHECKSUM} IS NOT row_checksum({columns})");
+        if connection.prepare(&select)?.exists([])? {
+            return Err(damaged(format!("a row of table {table} is not as it was stored")));
         }
     }
-    solutions.sort_unstable();
-    Ok(solutions)
+    check_solutions(connection, take)
+}
+
+/// The table of solutions.
+const SOLUTIONS: &str = "solution";
+
+fn check_solutions(
+    connection: &Connection,
+    mut take: impl FnMut(i64, &SqlRow<'_>),
+) -> Result<Vec<i64>, StoreError> {
+    let columns = columns_of(connection, SOLUTIONS)?;
+    let count = columns.split(',').count();
+    let select = format!("SELECT {columns}, {CHECKSUM} FROM {SOLUTIONS} ORDER BY id");
+    let mut statement = connection.prepare(&select)?;
+    let mut rows = statement.query([])?;
+    let mut damaged = Vec::new();
+    while let Some(row) = rows.next()? {
+        let key = row.get(0)?;
+        let values = (0..count).map(|column| row.get_ref(column).unwrap_or(ValueRef::Null));
+        if row.get_ref(count)? == ValueRef::Integer(of_values(values)) {
+            take(key, row);
+        } else {
+            damaged.push(key);
+        }
+    }
+    Ok(damaged)
 }

@@ -13,6 +13,7 @@ use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior, config::
 use super::{
     checksum::{self, add_checksums},
     error::{DATABASE, StoreError},
+    kept_rows::KeptRows,
     keys::{side_of_key, side_word, start_of_key},
     lock::Lock,
     place::Place,
@@ -30,6 +31,8 @@ pub struct Store {
     folder: PathBuf,
     /// Keys of the solutions that were found damaged, in increasing order.
     damaged: Vec<i64>,
+    /// `None` where nobody asked for them, or something is damaged or missing.
+    pub(super) kept: Option<KeptRows>,
     writing: Option<Writing>,
 }
 
@@ -64,9 +67,13 @@ impl Store {
         // Before anything is written: a damaged row that is replaced has a checksum that fits again.
         let damaged = match schema::is_empty(&connection, folder)? {
             true => Vec::new(),
-            false => checksum::check(&connection, schema::create_tables)?,
+            false => {
+                // All of one moment.
+                let _moment = connection.unchecked_transaction()?;
+                checksum::check(&connection, schema::create_tables, |_, _| {})?
+            }
         };
-        let mut store = Self { connection, folder: folder.to_owned(), damaged, writing: None };
+        let mut store = Self { connection, folder: folder.to_owned(), damaged, kept: None, writing: None };
         // Nothing is computed behind a solution that may be another one.
         if let Some(&key) = store.damaged.first() {
             return Err(store.damaged(key, StoreError::OtherThanStored));
@@ -83,6 +90,19 @@ impl Store {
     /// # Errors
     /// [`StoreError`]: there are no results, or they are of another version. Nothing is written.
     pub fn open(folder: &Path) -> Result<Self, StoreError> {
+        Self::open_checked(folder, false)
+    }
+
+    /// The same for whoever goes over all rows more than once, or wants them fast: what the tables show of a
+    /// solution is kept in memory, some 100 bytes each, as it was when its checksum was looked at.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_with_rows(folder: &Path) -> Result<Self, StoreError> {
+        Self::open_checked(folder, true)
+    }
+
+    fn open_checked(folder: &Path, keeps_rows: bool) -> Result<Self, StoreError> {
         let database = folder.join(DATABASE);
         if !database.is_file() {
             return Err(StoreError::NoResults { folder: folder.to_owned() });
@@ -90,8 +110,17 @@ impl Store {
         roll_back(&database)?;
         let connection = open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
         schema::check_version(&connection, folder)?;
-        let damaged = checksum::check(&connection, schema::create_tables)?;
-        Ok(Self { connection, folder: folder.to_owned(), damaged, writing: None })
+        // All of one moment, even while a run writes.
+        let moment = connection.unchecked_transaction()?;
+        let mut kept = if keeps_rows { Some(KeptRows::none_yet(&connection)?) } else { None };
+        let damaged = checksum::check(&connection, schema::create_tables, |key, row| {
+            if kept.as_mut().is_some_and(|kept| !kept.take(key, row)) {
+                kept = None;
+            }
+        })?;
+        drop(moment);
+        let kept = kept.filter(|_| damaged.is_empty());
+        Ok(Self { connection, folder: folder.to_owned(), damaged, kept, writing: None })
     }
 
     /// Opens a transaction that writes, if this is still the run that writes, to the database that is still

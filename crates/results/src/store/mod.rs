@@ -8,7 +8,7 @@
 //! tables: each has a start with two walks, and each walk its solutions, its checkpoint and how it ended.
 //!
 //! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so
-//! that no branch has to fit into memory.
+//! that no branch has to fit into memory; [`Store::open_with_rows`] is for those who have room for all rows.
 
 mod agenda;
 mod basins;
@@ -21,6 +21,7 @@ mod event;
 mod exponents;
 mod folder;
 mod jobs;
+mod kept_rows;
 mod keys;
 mod lock;
 mod motions;

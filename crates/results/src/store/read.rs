@@ -164,8 +164,8 @@ impl Store {
         mut take: impl FnMut(PlacedRow) -> Result<(), E>,
     ) -> Result<(), E> {
         let (mut place, mut closed) = (0, ClosedAt::of(branch.starts_where_it_ends()));
-        for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
-            self.each_row_of_walk(walk_id(branch.start, side), order, |number, mut row| {
+        for side in [Side::Down, Side::Up] {
+            self.each_row_of_walk(walk_id(branch.start, side), side == Side::Down, |number, mut row| {
                 place += 1;
                 row.events = closed.events(&row, place == 1);
                 if !branch.is_of_piece() {
@@ -218,13 +218,16 @@ impl Store {
         Ok(())
     }
 
+    /// Number of the solutions that a walk has counted.
+    fn counted(&self, walk: i64) -> Result<i64, StoreError> {
+        let count = "SELECT solutions FROM walk WHERE id = ?1";
+        let mut statement = self.connection.prepare_cached(count)?;
+        Ok(statement.query_row([walk], |row| row.get(0)).optional()?.unwrap_or(0))
+    }
+
     /// Refuses a walk of which not every solution that it has counted is there, so that no other one takes
     /// its number.
-    fn check_complete(&self, walk: i64) -> Result<(), StoreError> {
-        // Counted first: a run that writes meanwhile only adds.
-        let count = "SELECT solutions FROM walk WHERE id = ?1";
-        let counted: i64 =
-            self.connection.query_row(count, [walk], |row| row.get(0)).optional()?.unwrap_or(0);
+    fn check_complete(&self, walk: i64, counted: i64) -> Result<(), StoreError> {
         let (first, end) = (first_key(walk), first_key(walk) + counted);
         let mut keys = self
             .connection
@@ -240,22 +243,33 @@ impl Store {
         if expected < end { Err(self.missing(expected, end - 1)) } else { Ok(()) }
     }
 
+    /// Hands over the rows of a walk with their numbers, backwards or in the order in which it was walked.
     fn each_row_of_walk<E: From<StoreError>>(
         &self,
         walk: i64,
-        order: &str,
+        backwards: bool,
         mut take: impl FnMut(u32, Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let columns = row_columns();
+        // Counted first: a run that writes meanwhile only adds.
+        let counted = self.counted(walk)?;
+        let kept = self.kept.as_ref().map(|kept| kept.of_walk(&self.connection, walk, counted));
+        if let Some(rows) = kept.transpose()?.flatten() {
+            let mut rows = (0..rows.len() as u32).zip(rows);
+            return match backwards {
+                true => rows.rev().try_for_each(|(number, row)| take(number, *row)),
+                false => rows.try_for_each(|(number, row)| take(number, *row)),
+            };
+        }
+        let (columns, order) = (row_columns(), if backwards { "DESC" } else { "ASC" });
         let select =
-            format!("SELECT {columns}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
+            format!("SELECT id, {columns} FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
-        self.check_complete(walk)?;
+        self.check_complete(walk, counted)?;
         let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
-            let key = row.get(OF_ROW).map_err(failed)?;
-            let read = self.check_solution(key).and_then(|()| read_row(row));
+            let key = row.get(0).map_err(failed)?;
+            let read = self.check_solution(key).and_then(|()| read_row(row, 1));
             take(key as u32, read.map_err(|error| self.damaged(key, error))?)?;
         }
         Ok(())
@@ -323,7 +337,7 @@ impl Store {
     /// Solutions are missing or damaged, or the database refuses.
     pub fn walked(&self, start: u32, side: Side) -> Result<Vec<Row>, StoreError> {
         let mut rows = Vec::new();
-        self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |_, row| {
+        self.each_row_of_walk::<StoreError>(walk_id(start, side), false, |_, row| {
             rows.push(row);
             Ok(())
         })?;
@@ -365,7 +379,7 @@ fn with_ends(events: EventSet, is_first: bool, is_last: bool) -> EventSet {
 }
 
 fn read_solution(row: &SqlRow<'_>) -> Result<SolvedRow, StoreError> {
-    let shown = read_row(row)?;
+    let shown = read_row(row, 0)?;
     let size = |column| row.get::<_, u32>(column).map(|size| size as usize);
     let (segments, state_length) = (size(OF_ROW)?, size(OF_ROW + 1)?);
     let node_bytes: Vec<u8> = row.get(OF_ROW + 4)?;

@@ -8,13 +8,13 @@ use tempfile::tempdir;
 use super::*;
 use crate::{end::BranchEnd, row::SolvedRow};
 
-const STUDY: &str = include_str!("../../../../studies/duffing.toml");
+pub(super) const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 
-fn study(text: &str) -> StudyFile {
+pub(super) fn study(text: &str) -> StudyFile {
     StudyFile::parse("study.toml", text.to_owned()).unwrap()
 }
 
-fn solution(frequency_hz: f64) -> PeriodicSolution {
+pub(super) fn solution(frequency_hz: f64) -> PeriodicSolution {
     PeriodicSolution {
         phase: 0.375,
         frequency_hz,
@@ -227,7 +227,7 @@ fn everything(folder: &Path) -> Result<String, StoreError> {
 }
 
 /// A finished folder with some of everything that a walk leaves.
-fn walked_folder(folder: &Path) {
+pub(super) fn walked_folder(folder: &Path) {
     let mut store = Store::open_for_run(folder, &study(STUDY)).unwrap();
     let key = begin(&mut store);
     let located = hammerbeam_orbit::LocatedEvent {

@@ -26,10 +26,10 @@ pub(super) fn values_of_row(row: &Row) -> Vec<Value> {
     TableColumn::STORED.into_iter().filter_map(value).collect()
 }
 
-/// The row of the first columns of a selection.
-pub(super) fn read_row(found: &SqlRow<'_>) -> Result<Row, StoreError> {
+/// The row in the columns of a selection from one on.
+pub(super) fn read_row(found: &SqlRow<'_>, first: usize) -> Result<Row, StoreError> {
     let mut row = Row::default();
-    for (place, column) in TableColumn::STORED.into_iter().enumerate() {
+    for (place, column) in (first..).zip(TableColumn::STORED) {
         let value = match column {
             TableColumn::Contacts => RowValue::Count(found.get(place)?),
             TableColumn::Stable => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),

@@ -22,6 +22,31 @@ const ROUNDING: f64 = 1e-12;
 /// # Errors
 /// [`StructureError::Negative`] with the row, [`StructureError::MassNegative`], [`StructureError::NoMass`].
 pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<(), StructureError> {
+    ensure_diagonals(assembled)?;
+    ensure_not_negative(&scaled_mass(&assembled.mass, limit_bytes)?)
+}
+
+/// The same, with the rank of the mass; `None` if it could not be found.
+///
+/// A mass of full rank takes one factorisation: with no eigenvalue below a small positive shift there is none
+/// below zero.
+///
+/// # Errors
+/// As [`ensure_passive`].
+pub(super) fn passive_mass_rank(
+    assembled: &Assembled,
+    limit_bytes: u64,
+) -> Result<Option<usize>, StructureError> {
+    ensure_diagonals(assembled)?;
+    let mass = scaled_mass(&assembled.mass, limit_bytes)?;
+    let small = counted_below(&mass, RANK);
+    if small != Some(0) {
+        ensure_not_negative(&mass)?;
+    }
+    Ok(small.map(|small| mass.size() - small))
+}
+
+fn ensure_diagonals(assembled: &Assembled) -> Result<(), StructureError> {
     let matrices = [("mass", Some(&assembled.mass)), ("damping", assembled.damping.as_ref())];
     for (what, matrix) in matrices {
         let diagonal = matrix.map_or_else(Vec::new, SymmetricMatrix::diagonal);
@@ -31,26 +56,18 @@ pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<
             not_negative(&format!("{what} on the diagonal of {row}"), diagonal[column])?;
         }
     }
-    match counted_below(&assembled.mass, -NEGATIVE, limit_bytes)? {
+    Ok(())
+}
+
+fn ensure_not_negative(mass: &Pencil) -> Result<(), StructureError> {
+    match counted_below(mass, -NEGATIVE) {
         Some(negative) if negative > 0 => Err(StructureError::MassNegative { negative }),
         _ => Ok(()),
     }
 }
 
-/// Rank of a mass matrix; `None` if it could not be found.
-///
-/// # Errors
-/// As [`ensure_passive`].
-pub(super) fn mass_rank(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Option<usize>, StructureError> {
-    Ok(counted_below(mass, RANK, limit_bytes)?.map(|small| mass.size() - small))
-}
-
-/// Number of eigenvalues of `D^-1 M` below a shift; `None` if there is no factor there.
-fn counted_below(
-    mass: &SymmetricMatrix,
-    shift: f64,
-    limit_bytes: u64,
-) -> Result<Option<usize>, StructureError> {
+/// The pencil of `M` and `D`, with the order of elimination for all shifts.
+fn scaled_mass(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Pencil, StructureError> {
     let diagonal = mass.diagonal();
     let largest = largest(&diagonal);
     if largest == 0.0 {
@@ -62,8 +79,12 @@ fn counted_below(
         value: if *entry == 0.0 { largest } else { entry.abs() },
     });
     let scale = SymmetricMatrix::from_entries(mass.size(), &scale.collect::<Vec<_>>());
-    let pencil = Pencil::new(mass.clone(), scale, limit_bytes)?;
-    Ok(pencil.factors(shift).ok().map(|factors| factors.negative()))
+    Pencil::new(mass.clone(), scale, limit_bytes)
+}
+
+/// Number of eigenvalues of `D^-1 M` below a shift; `None` if there is no factor there.
+fn counted_below(mass: &Pencil, shift: f64) -> Option<usize> {
+    mass.factors(shift).ok().map(|factors| factors.negative())
 }
 
 fn largest(diagonal: &[f64]) -> f64 {

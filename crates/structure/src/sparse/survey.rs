@@ -3,12 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Matrices, MatrixReport, RowLabel, SymmetricMatrix,
-    assemble::Assembled,
-    factor::Pencil,
-    passive::{ensure_passive, mass_rank},
-    pencil_modes::PencilModes,
-    report,
+    Matrices, MatrixReport, RowLabel, SymmetricMatrix, assemble::Assembled, factor::Pencil,
+    passive::passive_mass_rank, pencil_modes::PencilModes, report,
 };
 use crate::StructureError;
 
@@ -43,8 +39,7 @@ impl Matrices {
     /// As [`Matrices::reduce`].
     pub fn survey(&self, count: usize) -> Result<MatrixSurvey, StructureError> {
         let assembled = self.assembled(&[])?;
-        ensure_passive(&assembled, self.memory_limit_bytes)?;
-        let mass_rank = mass_rank(&assembled.mass, self.memory_limit_bytes)?;
+        let mass_rank = passive_mass_rank(&assembled, self.memory_limit_bytes)?;
         let pencil =
             Pencil::new(assembled.stiffness.clone(), assembled.mass.clone(), self.memory_limit_bytes)?;
         let modes =
