@@ -99,7 +99,9 @@ fn the_line_of_every_period_stands_out_from_the_paper() {
         let paper = look["paper"].as_str().unwrap();
         let periods = look["periods"].as_array().unwrap();
         assert_eq!(periods.len(), 9);
-        for colour in periods.iter().map(|colour| colour.as_str().unwrap()).chain([[PALE_INK, "#9a9a9a"][number]]) {
+        for colour in
+            periods.iter().map(|colour| colour.as_str().unwrap()).chain([[PALE_INK, "#9a9a9a"][number]])
+        {
             assert!(contrast(colour, paper) >= 3.0, "{colour} on {paper}: {}", contrast(colour, paper));
         }
     }
