@@ -11,7 +11,7 @@ import numpy as np
 from ._check import refused
 from ._tables import Array, needed
 
-PERIODS = ("#262d72", "#b24b13", "#4bb897", "#681505", "#726587", "#cd8ee3", "#512834", "#3864d1", "#86b361")
+PERIODS = ("#23276a", "#ae3509", "#2ca68a", "#5f1301", "#69587b", "#b87ecf", "#492331", "#045bc5", "#7b9f59")
 """Colours of period multiples 1, 2, 3 and so on."""
 FILLS = ("#2b4f87", "#f2c38a", "#5fae96", "#a0476b", "#dfe6ee", "#8c8c3a")
 INK, PALE_INK, PAPER, GRID = "#222222", "#7d7d7d", "#ffffff", "#e3e3e3"

@@ -1,11 +1,16 @@
 //! How long work still takes, and the lines that say so where no bar can be shown.
 //!
 //! What is left is estimated from the part that was done since this command began. That supposes that the
-//! rest goes on as fast, which work does not where new branches turn up. So an estimate is shown only while
-//! it holds: the time that the whole takes by it is the same, to a third, as by the part that was done at
-//! half of the time that has passed; and when at least a tenth is done, in at least two seconds.
+//! rest goes on as fast, which work does not where new branches turn up. So there are two estimates of the
+//! time that the whole takes: by the part that is done now, and by that at half of the time that has passed.
+//! Where they are the same to a third, one number is shown; up to a factor of four, the range between them;
+//! else nothing. Nothing is shown either before a tenth is done in at least two seconds, nor where nothing
+//! was done in the second half of the time, nor where the upper end is more than nine times what has passed.
 
-use std::time::{Duration, Instant};
+use std::{
+    fmt::{self, Display, Formatter},
+    time::{Duration, Instant},
+};
 
 use crate::output::notify;
 
@@ -14,8 +19,11 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Part of the work and time before which nothing is estimated.
 const LEAST_PART: f64 = 0.1;
 const LEAST_TIME: Duration = Duration::from_secs(2);
-/// Ratio of two estimates of the whole time beyond which neither is shown.
+/// Ratio of two estimates of the whole time up to which they are one, and beyond which neither is shown.
 const AGREE: f64 = 4.0 / 3.0;
+const APART: f64 = 4.0;
+/// Largest ratio of the time that is left to that which has passed.
+const LONGEST: f64 = 9.0;
 /// Samples of the past that are kept, at most.
 const KEPT: usize = 256;
 
@@ -40,9 +48,27 @@ impl Pace {
     /// What is left in words, when so much is done.
     pub fn left(&mut self, fraction: f64) -> String {
         match self.past.left(self.started.elapsed(), fraction) {
-            Some(Duration::ZERO) => "all done".to_owned(),
-            Some(left) => format!("about {} left", rounded(left)),
+            Some(left) => left.to_string(),
             None => "time left not known yet".to_owned(),
+        }
+    }
+}
+
+/// The time that is left, from the least to the greatest estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Left {
+    least: Duration,
+    most: Duration,
+}
+
+impl Display for Left {
+    fn fmt(&self, to: &mut Formatter<'_>) -> fmt::Result {
+        let [least, most] = [self.least, self.most].map(rounded);
+        match (self.least, self.most) {
+            (_, Duration::ZERO) => write!(to, "all done"),
+            _ if least == most => write!(to, "about {most} left"),
+            (Duration::ZERO, _) => write!(to, "up to {most} left"),
+            _ => write!(to, "{least} to {most} left"),
         }
     }
 }
@@ -61,18 +87,31 @@ impl Past {
     }
 
     /// What is left by what is done now, if that is known.
-    fn left(&mut self, elapsed: Duration, fraction: f64) -> Option<Duration> {
+    fn left(&mut self, elapsed: Duration, fraction: f64) -> Option<Left> {
         self.keep(elapsed, fraction);
         let gained = fraction - self.first;
         if gained < LEAST_PART || elapsed < LEAST_TIME {
             return None;
         }
-        let whole = |elapsed: Duration, gained: f64| elapsed.as_secs_f64() / gained;
-        let (now, half) = (whole(elapsed, gained), elapsed / 2);
-        let (then, done) = *self.samples.iter().rfind(|(at, _)| *at <= half)?;
-        let ratio = now / whole(then, done - self.first);
-        let holds = (1.0 / AGREE..=AGREE).contains(&ratio);
-        (holds || fraction >= 1.0).then(|| elapsed.mul_f64((1.0 - fraction).max(0.0) / gained))
+        if fraction >= 1.0 {
+            return Some(Left { least: Duration::ZERO, most: Duration::ZERO });
+        }
+        let (at_half, then) = *self.samples.iter().rfind(|(at, _)| *at <= elapsed / 2)?;
+        let goes_on = self.samples.iter().any(|(at, done)| *at > at_half && *done > then);
+        if !goes_on || then <= self.first {
+            return None;
+        }
+        let (passed, to_do) = (elapsed.as_secs_f64(), 1.0 - self.first);
+        let whole_now = to_do * passed / gained;
+        let whole_then = to_do * at_half.as_secs_f64() / (then - self.first);
+        let ratio = (whole_now / whole_then).max(whole_then / whole_now);
+        let [least, most] = match ratio {
+            ratio if ratio <= AGREE => [whole_now; 2],
+            ratio if ratio <= APART => [whole_now.min(whole_then), whole_now.max(whole_then)],
+            _ => return None,
+        }
+        .map(|whole| Duration::from_secs_f64((whole - passed).max(0.0)));
+        (most <= elapsed.mul_f64(LONGEST)).then_some(Left { least, most })
     }
 
     /// Keeps it if it is later than what is kept by a part of the time that has passed.
@@ -127,7 +166,7 @@ mod tests {
     use super::*;
 
     /// The last of what is shown at these seconds and parts.
-    fn left_after(first: f64, shown: impl IntoIterator<Item = (f64, f64)>) -> Option<Duration> {
+    fn left_after(first: f64, shown: impl IntoIterator<Item = (f64, f64)>) -> Option<Left> {
         let mut past = Past::from(first);
         shown.into_iter().fold(None, |_, (second, part)| past.left(Duration::from_secs_f64(second), part))
     }
@@ -142,7 +181,9 @@ mod tests {
         for (first, count, rate) in [(0.0, 8, 0.02), (0.5, 30, 0.01), (0.0, 3000, 0.0003)] {
             let left = left_after(first, seconds(count).map(|second| (second, first + rate * second)));
             let expected = (1.0 - first) / rate - f64::from(count);
-            assert!((left.unwrap().as_secs_f64() - expected).abs() < 1e-6 * expected, "{left:?}, {expected}");
+            let Left { least, most } = left.unwrap();
+            assert_eq!(least, most);
+            assert!((most.as_secs_f64() - expected).abs() < 1e-6 * expected, "{most:?}, {expected}");
         }
     }
 
@@ -162,7 +203,7 @@ mod tests {
             for second in seconds(8) {
                 let left = past.left(Duration::from_secs_f64(second), (second / 8.0).powf(power));
                 assert!(
-                    left.is_none_or(|left| left.as_secs_f64() <= 9.0 * second + 1e-6),
+                    left.is_none_or(|left| left.most.as_secs_f64() <= 9.0 * second + 1e-6),
                     "{left:?} at {second}"
                 );
             }
@@ -173,8 +214,39 @@ mod tests {
     fn nothing_is_said_while_work_stalls_or_leaps() {
         let stalled = seconds(40).map(|second| (second, if second < 20.0 { 0.01 * second } else { 0.2 }));
         assert_eq!(left_after(0.0, stalled), None);
-        let leapt = seconds(40).map(|second| (second, if second < 30.0 { 0.1 } else { 0.6 }));
+        let leapt = seconds(40).map(|second| (second, if second < 30.0 { 0.1 } else { 0.9 }));
         assert_eq!(left_after(0.0, leapt), None);
+    }
+
+    /// Work done as the root or the square of the time: by the two estimates the whole takes 40 s or 28.3 s, and
+    /// 160 s or 320 s of which 80 s have passed.
+    #[test]
+    fn a_range_is_shown_where_two_estimates_differ() {
+        let slower = seconds(20).map(|second| (second, (second / 80.0).sqrt()));
+        let left = left_after(0.0, slower).unwrap();
+        assert!((left.most.as_secs_f64() - 20.0).abs() < 1e-6, "{left:?}");
+        assert!((left.least.as_secs_f64() - (10.0 / 0.125_f64.sqrt() - 20.0)).abs() < 1e-6, "{left:?}");
+        let faster = seconds(80).map(|second| (second, (second / 80.0).powi(2) / 2.0));
+        let left = left_after(0.0, faster).unwrap();
+        assert!((left.least.as_secs_f64() - 80.0).abs() < 2.0, "{left:?}");
+        assert!((left.most.as_secs_f64() - 240.0).abs() < 6.0, "{left:?}");
+    }
+
+    #[test]
+    fn what_is_left_reads_as_a_number_or_a_range() {
+        let words = [(20, 60), (0, 60), (21, 24), (200, 500), (0, 0), (0, 4)].map(|(least, most)| {
+            let [least, most] = [least, most].map(Duration::from_secs);
+            Left { least, most }.to_string()
+        });
+        let expected = [
+            "20 s to 60 s left",
+            "up to 60 s left",
+            "about 25 s left",
+            "4 min to 9 min left",
+            "all done",
+            "about 5 s left",
+        ];
+        assert_eq!(words, expected);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_jobs::{Observer, Progress, VariedProgress};
+use hammerbeam_jobs::{DoneShare, Observer, Progress, VariedProgress};
 use hammerbeam_results::store::{JobKind, JobRecord};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
@@ -61,35 +61,41 @@ impl Terminal {
         self.bar.finish_and_clear();
     }
 
-    /// How long it still takes, and new solutions per second.
-    fn pace(&mut self, fraction: f64, new_solutions: u64) -> (String, f64) {
-        let pace = self.pace.get_or_insert_with(|| Pace::from(fraction));
-        (pace.left(fraction), new_solutions as f64 / pace.elapsed().as_secs_f64().max(0.1))
+    /// How long the diagram still takes. Its estimate is of what this command does.
+    fn diagram_left(&mut self, done: DoneShare) -> String {
+        let left = self.pace.get_or_insert_with(|| Pace::from(0.0)).left(done.of_this_run);
+        if self.diagram < 1.0 { format!("diagram: {left}") } else { left }
+    }
+
+    /// New solutions per second.
+    fn rate(&self, new_solutions: u64) -> HumanCount {
+        let elapsed = self.pace.as_ref().map_or(0.0, |pace| pace.elapsed().as_secs_f64());
+        HumanCount((new_solutions as f64 / elapsed.max(0.1)) as u64)
     }
 
     /// How long it still takes, branches, solutions so far and their rate, all within 80 columns, and where.
     fn message(&mut self, progress: &Progress) -> String {
-        let (left, rate) = self.pace(progress.fraction, progress.new_solutions);
+        let left = self.diagram_left(progress.done);
         format!(
             "{left}  {} branches done, {} open  {} solutions, {}/s  {:.2} Hz",
             progress.branches_done,
             progress.walks_open,
             HumanCount(progress.solutions),
-            HumanCount(rate as u64),
+            self.rate(progress.new_solutions),
             progress.frequency_hz,
         )
     }
 
     /// The same of varied branches and curves.
     fn varied_message(&mut self, progress: &VariedProgress<'_>) -> String {
-        let (left, rate) = self.pace(progress.fraction, progress.new_solutions);
+        let left = self.pace.get_or_insert_with(|| Pace::from(progress.fraction)).left(progress.fraction);
         format!(
             "{left}  {} = {:.5e}, {:.2} Hz  {} solutions, {}/s  {} of {} varied branches and curves done",
             progress.parameter,
             progress.value,
             progress.frequency_hz,
             HumanCount(progress.new_solutions),
-            HumanCount(rate as u64),
+            self.rate(progress.new_solutions),
             progress.pieces_done,
             progress.pieces,
         )
@@ -112,7 +118,7 @@ impl Terminal {
 }
 
 impl Observer for Terminal {
-    fn working(&mut self, job: &JobRecord, fraction: f64) {
+    fn working(&mut self, job: &JobRecord, done: DoneShare) {
         let what = match job.kind {
             JobKind::Harmonic => "looking for the harmonic branch",
             JobKind::Survey | JobKind::Resonance => "looking for branches by simulation",
@@ -121,14 +127,15 @@ impl Observer for Terminal {
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };
-        self.show(self.diagram * fraction, format!("{what} at {:.4} Hz", job.frequency_hz));
+        let left = self.diagram_left(done);
+        self.show(self.diagram * done.fraction, format!("{left}  {what} at {:.4} Hz", job.frequency_hz));
         self.bar.tick();
     }
 
     fn progress(&mut self, progress: &Progress) {
         if self.is_due() {
             let message = self.message(progress);
-            self.show(self.diagram * progress.fraction, message);
+            self.show(self.diagram * progress.done.fraction, message);
         }
     }
 

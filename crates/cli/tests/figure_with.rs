@@ -6,8 +6,8 @@ use std::{fs, path::Path};
 use crate::common::{Workshop, assert_bad_input, assert_success, short_run, short_study};
 
 /// Colour of the branches, and those of the first and second folder behind them.
-const OWN: &str = "#262d72";
-const BEHIND: [&str; 2] = ["#7d7d7d", "#3864d1"];
+const OWN: &str = "#23276a";
+const BEHIND: [&str; 2] = ["#7d7d7d", "#045bc5"];
 const FAMILY: [&str; 2] =
     ["family/structure.mass.first.mass_kg=1.0", "family/structure.mass.first.mass_kg=1.1"];
 

@@ -437,7 +437,7 @@ fn in_a_browser(pages: &Value) {
     };
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
-    let plain = ["ticks", "plane", "masses"].map(|name| format!("test/{name}.test.mjs"));
+    let plain = ["ticks", "plane", "masses", "first"].map(|name| format!("test/{name}.test.mjs"));
     run(&[&["--test"], &plain.each_ref().map(String::as_str)[..]].concat());
     // One browser for all of them.
     let report = run(&["--test", "--test-reporter=tap", "test/page/all.test.mjs"]);

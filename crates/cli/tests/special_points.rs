@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stderr, stdout};
+use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 /// The impact oscillator where it has a closed branch, from 0.086 to 0.096 Hz, that no slow sweep reaches.
 fn study() -> String {
@@ -47,9 +47,8 @@ fn a_run_with_a_changed_parameter_begins_at_a_special_point_of_another_run() {
         .unwrap();
     let away = workshop.hammerbeam(&["run", "changed.toml", "--from", &origin, "--out", "away"]);
     let said = format!("special point {} of results lies at 0.0", first_flip(&workshop));
-    let notice = stderr(&away);
-    assert!(notice.contains(&said), "{notice}");
-    assert!(notice.contains("outside the range of this study, 0.2 Hz to 0.21 Hz"), "{notice}");
+    assert_bad_input(&away, &[&said, "outside the range of this study, 0.2 Hz to 0.21 Hz"]);
+    assert!(!workshop.path("away").exists(), "it is refused before anything is searched");
 }
 
 /// The Duffing oscillator whose symmetric orbits lose their symmetry between two branch points: orbits

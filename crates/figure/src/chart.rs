@@ -47,10 +47,11 @@ impl Measure {
         Self { choice: ScaleChoice::Logarithmic, ..Self::new(label) }
     }
 
-    /// A linear axis of frequencies in hertz, shown in the unit of the style.
-    pub(crate) fn frequency(what: &str, style: &Style) -> Self {
-        let unit = style.frequency_unit;
-        Self { factor: unit.factor(), ..Self::new(unit.label(what)) }
+    /// A linear axis of frequencies in hertz, shown in the unit of the style with the prefix that suits them.
+    pub(crate) fn frequency(what: &str, style: &Style, frequencies_hz: impl Iterator<Item = f64>) -> Self {
+        let finite = frequencies_hz.filter(|frequency| frequency.is_finite());
+        let unit = style.frequency_unit.up_to(finite.fold(0.0, f64::max));
+        Self { factor: unit.factor, ..Self::new(format!("{what} ({})", unit.symbol)) }
     }
 
     pub(crate) fn over_decades(self) -> Self {

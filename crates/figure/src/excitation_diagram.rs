@@ -64,9 +64,9 @@ impl ExcitationDiagram {
         };
         let rows = self.rows.len();
         let description = format!("amplitude of the excitation over its frequency, {rows} rows{measured}");
-        let x = Measure::frequency("Excitation frequency", style);
-        let frequencies = self.rows.iter().chain(&self.measured).map(|(frequency, _)| *frequency);
-        let ends = extent(frequencies.filter(|frequency| frequency.is_finite()));
+        let frequencies = || self.rows.iter().chain(&self.measured).map(|(frequency, _)| *frequency);
+        let x = Measure::frequency("Excitation frequency", style, frequencies());
+        let ends = extent(frequencies().filter(|frequency| frequency.is_finite()));
         let x = ends.filter(|(from, to)| from < to).map_or_else(|| x.clone(), |ends| x.clone().between(ends));
         Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: Some(0.6) }
             .draw(style)

@@ -76,7 +76,8 @@ impl ExponentDiagram {
             sample: LegendSample::Dot(dot),
             name: "mean, with its interval of 95 per cent".to_owned(),
         }]];
-        let x = Measure::frequency("Excitation frequency", style);
+        let frequencies = self.points.iter().map(|point| point.frequency_hz);
+        let x = Measure::frequency("Excitation frequency", style, frequencies);
         let count = self.points.len();
         let description =
             format!("largest Lyapunov exponent and Kaplan-Yorke dimension at {count} frequencies");

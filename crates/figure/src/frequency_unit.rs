@@ -33,11 +33,6 @@ impl FrequencyUnit {
         }
     }
 
-    /// Label of an axis.
-    pub(crate) fn label(self, what: &str) -> String {
-        format!("{what} ({})", self.symbol())
-    }
-
     /// The unit of frequencies up to a highest one: hertz have the prefix that suits it.
     pub(crate) fn up_to(self, highest_hz: f64) -> AxisUnit {
         match self {

@@ -215,7 +215,8 @@ impl ModeDiagram {
 }
 
 fn words(number: usize, mode: &DrawnMode, unit: FrequencyUnit) -> String {
-    let (symbol, shown) = (unit.symbol(), |hertz: f64| five_digits(unit.factor() * hertz));
+    let unit = unit.up_to(mode.frequency_hz);
+    let (symbol, shown) = (unit.symbol, |hertz: f64| five_digits(unit.factor * hertz));
     let unreduced = match mode.unreduced_hz {
         Some(full) if mode.frequency_hz > 0.0 => format!(" (unreduced {} {symbol})", shown(full)),
         _ => String::new(),

@@ -81,9 +81,10 @@ impl MultiplierDiagram {
             self.solutions.len(),
             self.not_finite()
         );
+        let frequencies = self.solutions.iter().map(|solution| solution.frequency_hz);
         Chart {
             title: self.title.clone(),
-            x: Measure::frequency("Excitation frequency", style),
+            x: Measure::frequency("Excitation frequency", style, frequencies),
             panels,
             legend: vec![(0..drawn).map(entry).collect()],
             description,

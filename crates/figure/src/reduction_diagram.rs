@@ -73,7 +73,8 @@ impl ReductionDiagram {
         let panels = vec![ChartPanel { quantity: "error", y, layers, heading: String::new() }];
         let description =
             format!("relative errors of {} eigenfrequencies by the reduction", self.modes.len());
-        let x = Measure::frequency("Unreduced eigenfrequency", style).over_decades();
+        let frequencies = self.modes.iter().map(|mode| mode.full_hz);
+        let x = Measure::frequency("Unreduced eigenfrequency", style, frequencies).over_decades();
         Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: None }
             .draw(style)
     }

@@ -1,8 +1,9 @@
 //! The look of every figure, in one place: sizes on paper, line widths, type sizes, colours.
 //!
 //! Colours are distinguishable with any colour vision and in grey print: the nine colours of the periods have
-//! three levels of lightness, and those of equal lightness differ in the strokes across their lines. Colour
-//! is never the only distinction where a line style or a mark can be used.
+//! three levels of lightness, and those of equal lightness differ in the strokes across their lines. Each has
+//! a contrast of at least 3:1 with the paper (WCAG 2.2, 1.4.11). Colour is never the only distinction where a
+//! line style or a mark can be used.
 
 use crate::{bifurcation::Bifurcation, frequency_unit::FrequencyUnit, motion::MotionKind, stretch::LineLook};
 
@@ -35,7 +36,7 @@ pub(crate) fn line_pattern(number: usize) -> Pattern {
 }
 
 /// Colour of a doubtful motion.
-const DOUBTFUL: &str = "#898989";
+const DOUBTFUL: &str = "#7a7a7a";
 
 /// Colours of initial states without a computed motion, and of impossible ones behind a rigid stop.
 pub(crate) const NOT_COMPUTED: &str = INK;
@@ -62,9 +63,9 @@ pub(crate) fn stability_colour(line: LineLook) -> &'static str {
 
 /// Colours of period multiples 1, 2, 3 and so on, repeated after the last: dark, medium and light alternate.
 const PERIOD_COLOURS: [&str; 9] = [
-    "#262d72", "#b24b13", "#4bb897", // without strokes
-    "#681505", "#726587", "#cd8ee3", // with one
-    "#512834", "#3864d1", "#86b361", // with two
+    "#23276a", "#ae3509", "#2ca68a", // without strokes
+    "#5f1301", "#69587b", "#b87ecf", // with one
+    "#492331", "#045bc5", "#7b9f59", // with two
 ];
 
 /// Steps of lightness among the colours of periods.

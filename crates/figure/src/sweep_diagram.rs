@@ -113,7 +113,8 @@ impl SweepDiagram {
             layers: origins.iter().flat_map(|origin| self.maxima(*origin)).collect(),
             heading: String::new(),
         });
-        let x = Measure::frequency("Excitation frequency", style);
+        let frequencies = self.motions.iter().map(|motion| motion.frequency_hz);
+        let x = Measure::frequency("Excitation frequency", style, frequencies);
         let (title, description) = (self.title.clone(), self.description());
         Chart { title, x, panels, legend: self.legend(&origins), description, aspect: None }.draw(style)
     }

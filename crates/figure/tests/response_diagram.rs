@@ -175,7 +175,7 @@ fn zero_is_a_gap_on_a_logarithmic_axis() {
     };
     let lines = |svg: &str| svg.matches("<path d=\"M").count();
     let (gap, no_gap) = (draw(&settings), draw(&ResponseSettings::default()));
-    let data = |svg: &str| svg.split("stroke=\"#262d72\"").last().map(lines);
+    let data = |svg: &str| svg.split("stroke=\"#23276a\"").last().map(lines);
     assert_eq!((data(&gap), data(&no_gap)), (Some(2), Some(1)));
 }
 

@@ -232,6 +232,12 @@ fn modes_have_their_frequencies_and_a_rigid_body_says_that_it_is_one() {
         assert!(svg.contains(label), "{label}");
     }
     assert_eq!(figure, modes(3).draw(&Style::single_column()).unwrap());
+    let mut fast = modes(3);
+    (fast.modes[2].frequency_hz, fast.modes[2].unreduced_hz) = (64_602.6, Some(64_600.0));
+    let svg = fast.draw(&Style::single_column()).unwrap().svg();
+    for label in ["Mode 2: 17.500 Hz", "Mode 3: 64.603 kHz (unreduced 64.600 kHz)"] {
+        assert!(svg.contains(label), "{label}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_results::{StoreError, export::ExportError, whole_file::WriteError};
 use hammerbeam_signal::SignalError;
-use hammerbeam_study::{Drift, StudyError};
+use hammerbeam_study::{Drift, StudyError, readable};
 
 use crate::{
     comparison::{ComparisonError, MeasuredError, ObservationError, OverlayError},
@@ -67,6 +67,12 @@ pub enum JobError {
     /// A special point that a results folder does not have.
     #[error("{} has no special point {number}: it has {count}, numbered from 1", results.display())]
     NoSpecialPoint { results: PathBuf, number: u32, count: u32 },
+    /// A special point that no orbit of its branch near by is in the range of the study to begin at.
+    #[error(
+        "special point {number} of {} lies at {}, outside the range of this study, {} to {}",
+        results.display(), readable(*at_hz, "Hz"), readable(range_hz[0], "Hz"), readable(range_hz[1], "Hz")
+    )]
+    SpecialPointOutside { results: PathBuf, number: u32, at_hz: f64, range_hz: [f64; 2] },
     /// A sweep that cannot be cut into parts.
     #[error(
         "a sweep with the state carried over has no parts: each motion starts where the one before has \

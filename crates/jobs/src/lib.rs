@@ -85,7 +85,7 @@ pub use initial_error::InitialStateError;
 pub use initial_words::{InitialWordsError, MOST_OF_A_STATE};
 pub use matrix_document::matrix_document;
 pub use modes_document::modes_document;
-pub use observer::{CountedProgress, Observer, Progress, Quiet, VariedProgress};
+pub use observer::{CountedProgress, DoneShare, Observer, Progress, Quiet, VariedProgress};
 pub use orbit_solver::OrbitSolver;
 pub use orbit_waveform::{OrbitWaveform, PointWaveform, orbit_waveform};
 pub use part::{JobPart, JobPartError, JobPartReport};

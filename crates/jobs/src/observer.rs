@@ -8,6 +8,16 @@ use hammerbeam_results::{
     store::{JobOutcome, JobRecord},
 };
 
+/// How much of a run is done, as far as that is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DoneShare {
+    /// Estimated part of the whole work that is done, by earlier runs of the same results too, 0 to 1; it
+    /// never decreases.
+    pub fraction: f64,
+    /// Estimated part of the work of this run alone that is done, 0 to 1; it falls where more work turns up.
+    pub of_this_run: f64,
+}
+
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
@@ -23,8 +33,8 @@ pub struct Progress {
     pub new_solutions: u64,
     /// Solutions stored or about to be, of all runs.
     pub solutions: u64,
-    /// Estimated part of the work that is done, 0 to 1; it never decreases.
-    pub fraction: f64,
+    /// How much is done.
+    pub done: DoneShare,
 }
 
 /// Where the computing of varied branches and curves is, which comes after the diagram.
@@ -42,7 +52,7 @@ pub struct VariedProgress<'a> {
     pub pieces: usize,
     /// Solutions of them computed by this run.
     pub new_solutions: u64,
-    /// Estimated part of this work that is done, 0 to 1; it never decreases.
+    /// Estimated part of all pieces of the study that is done, by earlier runs too, 0 to 1; it never decreases.
     pub fraction: f64,
 }
 
@@ -61,9 +71,8 @@ pub struct CountedProgress<'a> {
 
 /// Watches a job, from the thread that called it.
 pub trait Observer {
-    /// A search of a run is being worked at, when that part of the whole run is done: from 0 to 1, never less
-    /// than before.
-    fn working(&mut self, _job: &JobRecord, _fraction: f64) {}
+    /// A search of a run is being worked at, when so much of the run is done.
+    fn working(&mut self, _job: &JobRecord, _done: DoneShare) {}
     /// A search of a run ended; its outcome, in words.
     fn job_ended(&mut self, _job: &JobRecord, _outcome: JobOutcome) {}
     /// A start of a run is that of a new branch.

@@ -108,7 +108,9 @@ fn class_of(error: &Error) -> &'static str {
         Error::MotionsTooLarge { .. } => "BadInput",
         Error::Drifts(_) => "Drifts",
         Error::FrequencyNotResolved { .. } => "FrequencyNotResolved",
-        Error::NoSpecialPoint { .. } | Error::SweepWithoutParts => "BadInput",
+        Error::NoSpecialPoint { .. } | Error::SpecialPointOutside { .. } | Error::SweepWithoutParts => {
+            "BadInput"
+        }
         Error::NoSearch { .. } => "NoSearch",
         Error::Stopped { source, .. } => class_of(source),
         Error::Interrupted { .. } | Error::TablesInterrupted => "Interrupted",

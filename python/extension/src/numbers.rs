@@ -39,6 +39,7 @@ pub fn of(error: &Error) -> Value {
         }
         Error::NoOutput { name, known } => fields!(name, known),
         Error::NoSpecialPoint { number, count, .. } => fields!(number, count),
+        Error::SpecialPointOutside { number, at_hz, range_hz, .. } => fields!(number, at_hz, range_hz),
         Error::Drifts(drift) => json!({ "held_by_stops": drift.held_by_stops }),
         Error::FrequencyNotResolved { high_hz, resolved_hz } => fields!(high_hz, resolved_hz),
         Error::Stopped { source, done } => {

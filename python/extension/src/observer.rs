@@ -61,9 +61,9 @@ impl PythonObserver {
 
 impl Observer for PythonObserver {
     fn progress(&mut self, progress: &Progress) {
-        let Progress { frequency_hz, branches_done, solutions, fraction, .. } = *progress;
+        let Progress { frequency_hz, branches_done, solutions, done, .. } = *progress;
         let place = format_args!("{frequency_hz:.4} Hz, {branches_done} branches, {solutions} solutions");
-        self.show(Some(fraction), &place);
+        self.show(Some(done.fraction), &place);
     }
 
     fn varied(&mut self, progress: &VariedProgress<'_>) {

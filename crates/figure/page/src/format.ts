@@ -70,13 +70,14 @@ export function ticks(marked: readonly (number | null)[], distance: number, comm
     return splits.map((value) => (value === null ? "" : plain(value)));
 }
 
-/** Labels of the ticks of a logarithmic axis. */
+/** Labels of the ticks of a logarithmic axis: all of them as powers of ten where one of them is better so. */
 export function logTicks(splits: readonly (number | null)[]): string[] {
+    const asPowers = splits.some((value) => value !== null && (value >= 1e5 || value < 1e-3));
     return splits.map((value) => {
         if (value === null) {
             return "";
         }
-        return value >= 1e5 || value < 1e-3
+        return asPowers
             ? value.toExponential(0).replace("e+", "e").replaceAll("-", "−")
             : String(Number(value.toPrecision(3)));
     });

@@ -45,6 +45,16 @@ test("labels stay short however near their ticks are, and say with what they lea
     assert.equal(commonPart(-1, 1, 0.5), 0);
 });
 
+test("all labels of a logarithmic axis have one form", () => {
+    const labelled = (low, high) => logAxis(low, high, 12).labels.filter((label) => label !== "");
+    assert.deepEqual(labelled(2e-4, 0.03), ["2e−4", "5e−4", "1e−3", "2e−3", "5e−3", "1e−2", "2e−2"]);
+    assert.deepEqual(labelled(0.001, 0.5), ["0.001", "0.01", "0.1"].flatMap((one) => [1, 2, 5].map((part) => String(Number((part * one).toPrecision(1))))));
+    for (const [low, high] of [[2e-4, 0.03], [1e-8, 1e4], [30, 3e6], [0.02, 9e4]]) {
+        const forms = new Set(labelled(low, high).map((label) => label.includes("e")));
+        assert.equal(forms.size, 1, `${labelled(low, high)}`);
+    }
+});
+
 test("ticks of a logarithmic axis stand at round numbers, wherever it begins", () => {
     for (const [low, high] of [[0.0373, 21.7], [0.9e-9, 3e4], [1.234, 1.31], [3.3, 8.8], [2.2e-7, 2.3e-7], [5, 5.0001]]) {
         const { splits, labels } = logAxis(low, high, 8);

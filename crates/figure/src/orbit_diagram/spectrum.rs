@@ -54,7 +54,8 @@ impl OrbitDiagram {
         let y = Measure::logarithmic("Amplitude of acceleration (m/s²)");
         let y = if floor > 0.0 { y.between((floor, 3.0 * largest)) } else { y };
         let panels = vec![ChartPanel { quantity: "harmonic", y, layers, heading: String::new() }];
-        let x = Measure::frequency("Frequency", style).between((0.0, 1.2 * highest));
+        let x =
+            Measure::frequency("Frequency", style, [1.2 * highest].into_iter()).between((0.0, 1.2 * highest));
         self.chart(("spectrum of the acceleration", style.frequency_unit), x, panels, vec![legend], None)
             .draw(style)
     }

@@ -78,9 +78,34 @@ fn every_two_of_nine_periods_are_told_apart_in_grey_print_and_by_all_eyes() {
         assert!(a.strokes != b.strokes || apart > 20.0, "{one} and {other}: {apart}");
         assert!(distance(a.colour, b.colour) > 20.0, "{one} and {other}");
     }
-    for colour in PERIOD_COLOURS {
-        assert!(lightness(colour) < 72.0, "{colour} is too pale for a thin line");
+}
+
+/// Contrast of two colours, 1 to 21 (WCAG 2.2, contrast ratio).
+fn contrast(one: &str, other: &str) -> f64 {
+    let [a, b] = [one, other].map(|colour| {
+        let [red, green, blue] = linear(colour);
+        0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05
+    });
+    (a / b).max(b / a)
+}
+
+/// Lines ask for 3:1 (WCAG 2.2, 1.4.11), on paper and on the page, light or dark.
+#[test]
+fn the_line_of_every_period_stands_out_from_the_paper() {
+    assert!((contrast("#000000", "#ffffff") - 21.0).abs() < 1e-12); // the greatest there is
+    assert!((contrast("#949494", "#ffffff") - 3.03).abs() < 0.005); // the palest grey of 3:1 on white
+    for (number, dark) in [false, true].into_iter().enumerate() {
+        let look = page_colours(dark);
+        let paper = look["paper"].as_str().unwrap();
+        let periods = look["periods"].as_array().unwrap();
+        assert_eq!(periods.len(), 9);
+        for colour in
+            periods.iter().map(|colour| colour.as_str().unwrap()).chain([[PALE_INK, "#9a9a9a"][number]])
+        {
+            assert!(contrast(colour, paper) >= 3.0, "{colour} on {paper}: {}", contrast(colour, paper));
+        }
     }
+    assert!(overlaid_look(0).colour == PALE_INK && contrast(DOUBTFUL, PAPER) >= 3.0);
 }
 
 /// Numbered lines differ in their dashes, curves of bifurcations as well.

@@ -3,10 +3,10 @@
 
 use hammerbeam_figure::{
     BasinMap, ParameterAxis, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseQuantity,
-    ResponseSettings, ScaleChoice, Style,
+    ResponseSettings, ScaleChoice, Style, SweepDiagram,
 };
 
-use super::samples::{basins, sweep};
+use super::samples::{basins, exponents, sweep};
 
 #[test]
 fn basins_name_class_period_branch_and_fraction() {
@@ -36,6 +36,22 @@ fn each_direction_of_a_sweep_has_its_panel_and_each_kind_its_name() {
         assert!(svg.contains(words), "{words}");
     }
     assert!(!svg.contains("quasi-periodic") && !svg.contains("several initial states"));
+}
+
+/// 60 kHz to 70 kHz are 60 to 70 on an axis in kilohertz.
+#[test]
+fn sweeps_and_exponents_have_the_unit_that_suits_their_frequencies() {
+    let mut diagram = sweep();
+    let of_motions = |diagram: &SweepDiagram| diagram.draw(&Style::default()).unwrap().svg();
+    assert!(of_motions(&diagram).contains(">Excitation frequency (Hz)<"));
+    diagram.motions.iter_mut().for_each(|motion| motion.frequency_hz *= 1e3);
+    assert!(of_motions(&diagram).contains(">Excitation frequency (kHz)<"));
+    let mut diagram = exponents();
+    diagram.points.iter_mut().zip([60e3, 70e3]).for_each(|(point, at)| point.frequency_hz = at);
+    let svg = diagram.draw(&Style::default()).unwrap().svg();
+    for text in [">Excitation frequency (kHz)<", ">60<", ">70<"] {
+        assert!(svg.contains(text), "{text}");
+    }
 }
 
 #[test]

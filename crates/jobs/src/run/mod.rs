@@ -32,12 +32,14 @@
 //! | `none_stable.rs` | the jobs that all branches together give: where no stable solution is known |
 //! | `schedule.rs` | what an idle thread does next |
 //! | `worker.rs` | what a thread does |
+//! | `estimate.rs` | how much of it is done |
 //! | `runner.rs` | the loop over all of it |
 //! | `whole.rs` | that, and after it branches in other parameters and curves |
 //! | `report.rs` | what came of it, branch by branch |
 
 mod agenda;
 mod decide;
+mod estimate;
 mod follow_ups;
 mod joins;
 mod known;

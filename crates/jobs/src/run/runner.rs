@@ -6,7 +6,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
         mpsc::{self, Receiver, RecvTimeoutError, SyncSender},
     },
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use hammerbeam_results::store::{MOST_STARTS, Store, StoreError};
@@ -15,14 +15,18 @@ use super::{
     Plan, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
+    estimate::{self, Effort},
     follow_ups,
     schedule::next_task,
     worker::{self, Report, Task, Walked},
 };
 use crate::{
-    Observer, Progress,
+    DoneShare, Observer, Progress,
     pool::{PATIENCE, Pool, with_pool},
 };
+
+/// Time between two estimates of how much is done.
+const ESTIMATED: Duration = Duration::from_millis(20);
 
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +76,10 @@ pub fn run(
     let stop = &stop;
     with_pool(threads, |pool| {
         let (sender, reports) = mpsc::sync_channel(4 * threads);
+        let started = Instant::now();
         let mut run = Run {
+            effort: Effort::new(&agenda),
+            done: DoneShare { fraction: store.part_done()?, of_this_run: 0.0 },
             store,
             solver,
             plan,
@@ -81,10 +88,13 @@ pub fn run(
             threads,
             busy: 0,
             new_solutions: 0,
-            fraction: 0.0,
-            started: Instant::now(),
+            started,
+            estimated: started,
         };
         let outcome = run.work(&Desk { pool, sender, stop }, &reports);
+        if let Ok(outcome) = &outcome {
+            run.store.note_part_done((*outcome != RunOutcome::Done).then_some(run.done.fraction))?;
+        }
         // Threads that still walk, for nothing any more, see that nobody reads their reports.
         stop.store(true, Ordering::Relaxed);
         drop(reports);
@@ -110,8 +120,11 @@ struct Run<'a> {
     /// Threads that have a task.
     busy: usize,
     new_solutions: u64,
-    fraction: f64,
+    effort: Effort,
+    done: DoneShare,
     started: Instant,
+    /// When it was estimated last how much is done.
+    estimated: Instant,
 }
 
 impl<'work> Run<'work> {
@@ -143,7 +156,18 @@ impl<'work> Run<'work> {
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return Err(RunError::Thread),
             }
+            if self.estimated.elapsed() >= ESTIMATED {
+                self.estimate();
+            }
         }
+    }
+
+    /// How much is done, and it is noted how long threads have been at what.
+    fn estimate(&mut self) {
+        self.estimated = Instant::now();
+        self.effort.count(&self.agenda);
+        let DoneShare { fraction, of_this_run } = self.effort.done(&self.agenda, self.plan);
+        self.done = DoneShare { fraction: self.done.fraction.max(fraction), of_this_run };
     }
 
     fn decide(&mut self) -> Result<(), RunError> {
@@ -156,9 +180,9 @@ impl<'work> Run<'work> {
         while self.busy < self.threads {
             let Some(task) = next_task(&mut self.agenda, self.store, self.solver, self.plan)? else { break };
             if let Task::Evaluate(evaluation) = &task {
-                self.fraction = self.fraction.max(self.estimate());
-                let job = &self.agenda.jobs[evaluation.job as usize].record;
-                self.observer.working(job, self.fraction);
+                let job = evaluation.job as usize;
+                self.estimate();
+                self.observer.working(&self.agenda.jobs[job].record, self.done);
             }
             let (solver, sender, stop) = (self.solver, desk.sender.clone(), desk.stop);
             desk.pool.hand(move || worker::work(solver, task, &sender, stop));
@@ -217,34 +241,15 @@ impl<'work> Run<'work> {
     }
 
     fn report_progress(&mut self, frequency_hz: f64, period_multiple: u32) {
-        self.fraction = self.fraction.max(self.estimate());
-        let open = |start: &super::agenda::Start| {
-            usize::from(start.up.running.is_some()) + usize::from(start.down.running.is_some())
-        };
         self.observer.progress(&Progress {
             frequency_hz,
             period_multiple,
             branches_done: self.agenda.accepted().filter(|start| start.is_finished(self.plan)).count(),
-            walks_open: self.agenda.starts().map(open).sum(),
+            walks_open: self.agenda.starts().map(estimate::walking).sum(),
             new_solutions: self.new_solutions,
             solutions: self.agenda.solutions(),
-            fraction: self.fraction,
+            done: self.done,
         });
-    }
-
-    /// Part of the work that is done, as far as that is known: finished jobs, and how much of the range
-    /// the branches reach that are walked.
-    fn estimate(&self) -> f64 {
-        let jobs = self.agenda.jobs.len().max(1) as f64;
-        let finished = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_some()).count() as f64;
-        let [low, high] = self.plan.range_hz;
-        let reach = |start: &super::agenda::Start| {
-            let rows = || start.up.rows.iter().chain(&start.down.rows).map(|row| row.frequency_hz);
-            (rows().fold(low, f64::max) - rows().fold(high, f64::min)) / (high - low)
-        };
-        let unfinished = self.agenda.starts().filter(|start| !start.is_finished(self.plan));
-        let walked: f64 = unfinished.map(|start| reach(start).clamp(0.0, 1.0)).sum();
-        ((finished + walked) / (jobs + 1.0)).clamp(0.0, 1.0)
     }
 }
 

@@ -11,7 +11,7 @@ use hammerbeam_study::file::StudyFile;
 use tempfile::{TempDir, tempdir};
 
 use super::{fake::FakeSolver, *};
-use crate::{Observer, Progress, Quiet};
+use crate::{DoneShare, Observer, Progress, Quiet};
 
 const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 
@@ -133,7 +133,7 @@ fn a_finished_run_started_again_computes_nothing() {
         fn progress(&mut self, progress: &Progress) {
             panic!("computed {progress:?}");
         }
-        fn working(&mut self, job: &hammerbeam_results::store::JobRecord, _fraction: f64) {
+        fn working(&mut self, job: &hammerbeam_results::store::JobRecord, _done: DoneShare) {
             panic!("searched {job:?}");
         }
     }
@@ -171,14 +171,15 @@ fn a_larger_budget_lets_a_paused_walk_go_on_to_the_same_bytes() {
 fn progress_counts_and_its_fraction_never_decreases() {
     struct Watch(f64, u64);
     impl Observer for Watch {
-        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, fraction: f64) {
-            assert!((self.0..=1.0).contains(&fraction), "{fraction}");
-            self.0 = fraction;
+        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, done: DoneShare) {
+            assert!((self.0..=1.0).contains(&done.fraction), "{done:?}");
+            self.0 = done.fraction;
         }
         fn progress(&mut self, progress: &Progress) {
-            assert!((self.0..=1.0).contains(&progress.fraction), "{progress:?}");
+            assert!((self.0..=1.0).contains(&progress.done.fraction), "{progress:?}");
+            assert!((0.0..=1.0).contains(&progress.done.of_this_run), "{progress:?}");
             assert!(progress.new_solutions > self.1);
-            (self.0, self.1) = (progress.fraction, progress.new_solutions);
+            (self.0, self.1) = (progress.done.fraction, progress.new_solutions);
         }
     }
     let mut watch = Watch(0.0, 0);
@@ -188,13 +189,55 @@ fn progress_counts_and_its_fraction_never_decreases() {
     assert!(watch.0 > 0.0, "{}", watch.0);
 }
 
+/// Whenever a run is stopped, the next one goes on from what the stopped one showed.
+#[test]
+fn a_run_that_goes_on_shows_no_less_than_the_stopped_one_did() {
+    #[derive(Default)]
+    struct Watch {
+        shown: f64,
+        first: Option<f64>,
+        reports: usize,
+        stops_at: usize,
+    }
+    impl Watch {
+        fn see(&mut self, done: DoneShare) {
+            self.first.get_or_insert(done.fraction);
+            self.shown = done.fraction;
+            self.reports += 1;
+        }
+    }
+    impl Observer for Watch {
+        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, done: DoneShare) {
+            self.see(done);
+        }
+        fn progress(&mut self, progress: &Progress) {
+            self.see(progress.done);
+        }
+        fn interrupted(&mut self) -> bool {
+            self.reports >= self.stops_at
+        }
+    }
+    let (study, folder, mut shown, mut stops) = (study(), tempdir().unwrap(), 0.0, 0);
+    loop {
+        let mut watch = Watch { stops_at: 5, ..Watch::default() };
+        let outcome = run_into(folder.path(), &study, &mut watch);
+        assert!(watch.first.is_none_or(|first| first >= shown), "{:?} after {shown}", watch.first);
+        if outcome == RunOutcome::Done {
+            break;
+        }
+        (shown, stops) = (watch.shown, stops + 1);
+    }
+    assert!(stops > 2 && shown > 0.0, "{stops} stops, {shown}");
+    assert_eq!(Store::open(folder.path()).unwrap().part_done().unwrap(), 0.0);
+}
+
 /// Searches that find nothing are work, too: when the last one begins most of the run is done.
 #[test]
 fn searches_that_end_count_in_the_fraction() {
     struct Last(f64);
     impl Observer for Last {
-        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, fraction: f64) {
-            self.0 = fraction;
+        fn working(&mut self, _job: &hammerbeam_results::store::JobRecord, done: DoneShare) {
+            self.0 = done.fraction;
         }
     }
     let (mut last, folder) = (Last(0.0), tempdir().unwrap());

@@ -8,7 +8,6 @@ use hammerbeam_results::{
     Store,
     summary::{summarise, summarise_pieces},
 };
-use hammerbeam_study::readable;
 
 use super::{Plan, RunOutcome, RunReport, run};
 use crate::{
@@ -117,18 +116,20 @@ fn met_at(
             return Err(JobError::NoSpecialPoint { results: origin.folder.clone(), number, count });
         }
     };
+    let results = origin.folder.clone();
+    let [low, high] = range_hz;
+    if let Some(point) = states.first()
+        && states.iter().all(|state| !(low..=high).contains(&state.frequency_hz))
+    {
+        let at_hz = point.frequency_hz;
+        return Err(JobError::SpecialPointOutside { results, number, at_hz, range_hz });
+    }
     let found = solver.near(&states);
     if found.is_empty() {
-        let point = format!("special point {number} of {}", origin.folder.display());
-        let [low, high] = range_hz;
-        let outside = states.first().filter(|state| !(low..=high).contains(&state.frequency_hz));
-        observer.notice(&match outside {
-            Some(state) => {
-                let [at, low, high] = [state.frequency_hz, low, high].map(|hertz| readable(hertz, "Hz"));
-                format!("{point} lies at {at}, outside the range of this study, {low} to {high}")
-            }
-            None => format!("no periodic solution of this study was found near {point}"),
-        });
+        let results = results.display();
+        observer.notice(&format_args!(
+            "no periodic solution of this study was found near special point {number} of {results}"
+        ));
     }
     Ok(found)
 }

@@ -74,9 +74,11 @@ pub fn run(
         let solver = &solvers[record.place as usize - 1];
         PieceWork { record, solver: solver.as_deref().map_err(Clone::clone), is_running: false }
     };
+    let count = stored.len();
     let mut left: Vec<PieceWork<'_>> =
         stored.into_iter().filter(|record| !record.finished).map(work).collect();
-    let all = pool::compute_all(store, &mut left, threads, observer)?;
+    let finished = count - left.len();
+    let all = pool::compute_all(store, (&mut left, finished), threads, observer)?;
     Ok(if all { VariedOutcome::Done } else { VariedOutcome::Interrupted })
 }
 

@@ -18,9 +18,11 @@ use crate::{
 };
 
 /// Computes what is left of the pieces and stores it; whether all are finished, or the observer said stop.
+///
+/// * `finished`: pieces of the study that an earlier run has finished.
 pub(super) fn compute_all<'w>(
     store: &mut Store,
-    pieces: &mut [PieceWork<'w>],
+    (pieces, finished): (&mut [PieceWork<'w>], usize),
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<bool, StoreError> {
@@ -32,6 +34,7 @@ pub(super) fn compute_all<'w>(
         let mut desk = Desk {
             names: &names,
             fractions: vec![0.0; names.len()],
+            finished,
             done: 0,
             solutions: 0,
             busy: 0,
@@ -75,6 +78,8 @@ type Handed<'w> = (usize, &'w dyn PieceSolver, PieceTask);
 struct Desk<'a> {
     names: &'a [String],
     fractions: Vec<f64>,
+    /// Pieces that an earlier run has finished, and those of this one.
+    finished: usize,
     done: usize,
     solutions: u64,
     /// Threads that have a task, and how many there are.
@@ -140,7 +145,8 @@ impl<'a> Desk<'a> {
             pieces_done: self.done,
             pieces: self.names.len(),
             new_solutions: self.solutions,
-            fraction: self.fractions.iter().sum::<f64>() / self.names.len().max(1) as f64,
+            fraction: (self.finished as f64 + self.fractions.iter().sum::<f64>())
+                / (self.finished + self.names.len()).max(1) as f64,
         }
     }
 }

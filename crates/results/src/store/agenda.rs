@@ -4,9 +4,12 @@ use hammerbeam_orbit::{PeriodicSolution, Side};
 
 use super::{
     Continuation, JobKind, JobOutcome, JobRecord, Piece, PieceRecord, StartRecord, Store, StoreError, jobs,
-    pieces, starts, write::write_walk,
+    pieces, schema, starts, write::write_walk,
 };
 use crate::{end::BranchEnd, row::SolvedRow};
+
+/// Key of the part that a stopped run showed as done.
+const PART_DONE: &str = "part_done";
 
 impl Store {
     /// All jobs in their order.
@@ -61,6 +64,29 @@ impl Store {
     /// The database refuses.
     pub fn take_back_to(&mut self, start: u32) -> Result<(), StoreError> {
         jobs::take_back_to(self.write()?, start)
+    }
+
+    /// Part of the work that a stopped run showed as done, 0 to 1; 0 where none was stopped in order.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn part_done(&self) -> Result<f64, StoreError> {
+        let noted = self.about(PART_DONE)?.parse().unwrap_or(0.0);
+        Ok(if (0.0..=1.0).contains(&noted) { noted } else { 0.0 })
+    }
+
+    /// Notes it, or that there is nothing to note.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn note_part_done(&mut self, part: Option<f64>) -> Result<(), StoreError> {
+        let noted = part.map_or_else(String::new, |part| part.to_string());
+        if self.about(PART_DONE)? != noted {
+            let transaction = self.write()?;
+            schema::note(&transaction, PART_DONE, &noted)?;
+            transaction.commit()?;
+        }
+        Ok(())
     }
 
     /// Starts of all jobs, in their order.

@@ -122,13 +122,16 @@ fn store_for(pieces: &[FakePiece]) -> (TempDir, Store) {
 }
 
 fn compute(store: &mut Store, pieces: &[FakePiece], threads: usize, observer: &mut dyn Observer) -> bool {
-    let records = store.all_pieces().expect("no refusal").into_iter();
+    let records = store.all_pieces().expect("no refusal");
+    let count = records.len();
     let work = |record: hammerbeam_results::store::PieceRecord| {
         let solver: &dyn PieceSolver = &pieces[record.place as usize - 1];
         PieceWork { record, solver: Ok(solver), is_running: false }
     };
-    let mut works: Vec<PieceWork<'_>> = records.filter(|record| !record.finished).map(work).collect();
-    compute_all(store, &mut works, threads, observer).expect("no refusal")
+    let mut works: Vec<PieceWork<'_>> =
+        records.into_iter().filter(|record| !record.finished).map(work).collect();
+    let finished = count - works.len();
+    compute_all(store, (&mut works, finished), threads, observer).expect("no refusal")
 }
 
 /// Values of the parameter along the branches of each piece, and its message.
@@ -179,6 +182,19 @@ impl Observer for RecordingObserver {
     fn interrupted(&mut self) -> bool {
         self.stops
     }
+}
+
+/// Of two pieces one is finished: half is done before the first row of the other one.
+#[test]
+fn pieces_of_an_earlier_run_count_as_done() {
+    let pieces = [0, 1].map(|_| FakePiece { starts: 1, ..FakePiece::default() });
+    let (_folder, mut store) = store_for(&pieces);
+    let rows = 2 * ROWS as usize + 1;
+    let mut first = RecordingObserver { stops_at: Some(rows + 1), ..RecordingObserver::default() };
+    assert!(!compute(&mut store, &pieces, 1, &mut first));
+    let mut second = RecordingObserver::default();
+    assert!(compute(&mut store, &pieces, 1, &mut second));
+    assert!(second.seen.iter().all(|(fraction, _)| *fraction >= 0.5), "{:?}", second.seen);
 }
 
 #[test]
