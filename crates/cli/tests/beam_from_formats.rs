@@ -13,6 +13,8 @@ use crate::common::{BEAM, Workshop, assert_success};
 
 /// Entries of a matrix: row and column from 0, and the number as it was written.
 type Entries = Vec<(usize, usize, String)>;
+/// Writes a matrix of a name.
+type Writer = fn(&str, &Entries) -> Vec<u8>;
 
 /// Of a file of Matrix Market, one triangle.
 fn entries(path: &Path) -> Entries {
@@ -166,7 +168,7 @@ fn rows_of_the_beam_are_those_of_its_matrices_in_each_format() {
     fs::write(workshop.path("market.toml"), &bundle).unwrap();
     fs::write(workshop.path("beam.toml"), &study).unwrap();
     let mut studies = vec!["market.toml".to_owned()];
-    let formats: [(&str, fn(&str, &Entries) -> Vec<u8>); 5] =
+    let formats: [(&str, Writer); 5] =
         [("sti", calculix), ("mtx", abaqus), ("rua", harwell_boeing), ("op4", output4), ("mat", mat)];
     for (ending, written) in formats {
         let mut text = bundle.clone();
