@@ -218,8 +218,8 @@ mod tests {
         assert_eq!(left_after(0.0, leapt), None);
     }
 
-    /// Work done as the root or the square of the time: by the two estimates the whole takes 40 s or 28.3 s, and
-    /// 160 s or 320 s of which 80 s have passed.
+    /// Work done as the root or the square of the time: by the two estimates the whole takes 40 s or 28.3 s,
+    /// and 160 s or 320 s of which 80 s have passed.
     #[test]
     fn a_range_is_shown_where_two_estimates_differ() {
         let slower = seconds(20).map(|second| (second, (second / 80.0).sqrt()));

@@ -36,7 +36,7 @@ pub(crate) fn line_pattern(number: usize) -> Pattern {
 }
 
 /// Colour of a doubtful motion.
-const DOUBTFUL: &str = "#7a7a7a";
+const DOUBTFUL: &str = "#757575";
 
 /// Colours of initial states without a computed motion, and of impossible ones behind a rigid stop.
 pub(crate) const NOT_COMPUTED: &str = INK;

@@ -2,9 +2,11 @@
 //! drawn is refused.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use std::f64::consts::TAU;
+
 use hammerbeam_figure::{
-    DrawnMode, ExcitationDiagram, Figure, FigureError, ModeDiagram, SketchBeam, SketchCarrier, SketchEnd,
-    SketchLayout, SketchLink, SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind,
+    DrawnMode, ExcitationDiagram, Figure, FigureError, FrequencyUnit, ModeDiagram, SketchBeam, SketchCarrier,
+    SketchEnd, SketchLayout, SketchLink, SketchLumped, SketchMotion, SketchPoint, SketchStop, StopKind,
     StructureDiagram, Style,
 };
 
@@ -259,10 +261,12 @@ fn long_names_and_long_last_numbers_stay_on_the_page() {
     let figure = named.draw(&Style::single_column()).unwrap();
     assert!(figure.svg().contains("…<"), "the name is cut and says so");
     assert_in_the_width(&figure);
-    let rows = vec![(300_000.0, 1.0), (600_000.0, 2.0)];
+    // In rad/s, which take no prefix.
+    let rows = [(300_000.0, 1.0), (600_000.1, 2.0)].map(|(angular, value)| (angular / TAU, value)).to_vec();
     let excitation =
         ExcitationDiagram { rows, quantity: "Amplitude (N)".to_owned(), ..ExcitationDiagram::default() };
     for style in [Style::single_column(), Style::double_column()] {
+        let style = Style { frequency_unit: FrequencyUnit::RadPerSecond, ..style };
         let figure = excitation.draw(&style).unwrap();
         assert!(figure.svg().contains(">600\u{2009}000<"));
         assert_in_the_width(&figure);

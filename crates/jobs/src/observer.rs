@@ -52,7 +52,8 @@ pub struct VariedProgress<'a> {
     pub pieces: usize,
     /// Solutions of them computed by this run.
     pub new_solutions: u64,
-    /// Estimated part of all pieces of the study that is done, by earlier runs too, 0 to 1; it never decreases.
+    /// Estimated part of all pieces of the study that is done, by earlier runs too, 0 to 1; it never
+    /// decreases.
     pub fraction: f64,
 }
 

@@ -1,7 +1,7 @@
 //! How much of a run is done: the work that was done, beside the work that is still expected.
 //!
-//! Work is counted in seconds of one thread. A run consists of evaluations of jobs, of class `k` (searches for
-//! the harmonic branch, other searches, departures from a branch), and of walks. With the mean time `c_k` of
+//! Work is counted in seconds of one thread. A run consists of evaluations of jobs, of class `k` (searches
+//! for the harmonic branch, other searches, departures from a branch), and of walks. With the mean time `c_k` of
 //! an evaluation, the mean time `c` of a solution, `n_k` evaluations and `N` solutions so far, `m_k` open
 //! evaluations, and a walk of `L_i` solutions of which `N_i` are there,
 //!
@@ -30,8 +30,8 @@ const SEARCH: usize = 1;
 const DEPARTURE: usize = 2;
 const CLASSES: usize = 3;
 
-/// First guesses of the time of an evaluation of each class and of a solution [s], and their weights as numbers
-/// of such.
+/// First guesses of the time of an evaluation of each class and of a solution [s], and their weights as
+/// numbers of such.
 const EVALUATION_S: [f64; CLASSES] = [0.02, 0.1, 0.005];
 const EVALUATION_WEIGHT: f64 = 0.5;
 const SOLUTION_S: f64 = 5e-4;
