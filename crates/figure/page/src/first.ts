@@ -11,7 +11,10 @@ import { nearestOrbit } from "./orbit";
 export function firstSolution(meta: Meta, solutions: Solutions): number {
     const over = meta.branches.filter((branch) => branch.over === 0 && branch.count > 0);
     const isStable = (k: number): boolean => ((solutions.flags[k] ?? 0) & (STABLE | MARGINAL)) === STABLE;
-    const largest = ({ first, count }: { first: number; count: number }, suits: (k: number) => boolean): number => {
+    const largest = (
+        { first, count }: { first: number; count: number },
+        suits: (k: number) => boolean,
+    ): number => {
         let best = -1;
         for (let k = first; k < first + count; k++) {
             const value = solutions.maxima.displacement[k] ?? NaN;
@@ -26,8 +29,10 @@ export function firstSolution(meta: Meta, solutions: Solutions): number {
     };
     const stable = over.map((branch) => largest(branch, isStable)).find((k) => k >= 0);
     if (stable !== undefined) {
-        const isNear = (k: number): boolean => isStable(k) && solutions.branch[k] === solutions.branch[stable];
-        const nearer = (a: number, b: number): number => (Math.abs(b - stable) < Math.abs(a - stable) ? b : a);
+        const { branch } = solutions;
+        const isNear = (k: number): boolean => isStable(k) && branch[k] === branch[stable];
+        const distance = (k: number): number => Math.abs(k - stable);
+        const nearer = (a: number, b: number): number => (distance(b) < distance(a) ? b : a);
         const carried = meta.orbits.solutions.filter(isNear);
         return carried.length > 0 ? carried.reduce(nearer) : stable;
     }

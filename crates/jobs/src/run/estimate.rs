@@ -1,8 +1,8 @@
 //! How much of a run is done: the work that was done, beside the work that is still expected.
 //!
 //! Work is counted in seconds of one thread. A run consists of evaluations of jobs, of class `k` (searches
-//! for the harmonic branch, other searches, departures from a branch), and of walks. With the mean time `c_k` of
-//! an evaluation, the mean time `c` of a solution, `n_k` evaluations and `N` solutions so far, `m_k` open
+//! for the harmonic branch, other searches, departures from a branch), and of walks. With the mean time `c_k`
+//! of an evaluation, the mean time `c` of a solution, `n_k` evaluations and `N` solutions so far, `m_k` open
 //! evaluations, and a walk of `L_i` solutions of which `N_i` are there,
 //!
 //! ```text
