@@ -4,7 +4,7 @@
 //! rest goes on as fast, which work does not where new branches turn up. So there are two estimates of the
 //! time that the whole takes: by the part that is done now, and by that at half of the time that has passed.
 //! Where they are the same to a third, one number is shown; up to a factor of four, the range between them;
-//! else nothing. Nothing is shown either before a tenth is done in at least two seconds, nor where nothing
+//! else nothing. Nothing is shown either before a tenth is done in at least four seconds, nor where nothing
 //! was done in the second half of the time, nor where the upper end is more than nine times what has passed.
 
 use std::{
@@ -18,7 +18,7 @@ use crate::output::notify;
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Part of the work and time before which nothing is estimated.
 const LEAST_PART: f64 = 0.1;
-const LEAST_TIME: Duration = Duration::from_secs(2);
+const LEAST_TIME: Duration = Duration::from_secs(4);
 /// Ratio of two estimates of the whole time up to which they are one, and beyond which neither is shown.
 const AGREE: f64 = 4.0 / 3.0;
 const APART: f64 = 4.0;
@@ -188,9 +188,9 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_said_before_a_tenth_is_done_in_two_seconds() {
+    fn nothing_is_said_before_a_tenth_is_done_in_four_seconds() {
         assert_eq!(left_after(0.0, seconds(8).map(|second| (second, 0.005 * second))), None);
-        assert_eq!(left_after(0.0, seconds(1).map(|second| (second, 0.5 * second))), None);
+        assert_eq!(left_after(0.0, seconds(3).map(|second| (second, 0.2 * second))), None);
         let little_is_new = seconds(30).map(|second| (second, 0.5 + 0.001 * second));
         assert_eq!(left_after(0.5, little_is_new), None, "what an earlier command did says nothing");
     }

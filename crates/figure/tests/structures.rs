@@ -265,8 +265,8 @@ fn long_names_and_long_last_numbers_stay_on_the_page() {
     let rows = [(300_000.0, 1.0), (600_000.1, 2.0)].map(|(angular, value)| (angular / TAU, value)).to_vec();
     let excitation =
         ExcitationDiagram { rows, quantity: "Amplitude (N)".to_owned(), ..ExcitationDiagram::default() };
-    for style in [Style::single_column(), Style::double_column()] {
-        let style = Style { frequency_unit: FrequencyUnit::RadPerSecond, ..style };
+    for mut style in [Style::single_column(), Style::double_column()] {
+        style.frequency_unit = FrequencyUnit::RadPerSecond;
         let figure = excitation.draw(&style).unwrap();
         assert!(figure.svg().contains(">600\u{2009}000<"));
         assert_in_the_width(&figure);

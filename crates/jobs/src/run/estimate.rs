@@ -12,15 +12,28 @@
 //! where `p_k` is the part of the decided jobs of the class that began a branch and `M_k` the mean length of
 //! such a branch. All of these are measured as the run goes on; each has a first guess of small weight. A
 //! harmonic branch that has covered the part `r` of the range with `N` solutions is taken to have `N / r` in
-//! all. Branches that branches not found yet would lead to are not counted, so that `left` may grow.
+//! all.
+//!
+//! A branch leads to departures, and these lead to branches in turn. Branches that a departure began have led to
+//! `d` departures in the mean; so a departure that is still to come costs, with `p` and `M` of departures,
+//!
+//! ```text
+//! D = c_departure + p (M c + d D) = (c_departure + p M c) / (1 - p d)
+//! ```
+//!
+//! A branch that is still to be found costs `d D` on top of its solutions, and one that is being followed `D` for
+//! each departure that it leads to so far, and for as many as it will lead to at this rate. Where `p d` comes near
+//! 1, branches lead to branches without end as far as is known; it is taken to be 0.75 at most, so that `left` may
+//! grow.
 
-use std::time::Instant;
+use std::{collections::BTreeSet, time::Instant};
 
-use hammerbeam_results::store::JobKind;
+use hammerbeam_results::store::{JobKind, start_of_key};
 
 use super::{
     Plan,
     agenda::{Agenda, Job, Start},
+    follow_ups,
 };
 use crate::observer::DoneShare;
 
@@ -41,6 +54,9 @@ const BRANCH_SOLUTIONS: f64 = 200.0;
 const COVERED: f64 = 0.05;
 /// Searches that are expected where no stable solution is known, before it is known where that is.
 const LATER_SEARCHES: usize = 4;
+/// Largest number of departures that a departure is taken to lead to, and the first guess of how many a branch does.
+const MOST_LED_TO: f64 = 0.75;
+const LED_TO: f64 = 0.5;
 /// Part of what is walked that an unfinished walk is taken to have before it, at least.
 const STILL: f64 = 0.1;
 
@@ -173,15 +189,39 @@ impl Yield {
         (self.solutions + BRANCH_SOLUTIONS) / (self.branches + 1.0)
     }
 
-    /// Solutions that a job leads to.
+    /// Branches that a job leads to.
     fn of_job(&self) -> f64 {
-        ((self.branches + 0.5) / (self.decided + 1.0)).min(2.0) * self.length()
+        ((self.branches + 0.5) / (self.decided + 1.0)).min(2.0)
+    }
+}
+
+/// What departures lead to.
+#[derive(Debug, Clone, Copy)]
+struct Departures {
+    /// Departures that a branch leads to.
+    of_branch: f64,
+    /// Time of a departure and all that it leads to [s].
+    each_s: f64,
+}
+
+impl Departures {
+    fn of(agenda: &Agenda, of_class: &Yield, means: &Means) -> Self {
+        let begun = agenda.jobs.iter().filter(|job| class(job.record.kind) == DEPARTURE);
+        let begun: BTreeSet<u32> = begun.flat_map(|job| &job.starts).map(|start| start.key).collect();
+        let sources = agenda.jobs.iter().filter_map(|job| job.record.source.map(start_of_key));
+        let led_to = sources.filter(|source| begun.contains(source)).count() as f64;
+        let of_branch = (led_to + LED_TO) / (of_class.branches + 1.0);
+        let led_to = (of_class.of_job() * of_branch).min(MOST_LED_TO);
+        let alone_s =
+            means.evaluation_s[DEPARTURE] + of_class.of_job() * of_class.length() * means.solution_s;
+        Self { of_branch, each_s: alone_s / (1.0 - led_to) }
     }
 }
 
 /// Time that is still expected [s].
 fn left_s(agenda: &Agenda, plan: &Plan, means: &Means) -> f64 {
     let yields: [Yield; CLASSES] = std::array::from_fn(|wanted| Yield::of(agenda, plan, wanted));
+    let departures = Departures::of(agenda, &yields[DEPARTURE], means);
     let covered = covered(agenda, plan);
     let mut harmonic_is_expected = covered.is_none();
     let mut left_s = 0.0;
@@ -192,7 +232,7 @@ fn left_s(agenda: &Agenda, plan: &Plan, means: &Means) -> f64 {
             || !job.starts.is_empty()
             || covered.is_some_and(|[low, high]| !(low..=high).contains(&job.record.frequency_hz));
         if is_needed {
-            left_s += of_job(job, &yields[kind], plan) * means.solution_s;
+            left_s += of_job(job, (&yields[kind], &departures), plan, means.solution_s);
             left_s += means.evaluation_s[kind] * unevaluated(job);
         }
     }
@@ -210,14 +250,19 @@ fn unevaluated(job: &Job) -> f64 {
     }
 }
 
-/// Solutions that a job that is not decided still leads to.
-fn of_job(job: &Job, of_class: &Yield, plan: &Plan) -> f64 {
+/// Time that branches of a job that is not decided still take, with all that they lead to [s].
+fn of_job(job: &Job, (of_class, departures): (&Yield, &Departures), plan: &Plan, solution_s: f64) -> f64 {
     let is_walked = |start: &&Start| start.branch.is_some() || solutions(start) > 1.0;
     let walked = job.starts.iter().filter(is_walked).filter(|start| !start.is_finished(plan));
-    let walked: f64 = walked.map(|start| before(start, of_class, plan)).sum();
+    let walked_s = walked.map(|start| {
+        let (there, before) = (solutions(start), before(start, of_class, plan));
+        let leads_to = follow_ups::of_branch(start, job.record.depth, plan).len() as f64;
+        before * solution_s + leads_to * (1.0 + before / there.max(1.0)) * departures.each_s
+    });
     let is_open =
         !job.record.evaluated || job.starts.iter().any(|start| !is_walked(&start) && !start.doubtful);
-    walked + if is_open { of_class.of_job() } else { 0.0 }
+    let branch_s = of_class.length() * solution_s + departures.of_branch * departures.each_s;
+    walked_s.sum::<f64>() + if is_open { of_class.of_job() * branch_s } else { 0.0 }
 }
 
 /// Solutions that are before a branch that is being followed.

@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// Time between two estimates of how much is done.
-const ESTIMATED: Duration = Duration::from_millis(20);
+const ESTIMATED: Duration = Duration::from_millis(50);
 
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
