@@ -201,8 +201,9 @@ mod tests {
         ChosenOrbit { branch: None, event: String::new(), solution }
     }
 
-    /// A sample of one mass with one spring is eleven numbers: time, phase, three of each of its two points, the
-    /// mass and the ground, a force, two of the state. In 25 periods 181 818 samples each are 49 999 950 numbers.
+    /// A sample of one mass with one spring is eleven numbers: time, phase, three of each of its two points,
+    /// the mass and the ground, a force, two of the state. In 25 periods 181 818 samples each are 49 999 950
+    /// numbers.
     #[test]
     fn motions_are_as_large_as_is_allowed_and_no_larger() {
         let model = PreparedStudy::parse("duffing.toml", STUDY).unwrap().model;
