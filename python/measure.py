@@ -6,7 +6,8 @@ package, a million samples and a million solutions into NumPy, many studies.
 * COMMAND: the command `hammerbeam`, built with the same profile as the extension module.
 * `--whole`: figure 3 of the paper over its whole range, 19 to 110 Hz, instead of 30 to 38 Hz alone.
 * `--wheel`: the wheel; by default the newest in `target/wheels`.
-* `--only`: some parts alone, of `size`, `import`, `overhead`, `samples`, `solutions`, `planned`, `throughput`.
+* `--only`: some parts alone, of `size`, `import`, `overhead`, `samples`, `solutions`, `planned` and
+  `throughput`.
 
 All seconds but those of the last line are processor time of all threads and processes, the least of some
 rounds: other programs may be at work.
@@ -111,7 +112,8 @@ def samples(rounds: int, folder: Path) -> Iterator[Row]:
 
 def solutions(rounds: int, folder: Path) -> Iterator[Row]:
     """A folder of a million solutions: opened, and its rows as a structured array."""
-    hammerbeam.Study.parse(figure_3(whole=False)).run(folder / "diagram", progress=False, figures=False).close()
+    study = hammerbeam.Study.parse(figure_3(whole=False))
+    study.run(folder / "diagram", progress=False, figures=False).close()
     enlarge(folder / "diagram/results.db", 1_000_000)
 
     def taken() -> tuple[float, float, int]:
@@ -123,8 +125,9 @@ def solutions(rounds: int, folder: Path) -> Iterator[Row]:
 
     found = [taken() for _ in range(rounds)]
     open_s, rows_s = (min(one[k] for one in found) for k in (0, 1))
-    size = (folder / "diagram/results.db").stat().st_size / 1e6
-    yield f"a folder of {found[0][2]:_} solutions opened".replace("_", " "), f"{open_s:.2f} s, {size:.0f} MB", ""
+    megabytes = (folder / "diagram/results.db").stat().st_size / 1e6
+    opened = f"a folder of {found[0][2]:_} solutions opened".replace("_", " ")
+    yield opened, f"{open_s:.2f} s, {megabytes:.0f} MB", ""
     yield "the rows of these solutions", f"{rows_s:.3f} s", "0.2 s"
 
 
@@ -142,7 +145,8 @@ def enlarge(database: Path, count: int) -> None:
             "solution": {"id": starts << 33},
         }
         for table, shifted in shifts.items():
-            known = [name for _, name, *_ in store.execute(f"PRAGMA table_info({table})") if name != "checksum"]
+            columns = store.execute(f"PRAGMA table_info({table})")
+            known = [name for _, name, *_ in columns if name != "checksum"]
             copied = [f"{name} + ?1 * {shifted[name]}" if name in shifted else name for name in known]
             rows = f"SELECT {', '.join(copied)} FROM {table} WHERE id < {shifted['id']}"
             for copy in range(1, -(-count // there)):

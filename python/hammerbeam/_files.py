@@ -10,8 +10,8 @@ from pathlib import Path
 
 @contextmanager
 def whole_files(folder: Path) -> Iterator[Path]:
-    """A folder within `folder` for files that are being written. They are moved to `folder` when the block ends,
-    also after a loss of power whole; if it raises, everything is as it was before.
+    """A folder within `folder` for files that are being written. They are moved to `folder` when the block
+    ends, also after a loss of power whole; if it raises, everything is as it was before.
 
     Where a link was the file is afterwards, not where the link led to.
     """

@@ -29,15 +29,15 @@ class NativeOrbits:
         """
         Name of the response point.
         """
-    def table(self, /) -> tuple[str, list[tuple[str, str, int | None]], int, bytearray]:
+    def table(self, /) -> tuple[str, list[tuple[str, str, int | None]], int, Any]:
         """
         One row for each.
         """
-    def tables_of_all(self, /, samples: SupportsIndex, callbacks: tuple[Any | None, Any | None]) -> list[tuple[str, list[tuple[str, str, int | None]], int, bytearray]]:
+    def tables_of_all(self, /, samples: SupportsIndex, callbacks: tuple[Any | None, Any | None]) -> list[tuple[str, list[tuple[str, str, int | None]], int, Any]]:
         """
         All of them with their motions.
         """
-    def waveform(self, /, index: SupportsIndex, samples: SupportsIndex) -> tuple[str, list[tuple[str, str, int | None]], int, bytearray]:
+    def waveform(self, /, index: SupportsIndex, samples: SupportsIndex) -> tuple[str, list[tuple[str, str, int | None]], int, Any]:
         """
         The motion of one of them over its period.
         """
@@ -81,7 +81,7 @@ class NativeResults:
         """
         Stored orbits by branch, frequency and event.
         """
-    def request_tables(self, /, request: SupportsIndex) -> list[tuple[str, list[tuple[str, str, int | None]], int, bytearray]]:
+    def request_tables(self, /, request: SupportsIndex) -> list[tuple[str, list[tuple[str, str, int | None]], int, Any]]:
         """
         Tables of one request.
         """
@@ -90,7 +90,7 @@ class NativeResults:
         """
         The study whose results these are.
         """
-    def tables(self, /, name: str, branches: SupportsGetItem[int, SupportsIndex]) -> list[tuple[str, list[tuple[str, str, int | None]], int, bytearray]]:
+    def tables(self, /, name: str, branches: SupportsGetItem[int, SupportsIndex]) -> list[tuple[str, list[tuple[str, str, int | None]], int, Any]]:
         """
         Tables by their names.
         """

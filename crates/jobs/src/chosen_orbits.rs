@@ -201,21 +201,22 @@ mod tests {
         ChosenOrbit { branch: None, event: String::new(), solution }
     }
 
-    /// A sample of one mass with one spring is eight numbers: time, phase, three of the point, a force, two of
-    /// the state. 50 000 000 of them are 6 250 000 samples.
+    /// A sample of one mass with one spring is eleven numbers: time, phase, three of each of its two points,
+    /// the mass and the ground, a force, two of the state. In 25 periods 181 818 samples each are 49 999 950
+    /// numbers.
     #[test]
     fn motions_are_as_large_as_is_allowed_and_no_larger() {
         let model = PreparedStudy::parse("duffing.toml", STUDY).unwrap().model;
         let orbits = vec![orbit(5), orbit(20)];
-        ensure_small(&model, &orbits, 250_000).unwrap();
-        let refused = orbit_tables(&model, &orbits, 250_001, &mut Quiet).unwrap_err();
-        let words = "the motions of 2 orbits are 50000200 numbers, must be 50000000 at most; allowed: fewer orbits, \
-            or at most 250000 samples in a period";
+        ensure_small(&model, &orbits, 181_818).unwrap();
+        let refused = orbit_tables(&model, &orbits, 181_819, &mut Quiet).unwrap_err();
+        let words = "the motions of 2 orbits are 50000225 numbers, must be 50000000 at most; allowed: \
+            fewer orbits, or at most 181818 samples in a period";
         assert_eq!(refused.to_string(), words);
         assert_eq!(refused.kind(), FailureKind::BadInput);
     }
 
-    /// 120 orbits of 65 536 periods are 7 864 320 periods, more than there may be samples.
+    /// 120 orbits of 65 536 periods are 86 507 520 numbers with one sample in each.
     #[test]
     fn where_one_sample_in_a_period_is_too_much_fewer_orbits_are_allowed() {
         let model = PreparedStudy::parse("duffing.toml", STUDY).unwrap().model;

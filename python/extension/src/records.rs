@@ -9,8 +9,8 @@ pub type PackedTable<'py> = (String, Vec<(String, String, Option<usize>)>, usize
 /// Records that are packed at a time, so that they stay in the cache until they are copied.
 const BLOCK: usize = 4096;
 
-/// A table for Python, in memory of NumPy, which asks the system for large pages: with small ones the system would
-/// take longer to hand out the memory than it takes to fill it.
+/// A table for Python, in memory of NumPy, which asks the system for large pages: with small ones the system
+/// would take longer to hand out the memory than it takes to fill it.
 pub fn packed<'py>(py: Python<'py>, table: &ArrayTable) -> PyResult<PackedTable<'py>> {
     let layout = py.detach(|| Layout::of(table));
     let (record, rows) = (layout.record(), layout.rows());

@@ -1,7 +1,7 @@
 """`python -m hammerbeam.batch`: a batch folder from a terminal, and what engines call.
 
     python -m hammerbeam.batch plan FOLDER STUDY TABLE.csv [--task TASK.json]
-    python -m hammerbeam.batch plan FOLDER STUDY --latin KEY=LOW:HIGH ... --samples N [--seed S] [--task TASK.json]
+    python -m hammerbeam.batch plan FOLDER STUDY --latin KEY=LOW:HIGH ... --samples N [--seed S]
     python -m hammerbeam.batch run FOLDER [--processes N] [--hyperqueue]
     python -m hammerbeam.batch status FOLDER
     python -m hammerbeam.batch gather FOLDER
@@ -10,7 +10,8 @@
 
 WHICH is a number, a range such as 101-200, `--entry` for the entry of HyperQueue, or `-` for numbers from
 standard input. TASK.json says what is computed instead of a run, such as
-`{"method": "sweep", "options": {"starts": 20}, "parts": 4}`. Exit codes are those of the command `hammerbeam`.
+`{"method": "sweep", "options": {"starts": 20}, "parts": 4}`. Exit codes are those of the command
+`hammerbeam`.
 """
 
 import argparse
@@ -99,7 +100,8 @@ def _table(given: argparse.Namespace) -> Parameters:
             raise BadInput("--latin, --samples and --seed make a table; there is one already, " + given.table)
         return Parameters.read(given.table)
     if not given.latin or given.samples is None:
-        raise BadInput("which studies are meant is missing: a table, or --latin KEY=LOW:HIGH with --samples N")
+        missing = "which studies are meant is missing: a table, or --latin KEY=LOW:HIGH with --samples N"
+        raise BadInput(missing)
     ranges = dict(_range(text) for text in given.latin)
     if len(ranges) < len(given.latin):
         raise BadInput("--latin: the same key is given twice")
@@ -113,7 +115,8 @@ def _range(text: str) -> tuple[str, tuple[float, float]]:
     try:
         return key, (float(low), float(high))
     except ValueError:
-        raise BadInput(f"--latin: found {text!r}, must be KEY=LOW:HIGH, as in stop.1.gap_m=1e-3:2e-3") from None
+        must = "must be KEY=LOW:HIGH, as in stop.1.gap_m=1e-3:2e-3"
+        raise BadInput(f"--latin: found {text!r}, {must}") from None
 
 
 def _run(given: argparse.Namespace, rest: Sequence[str]) -> int:
