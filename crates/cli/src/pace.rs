@@ -4,8 +4,9 @@
 //! rest goes on as fast, which work does not where new branches turn up. So there are two estimates of the
 //! time that the whole takes: by the part that is done now, and by that at half of the time that has passed.
 //! Where they are the same to a third, one number is shown; up to a factor of four, the range between them;
-//! else nothing. Nothing is shown either before a tenth is done in at least four seconds, nor where nothing
-//! was done in the second half of the time, nor where the upper end is more than nine times what has passed.
+//! else nothing. Nothing is shown either before a tenth is done in at least four seconds, nor where next to
+//! nothing was done in the second half of the time, nor where the upper end is more than nine times what has
+//! passed.
 
 use std::{
     fmt::{self, Display, Formatter},
@@ -22,6 +23,8 @@ const LEAST_TIME: Duration = Duration::from_secs(4);
 /// Ratio of two estimates of the whole time up to which they are one, and beyond which neither is shown.
 const AGREE: f64 = 4.0 / 3.0;
 const APART: f64 = 4.0;
+/// Work of the second half of the time, in parts of that of the first, below which it has stalled.
+const STALLED: f64 = 0.1;
 /// Largest ratio of the time that is left to that which has passed.
 const LONGEST: f64 = 9.0;
 /// Samples of the past that are kept, at most.
@@ -97,13 +100,13 @@ impl Past {
             return Some(Left { least: Duration::ZERO, most: Duration::ZERO });
         }
         let (at_half, then) = *self.samples.iter().rfind(|(at, _)| *at <= elapsed / 2)?;
-        let goes_on = self.samples.iter().any(|(at, done)| *at > at_half && *done > then);
-        if !goes_on || then <= self.first {
+        let [by_half, since] = [then - self.first, fraction - then];
+        if by_half <= 0.0 || since < STALLED * by_half {
             return None;
         }
         let (passed, to_do) = (elapsed.as_secs_f64(), 1.0 - self.first);
         let whole_now = to_do * passed / gained;
-        let whole_then = to_do * at_half.as_secs_f64() / (then - self.first);
+        let whole_then = to_do * at_half.as_secs_f64() / by_half;
         let ratio = (whole_now / whole_then).max(whole_then / whole_now);
         let [least, most] = match ratio {
             ratio if ratio <= AGREE => [whole_now; 2],

@@ -14,17 +14,17 @@
 //! harmonic branch that has covered the part `r` of the range with `N` solutions is taken to have `N / r` in
 //! all.
 //!
-//! A branch leads to departures, and these lead to branches in turn. Branches that a departure began have led to
-//! `d` departures in the mean; so a departure that is still to come costs, with `p` and `M` of departures,
+//! A branch leads to departures, and these lead to branches in turn. Branches that a departure began have led
+//! to `d` departures in the mean; so a departure that is still to come costs, with `p` and `M` of departures,
 //!
 //! ```text
 //! D = c_departure + p (M c + d D) = (c_departure + p M c) / (1 - p d)
 //! ```
 //!
-//! A branch that is still to be found costs `d D` on top of its solutions, and one that is being followed `D` for
-//! each departure that it leads to so far, and for as many as it will lead to at this rate. Where `p d` comes near
-//! 1, branches lead to branches without end as far as is known; it is taken to be 0.75 at most, so that `left` may
-//! grow.
+//! A branch that is still to be found costs `d D` on top of its solutions, and one that is being followed `D`
+//! for each departure that it leads to so far, and for as many as it will lead to at this rate. Where `p d`
+//! comes near 1, branches lead to branches without end as far as is known; it is taken to be 0.75 at most, so
+//! that `left` may grow.
 
 use std::{collections::BTreeSet, time::Instant};
 
@@ -54,7 +54,8 @@ const BRANCH_SOLUTIONS: f64 = 200.0;
 const COVERED: f64 = 0.05;
 /// Searches that are expected where no stable solution is known, before it is known where that is.
 const LATER_SEARCHES: usize = 4;
-/// Largest number of departures that a departure is taken to lead to, and the first guess of how many a branch does.
+/// Largest number of departures that a departure is taken to lead to, and a first guess of how many a branch
+/// leads to.
 const MOST_LED_TO: f64 = 0.75;
 const LED_TO: f64 = 0.5;
 /// Part of what is walked that an unfinished walk is taken to have before it, at least.
@@ -350,7 +351,13 @@ mod tests {
         for hertz in [20, 50, 80] {
             let first = Job { starts: vec![walked_to(hertz)], ..job(0, JobKind::Harmonic, true) };
             let agenda = Agenda { jobs: vec![first] };
-            let done = Effort::new(&Agenda { jobs: vec![] }).done(&agenda, &plan());
+            // As long as is guessed.
+            let effort = Effort {
+                evaluating_s: [EVALUATION_S[HARMONIC], 0.0, 0.0],
+                walking_s: f64::from(10 * hertz) * SOLUTION_S,
+                ..Effort::new(&Agenda { jobs: vec![] })
+            };
+            let done = effort.done(&agenda, &plan());
             let part = f64::from(hertz) / 100.0;
             assert!((done.fraction - part).abs() < 0.1, "{done:?} at {part}");
             assert!((done.fraction - done.of_this_run).abs() < 1e-12);

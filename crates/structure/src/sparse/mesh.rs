@@ -33,30 +33,30 @@ pub struct MeshShape {
     pub lines: Vec<[usize; 2]>,
 }
 
-impl Matrices {
-    /// The mesh of the lines of this structure, over these modes and motions of supports.
+impl MeshShape {
+    /// The mesh of the lines of a structure, over these modes and motions of supports; `None` without lines.
     ///
     /// # Errors
     /// Nodes of lines whose place is not known.
-    pub(super) fn mesh(
-        &self,
+    pub(super) fn of(
+        matrices: &Matrices,
         prepared: &Prepared,
         moving: &[&[&str]],
         (shapes, support_shapes): (&Mat<f64>, &Mat<f64>),
-    ) -> Result<Option<MeshShape>, StructureError> {
-        if self.lines.is_empty() {
+    ) -> Result<Option<Self>, StructureError> {
+        if matrices.lines.is_empty() {
             return Ok(None);
         }
-        let mut numbers: Vec<i64> = self.lines.iter().flatten().copied().collect();
+        let mut numbers: Vec<i64> = matrices.lines.iter().flatten().copied().collect();
         numbers.sort_unstable();
         numbers.dedup();
-        let unknown = numbers.iter().filter(|number| !self.nodes.contains_key(number));
+        let unknown = numbers.iter().filter(|number| !matrices.nodes.contains_key(number));
         let unknown: Vec<String> = unknown.take(8).map(i64::to_string).collect();
         if !unknown.is_empty() {
             return Err(StructureError::NoSuchNodes { what: "a line of the mesh".into(), nodes: unknown });
         }
         let rows = rows_of_nodes(prepared);
-        let bases = self.bases(moving)?;
+        let bases = bases(matrices, moving)?;
         let node = |number: &i64| {
             let along = |axis: u8| match rows.get(&(*number, axis)) {
                 Some(row) => {
@@ -71,26 +71,26 @@ impl Matrices {
             let [x, y, z] = [0, 1, 2].map(along);
             MeshNode {
                 number: *number,
-                place: self.nodes[number],
+                place: matrices.nodes[number],
                 shape: [x.0, y.0, z.0],
                 support_ratios: [x.1, y.1, z.1],
             }
         };
         let nodes: Vec<MeshNode> = numbers.iter().map(node).collect();
         let place = |number: &i64| numbers.partition_point(|other| other < number);
-        let lines = self.lines.iter().map(|[from, to]| [place(from), place(to)]).collect();
-        Ok(Some(MeshShape { nodes, lines }))
+        let lines = matrices.lines.iter().map(|[from, to]| [place(from), place(to)]).collect();
+        Ok(Some(Self { nodes, lines }))
     }
+}
 
-    /// Direction of each group of supports that takes along everything that holds the structure.
-    fn bases(&self, moving: &[&[&str]]) -> Result<Vec<Option<[f64; 3]>>, StructureError> {
-        let base = |names: &&[&str]| {
-            let mut own = self.supports.iter().filter(|support| names.contains(&support.name.as_str()));
-            let base = own.find(|support| support.rows == SupportRows::Base);
-            base.map(|support| unit(&support.along, "the direction of a support")).transpose()
-        };
-        moving.iter().map(base).collect()
-    }
+/// Direction of each group of supports that takes along everything that holds the structure.
+fn bases(matrices: &Matrices, moving: &[&[&str]]) -> Result<Vec<Option<[f64; 3]>>, StructureError> {
+    let base = |names: &&[&str]| {
+        let mut own = matrices.supports.iter().filter(|support| names.contains(&support.name.as_str()));
+        let base = own.find(|support| support.rows == SupportRows::Base);
+        base.map(|support| unit(&support.along, "the direction of a support")).transpose()
+    };
+    moving.iter().map(base).collect()
 }
 
 /// The row of each node and axis of space.

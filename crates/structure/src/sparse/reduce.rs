@@ -19,7 +19,7 @@ use super::{
     statics::Statics,
 };
 use crate::{
-    Damping, ModeTables, OutlinePoint, Plane, Reduced, ReducedModel, Reduction, StructureError,
+    Damping, MeshShape, ModeTables, OutlinePoint, Plane, Reduced, ReducedModel, Reduction, StructureError,
     error::positive,
     reduction::ResidualInertia,
     tables::{FrequencyError, relative_error},
@@ -76,7 +76,7 @@ impl Matrices {
         let outline = outline.collect();
         let mut report = prepared.assembled.report.clone();
         report::complete(&mut report, self, &prepared.assembled, &prepared.supported, &full)?;
-        let mesh = self.mesh(&prepared, moving, (&shapes, &of_supports))?;
+        let mesh = MeshShape::of(self, &prepared, moving, (&shapes, &of_supports))?;
         Ok((Reduced { model, tables, outline, mesh }, report))
     }
 }
