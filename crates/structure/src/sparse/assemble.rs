@@ -40,6 +40,23 @@ enum RowState {
 }
 
 impl Matrices {
+    /// These components and nothing else: no places of nodes, no points, nothing that holds them.
+    ///
+    /// * `memory_limit_bytes`: memory that factors may take [bytes].
+    #[must_use]
+    pub fn new(components: Vec<MatrixComponent>, memory_limit_bytes: u64) -> Self {
+        Self {
+            components,
+            nodes: BTreeMap::new(),
+            lines: Vec::new(),
+            points: Vec::new(),
+            supports: Vec::new(),
+            fixed: Vec::new(),
+            acceleration: None,
+            memory_limit_bytes,
+        }
+    }
+
     /// Joins components.
     ///
     /// # Errors
