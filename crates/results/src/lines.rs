@@ -85,6 +85,11 @@ impl OwnedBranch<'_> {
         self.branch.id
     }
 
+    /// Number of its solutions.
+    pub fn solutions(&self) -> u64 {
+        self.branch.solutions()
+    }
+
     /// Each line of a table that the branch has.
     pub fn each_line<E: From<StoreError>>(
         &self,

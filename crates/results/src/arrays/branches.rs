@@ -11,6 +11,8 @@ use crate::{
     store::{Store, StoreError},
 };
 
+/// Most rows for which there is room in a column from the beginning.
+const MOST_RESERVED: u64 = 1 << 22;
 /// Rows that are taken at a time, column by column.
 const BLOCK: usize = 512;
 
@@ -52,7 +54,12 @@ fn array(
 ) -> Result<ArrayTable, StoreError> {
     let mut columns: Vec<ColumnBuilder> = table.columns().map(ColumnBuilder::of).collect();
     let is_wanted = |branch: &OwnedBranch<'_>| branches.is_empty() || branches.contains(&branch.id());
-    for branch in all.over(table.over).into_iter().filter(is_wanted) {
+    let wanted: Vec<OwnedBranch<'_>> = all.over(table.over).into_iter().filter(is_wanted).collect();
+    if table.lines == TableLines::Rows {
+        let rows = wanted.iter().map(OwnedBranch::solutions).fold(0, u64::saturating_add);
+        columns.iter_mut().for_each(|column| column.reserve(rows.min(MOST_RESERVED) as usize));
+    }
+    for branch in wanted {
         if table.lines == TableLines::Rows {
             let common = branch.common_line();
             branch.each_block(store, BLOCK, |rows| {
@@ -107,6 +114,19 @@ impl ColumnBuilder {
             _ => Entries::Numbers(vec![]),
         };
         Self { column, entries }
+    }
+
+    /// Makes room for rows, so that none of them moves later.
+    fn reserve(&mut self, rows: usize) {
+        match &mut self.entries {
+            Entries::Numbers(values) => values.reserve(rows),
+            Entries::Whole(values) => values.reserve(rows),
+            Entries::Flags(values) => values.reserve(rows),
+            Entries::Words(values) => values.reserve(rows),
+            Entries::Stability(values) => values.reserve(rows),
+            Entries::Vectors(values) => values.reserve(rows),
+            Entries::Complex(values) => values.reserve(rows),
+        }
     }
 
     /// Adds a line for each row, all the same but for what is of the row.
