@@ -17,7 +17,7 @@ use crate::output::notify;
 
 /// Time between two lines without a terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-/// Part of the work and time before which nothing is estimated.
+/// Part of the work that this command has before it, and time, before which nothing is estimated.
 const LEAST_PART: f64 = 0.1;
 const LEAST_TIME: Duration = Duration::from_secs(4);
 /// Ratio of two estimates of the whole time up to which they are one, and beyond which neither is shown.
@@ -92,12 +92,12 @@ impl Past {
     /// What is left by what is done now, if that is known.
     fn left(&mut self, elapsed: Duration, fraction: f64) -> Option<Left> {
         self.keep(elapsed, fraction);
-        let gained = fraction - self.first;
-        if gained < LEAST_PART || elapsed < LEAST_TIME {
-            return None;
-        }
         if fraction >= 1.0 {
             return Some(Left { least: Duration::ZERO, most: Duration::ZERO });
+        }
+        let gained = fraction - self.first;
+        if gained < LEAST_PART * (1.0 - self.first) || elapsed < LEAST_TIME {
+            return None;
         }
         let (at_half, then) = *self.samples.iter().rfind(|(at, _)| *at <= elapsed / 2)?;
         let [by_half, since] = [then - self.first, fraction - then];

@@ -145,8 +145,8 @@ impl Agenda {
         }
         let goes_on = Self::read(store)?.accepted().find(|start| start.goes_on(plan)).map(|start| start.key);
         if let Some(key) = goes_on {
-            store.take_back_to(key)?;
             store.note_part_done(None)?;
+            store.take_back_to(key)?;
         }
         store.add_met(&plan.met)?;
         Self::read(store)

@@ -92,12 +92,12 @@ pub fn run(
             estimated: started,
         };
         let outcome = run.work(&Desk { pool, sender, stop }, &reports);
-        if let Ok(outcome) = &outcome {
-            run.store.note_part_done((*outcome != RunOutcome::Done).then_some(run.done.fraction))?;
-        }
         // Threads that still walk, for nothing any more, see that nobody reads their reports.
         stop.store(true, Ordering::Relaxed);
         drop(reports);
+        if let Ok(outcome) = &outcome {
+            run.store.note_part_done((*outcome != RunOutcome::Done).then_some(run.done.fraction))?;
+        }
         // A panic has been reported on standard error; here it is one error among others.
         if pool.has_panicked() { Err(RunError::Thread) } else { outcome }
     })

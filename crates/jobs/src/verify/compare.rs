@@ -172,9 +172,12 @@ pub(super) fn compare(
     maxima(row, (solution, found), (&measures, unknown), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     let turned = found.kinks.iter().filter(|(_, penetration)| penetration.abs() <= margin).count();
-    // The motion may cross the level again and again within rounding.
-    let crossed = found.touches.iter().filter(|speed| **speed <= slowest).count();
-    list.push(contacts(row, found, grazing.max(crossed) + turned + cut.len()));
+    // Where it grazes the motion may cross the level again and again within rounding.
+    let crossed = match grazing {
+        0 => 0,
+        _ => found.touches.iter().filter(|speed| **speed <= slowest).count(),
+    };
+    list.push(contacts(row, found, grazing + crossed + turned + cut.len()));
     // At a damper multipliers jump on the row of the grazing.
     let damped_row = if claims.has(BranchEventKind::Grazing) {
         damped.min(nearest_kink(system, found))
@@ -255,8 +258,8 @@ fn maxima(
     push(VerifiedQuantity::Impulse, stored.impulse, new.impulse, measure);
 }
 
-/// As many contacts may come or go as graze, or touch so slowly that they come no deeper than what is known
-/// of the penetration, or are touched where the orbit is cut.
+/// As many contacts may come or go as graze, or are touched where the orbit is cut. Of a motion that grazes
+/// touches so slow that they come no deeper than what is known of the penetration count, too.
 fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     let (stored, new) = (row.maxima.contacts, found.maxima.contacts);
     let missing = stored.abs_diff(new);

@@ -16,8 +16,8 @@
 //! * impact velocity: `; v - v'; <= tau G g_v v'`.
 //! * impulse: `; J - J'; <= tau G sum_j g_j J'_j`.
 //! * contact force: `; F - F'; <= max(tau, 1e-9) G g F'`.
-//! * contacts: as many differ as contacts graze, are touched with `v' <= sqrt(2 W tau G L_r)`, or are touched
-//!   within `tau G L_r` of a node, at most.
+//! * contacts: as many differ as contacts graze, are touched with `v' <= sqrt(2 W tau G L_r)` if one grazes,
+//!   or are touched within `tau G L_r` of a node, at most.
 //! * events: fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `; s; <=
 //!   1e-5 L_r`.
 //!

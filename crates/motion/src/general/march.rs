@@ -250,7 +250,7 @@ impl<'a, F: VectorField> March<'a, F> {
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
         self.stepper.impact(self.field, self.time, (&mut self.region.inside, &before));
         self.stepper.jump(self.field, self.time, (&self.region.inside, &before));
-        // A contact at a grazing may last no longer than rounding; the step behind the next one may.
+        // The first step behind a contact that lasted no longer than rounding would not advance the time.
         self.step = first_step.unwrap_or(self.step).max(instant);
         self.restart = self.time;
         self.unmoved += 1;
