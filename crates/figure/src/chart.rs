@@ -115,11 +115,19 @@ impl Chart {
     /// [`FigureError::Empty`] where a panel has no value with a place; [`FigureError::NoQuantity`] without a
     /// panel.
     pub(crate) fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
-        let plots = self.plots(style)?;
+        let plots = self.plots(style, 0.0)?;
         let last = plots.last().ok_or(FigureError::NoQuantity)?;
-        let height_mm = (last.0.area.bottom + room_below(style)) * 25.4 / 72.0;
+        let height_mm = (last.area.bottom + room_below(style)) * 25.4 / 72.0;
         let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.title, &self.description);
-        let area = last.0.area;
+        self.paint(&mut svg, &plots, style);
+        Ok(Figure::new(svg.finish(), self.description.clone(), style.width_mm, height_mm))
+    }
+
+    /// Draws title, legend and panels.
+    ///
+    /// * `plots`: the frames of the panels.
+    pub(crate) fn paint(&self, svg: &mut SvgWriter, plots: &[Plot], style: &Style) {
+        let Some(area) = plots.first().map(|plot| plot.area) else { return };
         let title = wrap(&self.title, style.label_size, area.right - area.left);
         for (i, line) in title.iter().enumerate() {
             let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
@@ -127,29 +135,28 @@ impl Chart {
         }
         let y = MARGIN + 1.5 * title.len() as f64 * style.label_size;
         let legend = Legend::new(self.legend.clone(), style, area.right - area.left);
-        legend.draw(&mut svg, PagePoint { x: area.left, y }, style);
-        for (plot, panel) in &plots {
-            plot.draw_grid(&mut svg, style);
-            panel
-                .layers
-                .iter()
-                .filter(|layer| layer.is_ground())
-                .for_each(|layer| layer.draw(&mut svg, plot, style));
-            plot.draw_axes(&mut svg, style);
-            panel
-                .layers
-                .iter()
-                .filter(|layer| !layer.is_ground())
-                .for_each(|layer| layer.draw(&mut svg, plot, style));
+        legend.draw(svg, PagePoint { x: area.left, y }, style);
+        for (plot, panel) in plots.iter().zip(&self.panels) {
+            plot.draw_grid(svg, style);
+            let (ground, above): (Vec<&Layer>, Vec<&Layer>) =
+                panel.layers.iter().partition(|layer| layer.is_ground());
+            ground.into_iter().for_each(|layer| layer.draw(svg, plot, style));
+            plot.draw_axes(svg, style);
+            above.into_iter().for_each(|layer| layer.draw(svg, plot, style));
             if !panel.heading.is_empty() {
                 let at = PagePoint { x: plot.area.left, y: plot.area.top - 2.5 };
                 svg.text(at, &Text::upright(&panel.heading), lettering(style.tick_size, Anchor::Start));
             }
         }
-        Ok(Figure::new(svg.finish(), self.description.clone(), style.width_mm, height_mm))
     }
 
-    fn plots(&self, style: &Style) -> Result<Vec<(Plot, &ChartPanel)>, FigureError> {
+    /// The frames of the panels.
+    ///
+    /// * `least_top`: room above the first one (pt), more where title and legend need it.
+    ///
+    /// # Errors
+    /// See [`Chart::draw`].
+    pub(crate) fn plots(&self, style: &Style, least_top: f64) -> Result<Vec<Plot>, FigureError> {
         let values = || self.panels.iter().flat_map(|panel| &panel.layers).flat_map(Layer::extremes);
         let empty = |panel: &ChartPanel| FigureError::Empty {
             quantity: panel.quantity,
@@ -173,7 +180,7 @@ impl Chart {
             - room_right(style, (&across, self.x.factor), left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left).len() as f64;
         let legend = Legend::new(self.legend.clone(), style, right - left).height(style);
-        let head = MARGIN + 1.5 * title * style.label_size + legend + GAP;
+        let head = (MARGIN + 1.5 * title * style.label_size + legend + GAP).max(least_top);
         let longest = axes.iter().map(|axis| axis.label.width(style.label_size)).fold(0.0, f64::max);
         let height = self.aspect.map_or(guess, |aspect| aspect * (right - left)).max(longest);
         let x =
@@ -188,7 +195,7 @@ impl Chart {
                 top += if pair.1.heading.is_empty() { 0.0 } else { style.tick_size };
                 let area = Area { left, right, top, bottom: top + height };
                 top = area.bottom + PANEL_GAP;
-                (Plot { area, x: x.clone(), y: axis(pair, height), labelled_below: i == last }, pair.1)
+                Plot { area, x: x.clone(), y: axis(pair, height), labelled_below: i == last }
             })
             .collect())
     }

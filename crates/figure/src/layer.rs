@@ -3,11 +3,19 @@
 use crate::{
     decimate::decimate,
     dots::{Dot, Shape},
-    plot::Plot,
+    font::CAPITAL_HEIGHT,
+    line::draw_stretches,
+    marks::Mark,
+    plot::{Plot, lettering},
     scale::Scale,
-    style::{PALE_INK, Pattern, SHADE, Style},
-    svg::{Dashes, PagePoint, Stroke, SvgWriter, number},
+    stretch::LineLook,
+    style::{PALE_INK, Pattern, SHADE, Style, period_look},
+    svg::{Anchor, Dashes, PagePoint, Stroke, SvgWriter, number},
+    text::Text,
 };
+
+/// Distance of a label from its point (pt).
+const LABEL_DISTANCE: f64 = 3.5;
 
 /// A layer, in the units of the axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +32,27 @@ pub(crate) enum Layer {
     Levels { at: Vec<f64> },
     /// Vertical reference lines.
     Uprights { at: Vec<f64> },
+    /// A part of a branch of one stability.
+    Stretch { points: Vec<(f64, f64)>, look: LineLook },
+    /// Events on a branch.
+    Events { points: Vec<(f64, f64)>, mark: Mark },
+    /// A text beside a point.
+    Label { at: (f64, f64), text: Text, side: LabelSide },
     /// Rectangles of one colour, behind the frame: left, right, bottom, top.
     Cells { cells: Vec<[f64; 4]>, colour: &'static str },
+}
+
+/// Side of a point on which its label stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LabelSide {
+    /// Left of the point, at its height.
+    Left,
+    /// Right of it.
+    Right,
+    /// Above it, centred.
+    Above,
+    /// Below it, centred.
+    Below,
 }
 
 impl Layer {
@@ -37,7 +64,10 @@ impl Layer {
     /// Points that the axes must include, unless their ends are given.
     pub(crate) fn extremes(&self) -> Vec<(f64, f64)> {
         match self {
-            Self::Line { points, .. } | Self::Dots { points, .. } => {
+            Self::Line { points, .. }
+            | Self::Dots { points, .. }
+            | Self::Stretch { points, .. }
+            | Self::Events { points, .. } => {
                 points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
             }
             Self::Whiskers { intervals, .. } => {
@@ -47,7 +77,9 @@ impl Layer {
             Self::Cells { cells, .. } => {
                 cells.iter().flat_map(|&[left, right, bottom, top]| [(left, bottom), (right, top)]).collect()
             }
-            Self::Shade { .. } | Self::Levels { .. } | Self::Uprights { .. } => Vec::new(),
+            Self::Shade { .. } | Self::Levels { .. } | Self::Uprights { .. } | Self::Label { .. } => {
+                Vec::new()
+            }
         }
     }
 
@@ -85,6 +117,16 @@ impl Layer {
                 let lines = inside.map(|&x| [plot.place(x, ends.0), plot.place(x, ends.1)]);
                 draw_references(svg, lines.collect(), style);
             }
+            Self::Stretch { points, look } => {
+                let parts = parts_on_page(plot, points, style);
+                draw_stretches(svg, &parts, *look, period_look(1), style);
+            }
+            Self::Events { points, mark } => {
+                let places: Vec<PagePoint> =
+                    points.iter().filter(|at| is_in(**at)).map(|&(x, y)| plot.place(x, y)).collect();
+                mark.draw(svg, &places, style.mark_radius);
+            }
+            Self::Label { at, text, side } => draw_label(svg, plot.place(at.0, at.1), text, *side, style),
             Self::Cells { cells, colour } => draw_cells(svg, plot, cells, colour),
         }
     }
@@ -101,7 +143,20 @@ fn draw_references(svg: &mut SvgWriter, lines: Vec<[PagePoint; 2]>, style: &Styl
     svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
 }
 
-fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], Pattern), style: &Style) {
+fn draw_label(svg: &mut SvgWriter, at: PagePoint, text: &Text, side: LabelSide, style: &Style) {
+    let half = 0.5 * CAPITAL_HEIGHT * style.tick_size;
+    let (dx, dy, anchor) = match side {
+        LabelSide::Left => (-LABEL_DISTANCE, half, Anchor::End),
+        LabelSide::Right => (LABEL_DISTANCE, half, Anchor::Start),
+        LabelSide::Above => (0.0, -LABEL_DISTANCE, Anchor::Middle),
+        LabelSide::Below => (0.0, LABEL_DISTANCE + 2.0 * half, Anchor::Middle),
+    };
+    let place = PagePoint { x: at.x + dx, y: at.y + dy };
+    svg.text(place, text, lettering(style.tick_size, anchor));
+}
+
+/// The parts of a line between gaps, simplified on the page.
+fn parts_on_page(plot: &Plot, line: &[(f64, f64)], style: &Style) -> Vec<Vec<PagePoint>> {
     let parts = line.split(|&(x, y)| !(shows(&plot.x.scale, x) && shows(&plot.y.scale, y)));
     let on_page = |part: &[(f64, f64)]| -> Vec<PagePoint> {
         let places: Vec<PagePoint> = part.iter().map(|&(x, y)| plot.place(x, y)).collect();
@@ -110,8 +165,12 @@ fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], 
             .map(|k| places[k])
             .collect()
     };
+    parts.filter(|part| !part.is_empty()).map(on_page).collect()
+}
+
+fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], Pattern), style: &Style) {
     let (lines, lone): (Vec<Vec<PagePoint>>, Vec<Vec<PagePoint>>) =
-        parts.filter(|part| !part.is_empty()).map(on_page).partition(|part| part.len() > 1);
+        parts_on_page(plot, line, style).into_iter().partition(|part| part.len() > 1);
     let dot = Dot { shape: Shape::Circle, colour: pattern.colour, full: true, radius: style.stable_width };
     dot.draw(svg, &lone.concat());
     let dashes = pattern.dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });

@@ -32,8 +32,9 @@
 //!   ticks, units that suit them, a frame with two axes.
 //! * `stretch`: a branch divided where its stability changes.
 //! * `decimate`, `line`: fewer points for the same line, dashes.
-//! * `chart`: panels on top of each other under one legend.
-//! * `layer`: lines, dots, intervals, cells, shades, reference lines.
+//! * `chart`, `chart_row`: panels on top of each other under one legend; such charts side by side.
+//! * `data_diagram`: lines and points of one's own.
+//! * `layer`: lines, dots, intervals, cells, shades, reference lines, labels.
 //! * `sketch`: symbols of mechanics: walls, springs, dampers, arrows, dimension lines.
 //! * `marks`, `dots`, `legend`: a mark for each kind of event; the legend.
 //! * `text`, `font`: lines with italic parts, numbers as printed, widths of the bundled font's glyphs.
@@ -68,7 +69,9 @@ mod base64;
 mod basin_map;
 mod bifurcation;
 mod chart;
+mod chart_row;
 mod curve_diagram;
+mod data_diagram;
 mod decimate;
 mod dots;
 mod error;
@@ -107,11 +110,13 @@ mod ticks;
 pub use basin_map::{BasinAttractor, BasinMap};
 pub use bifurcation::Bifurcation;
 pub use curve_diagram::{BifurcationCurve, BifurcationCurvePoint, CurveDiagram};
+pub use data_diagram::{DataAxis, DataDiagram, DataLabel, DataLook, DataPanel, DataSeries};
 pub use error::FigureError;
 pub use excitation_diagram::ExcitationDiagram;
 pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
 pub use figure::Figure;
 pub use frequency_unit::FrequencyUnit;
+pub use layer::LabelSide;
 pub use mesh_diagram::{MeshMode, MeshModeDiagram};
 pub use mode_diagram::{DrawnMode, ModeDiagram};
 pub use motion::MotionKind;

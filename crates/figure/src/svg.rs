@@ -174,6 +174,13 @@ impl SvgWriter {
         LACKING
     }
 
+    /// What is drawn by a function, moved to the right (pt).
+    pub(crate) fn moved(&mut self, right: f64, draw: impl FnOnce(&mut Self)) {
+        self.add(format_args!("<g transform=\"translate({} 0)\">\n", number(right)));
+        draw(self);
+        self.document.push_str("</g>\n");
+    }
+
     /// Ends the document.
     pub(crate) fn finish(mut self) -> SvgDocument {
         self.document.push_str("</svg>\n");
