@@ -1,6 +1,7 @@
 //! What the figures of motions, multipliers and orbits promise to those who draw them.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod data;
 mod motions;
 mod multipliers;
 mod orbits;
@@ -9,8 +10,8 @@ mod samples;
 use std::io::Read;
 
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, ExponentDiagram, ExponentPoint, Figure, FigureError, MultiplierDiagram,
-    OrbitDiagram, SectionDiagram, Style, SweepDiagram,
+    BasinMap, ConvergenceDiagram, DataDiagram, ExponentDiagram, ExponentPoint, Figure, FigureError,
+    MultiplierDiagram, OrbitDiagram, SectionDiagram, Style, SweepDiagram,
 };
 
 use samples::{basins, convergence, exponents, multipliers, orbit, section, struck, sweep};
@@ -32,6 +33,7 @@ fn all() -> Vec<(&'static str, Figure)> {
         ("history with impulses", struck().draw_history(&style).unwrap()),
         ("phase with impulses", struck().draw_phase(&style).unwrap()),
         ("spectrum with impulses", struck().draw_spectrum(&style).unwrap()),
+        ("data", data::circle_and_branch().draw(&style).unwrap()),
     ]
 }
 
@@ -98,6 +100,7 @@ fn nothing_to_draw_is_refused_with_a_sentence() {
         MultiplierDiagram::default().draw_circle(&style),
         OrbitDiagram::default().draw_history(&style),
         OrbitDiagram::default().draw_spectrum(&style),
+        DataDiagram { panels: vec![data::panel(Vec::new())], ..DataDiagram::default() }.draw(&style),
     ];
     for result in refused {
         let error = result.unwrap_err();

@@ -77,7 +77,7 @@ impl Bounce {
         let area: f64 =
             force.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum();
         let lost = 0.5 * (1.0 - self.comes_out * self.comes_out);
-        assert!((area - lost).abs() < 1e-4, "{law:?}: the loop has the area {area}, {lost} is lost");
+        assert!((area - lost).abs() < 1e-6, "{law:?}: the loop has the area {area}, {lost} is lost");
         force.into_iter().map(|(p, f)| (p, f / unit)).collect()
     }
 }

@@ -32,6 +32,9 @@ pub fn draw(periods: u64) -> Outcome<[Figure; 2]> {
         // Half the last printed digit, and twice the interval of 95 per cent.
         assert!((value - published).abs() < 2.0 * half_width + 5e-5, "{value} is not {published}");
     }
+    let dimension = record.spectrum.kaplan_yorke_dimension;
+    compared(&format!("exponents: dimension {dimension:.3}"));
+    assert!((dimension - (1.0 - PUBLISHED[0] / PUBLISHED[1])).abs() < 0.02, "the dimension is {dimension}");
     let line = |k: usize| {
         let at = record.spectrum.convergence.iter();
         at.map(move |at| (at.time, at.exponents[k]))
@@ -46,7 +49,7 @@ pub fn draw(periods: u64) -> Outcome<[Figure; 2]> {
         labels: PUBLISHED.map(label).to_vec(),
         ..DataPanel::new(
             DataAxis::logarithmic("Averaging time (s)"),
-            DataAxis::linear("Lyapunov exponent (1/s)"),
+            DataAxis::linear("Lyapunov exponent (1/s)").between(-0.35, 0.3),
             vec![
                 DataSeries::new("first exponent", DataLook::Line(0), line(0)),
                 DataSeries::new("second", DataLook::Line(1), line(1)),
@@ -54,8 +57,8 @@ pub fn draw(periods: u64) -> Outcome<[Figure; 2]> {
         )
     };
     let section = DataPanel::new(
-        DataAxis::linear("Displacement (m)"),
-        DataAxis::linear("Velocity (m/s)"),
+        DataAxis::linear("Displacement (m)").between(1.4, 3.5),
+        DataAxis::linear("Velocity (m/s)").between(-5.0, 6.0),
         vec![DataSeries::new("", DataLook::Specks(0), record.section.iter().map(|[x, v]| (*x, *v)))],
     );
     let mut narrow = Style::single_column();

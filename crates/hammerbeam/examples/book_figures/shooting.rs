@@ -92,7 +92,7 @@ fn segments(solution: &PeriodicSolution) -> DataPanel {
         labels: names.collect(),
         ..DataPanel::new(
             DataAxis::linear("Displacement (m)").between(-2.0, 2.0),
-            DataAxis::linear("Velocity (m/s)"),
+            DataAxis::linear("Velocity (m/s)").between(-2.5, 2.5),
             series,
         )
     }
@@ -120,13 +120,16 @@ fn multipliers(rows: &[BranchRow]) -> DataPanel {
     assert!(folds.iter().all(|(re, im)| (re - 1.0).abs() < 1e-6 && *im == 0.0), "folds are at +1: {folds:?}");
 
     let circle = (0..=360).map(|k| TAU * f64::from(k) / 360.0).map(|angle| (angle.cos(), angle.sin()));
-    // The larger modulus first; a pair has its positive imaginary part first, so both lines are continuous.
-    let line = |k: usize| {
-        solutions().map(move |solution| {
-            let [re, im] = solution.floquet_multipliers[k];
-            (re, im)
-        })
-    };
+    // Of solutions whose multipliers have hardly moved one is drawn.
+    let mut drawn: Vec<(f64, f64)> = Vec::new();
+    for solution in solutions() {
+        let [re, im] = solution.floquet_multipliers[0];
+        let has_moved =
+            drawn.chunks(2).last().is_none_or(|last| (re - last[0].0).hypot(im - last[0].1) > 0.01);
+        if has_moved {
+            drawn.extend(solution.floquet_multipliers.iter().map(|[re, im]| (*re, *im)));
+        }
+    }
     DataPanel {
         equal_units: true,
         levels: vec![0.0],
@@ -137,8 +140,7 @@ fn multipliers(rows: &[BranchRow]) -> DataPanel {
             DataAxis::linear("Imaginary part (–)").between(-1.2, 1.2),
             vec![
                 DataSeries::new("unit circle", DataLook::Pale, circle),
-                DataSeries::new("multipliers", DataLook::Line(0), line(0)),
-                DataSeries::new("multipliers", DataLook::Line(0), line(1)),
+                DataSeries::new("multipliers", DataLook::Specks(0), drawn),
                 DataSeries::new("fold", DataLook::Events(Bifurcation::Fold), folds),
             ],
         )
