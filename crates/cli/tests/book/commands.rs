@@ -20,7 +20,10 @@ const NOT_RUN: [(&str, &str); 6] = [
     ("cargo run --release -p hammerbeam-verification", "hours; the test `completeness` does a part of it"),
     ("python -m hammerbeam.batch", "needs the Python package, whose test of the book follows the page"),
     ("dakota -i", "needs Dakota; the test of the Python package runs it where it is there"),
-    ("cargo run --release -p hammerbeam --example book_figures", "a test of the crate `hammerbeam` does this"),
+    (
+        "cargo run --release -p hammerbeam --example book_figures",
+        "a test of the crate `hammerbeam` does this",
+    ),
     (
         "hammerbeam rig studies/virtual-rig.toml",
         "the test `rig` takes the same study through a shorter sweep",

@@ -73,13 +73,16 @@ fn branch(rows: &[BranchRow]) -> DataPanel {
         series.push(DataSeries::new(name, look, rows[start..rows.len().min(end + 1)].iter().map(at)));
         start = end;
     }
-    let events: [(&str, Bifurcation, fn(&BranchRow) -> bool); 3] = [
-        ("grazing", Bifurcation::Grazing, |row| row.events.grazing),
-        ("flip", Bifurcation::Flip, |row| row.events.flip && !row.events.grazing),
-        ("fold", Bifurcation::Fold, |row| row.events.fold && !row.events.grazing),
-    ];
-    for (name, mark, is_there) in events {
-        let places: Vec<(f64, f64)> = rows.iter().filter(|row| is_there(row)).map(at).collect();
+    for (name, mark) in
+        [("grazing", Bifurcation::Grazing), ("flip", Bifurcation::Flip), ("fold", Bifurcation::Fold)]
+    {
+        // The multipliers jump at a grazing, which makes it a flip or a fold as well.
+        let is_there = |row: &&BranchRow| match mark {
+            Bifurcation::Grazing => row.events.grazing,
+            Bifurcation::Flip => row.events.flip && !row.events.grazing,
+            _ => row.events.fold && !row.events.grazing,
+        };
+        let places: Vec<(f64, f64)> = rows.iter().filter(is_there).map(at).collect();
         assert!(places.len() == if mark == Bifurcation::Grazing { 2 } else { 1 }, "{name}: {places:?}");
         if mark == Bifurcation::Grazing {
             compare_grazings(&places);

@@ -22,16 +22,16 @@ fn force(laws: &[Law]) -> impl Iterator<Item = (f64, f64)> {
 
 /// Compares the laws with (L2), (L5), (L11) and (L12), and draws them.
 pub fn draw() -> Outcome<Figure> {
-    let linear: Law = LinearStop::with_gap(1.0, GAPS[0])?.into();
-    let hertz: Law = HertzStop::with_gap(1.0, GAPS[0])?.into();
-    let two_sided: Law = TwoSidedStop::new(1.0, GAPS[0], GAPS[1])?.into();
+    let linear: [Law; 1] = [LinearStop::with_gap(1.0, GAPS[0])?.into()];
+    let hertz: [Law; 1] = [HertzStop::with_gap(1.0, GAPS[0])?.into()];
+    let two_sided: [Law; 1] = [TwoSidedStop::new(1.0, GAPS[0], GAPS[1])?.into()];
     let power = |k: f64, degree: Degree| PowerSpring::new(k, degree).map(Law::from);
     let springs = [power(1.0, Degree::Linear)?, power(1.0, Degree::Quadratic)?, power(1.0, Degree::Cubic)?];
     let wells = [power(-1.0, Degree::Linear)?, springs[2].clone()];
     let beyond = |r: f64| (r - GAPS[0]).max(0.0);
-    compare(&[linear.clone()], beyond);
-    compare(&[hertz.clone()], |r| beyond(r).powf(1.5));
-    compare(&[two_sided.clone()], |r| beyond(r) + (r + GAPS[1]).min(0.0));
+    compare(&linear, beyond);
+    compare(&hertz, |r| beyond(r).powf(1.5));
+    compare(&two_sided, |r| beyond(r) + (r + GAPS[1]).min(0.0));
     compare(&springs[1..2], |r| r * r);
     compare(&wells, |r| r * r * r - r);
 
@@ -45,9 +45,9 @@ pub fn draw() -> Outcome<Figure> {
             DataAxis::linear("Relative displacement r (–)").between(ENDS.0, ENDS.1),
             DataAxis::linear("Force on the stop −f (–)").between(-1.2, 2.3),
             vec![
-                DataSeries::new("linear (L2)", DataLook::Line(0), force(&[linear])),
-                DataSeries::new("Hertz (L5)", DataLook::Line(1), force(&[hertz])),
-                DataSeries::new("two-sided (L11)", DataLook::Line(2), force(&[two_sided])),
+                DataSeries::new("linear (L2)", DataLook::Line(0), force(&linear)),
+                DataSeries::new("Hertz (L5)", DataLook::Line(1), force(&hertz)),
+                DataSeries::new("two-sided (L11)", DataLook::Line(2), force(&two_sided)),
             ],
         )
     };
