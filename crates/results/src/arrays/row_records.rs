@@ -213,3 +213,47 @@ impl Longest {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hammerbeam_orbit::Side;
+    use tempfile::tempdir;
+
+    use super::*;
+    use crate::{
+        arrays::{branch_array, pack},
+        export::TableLines,
+        store::tests::{STUDY, append, study, walked_folder},
+    };
+
+    /// Byte for byte the records of the table by columns, though they are handed over in several parts.
+    #[test]
+    fn rows_are_packed_as_their_columns_are() {
+        let folder = tempdir().unwrap();
+        walked_folder(folder.path());
+        let mut run = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+        let frequencies: Vec<f64> = (0..2 * BLOCK * BLOCKS).map(|k| 0.2 - 1e-6 * k as f64).collect();
+        append(&mut run, Side::Down, &frequencies);
+        run.finish().unwrap();
+        for open in [Store::open, Store::open_with_rows] {
+            let store = open(folder.path()).unwrap();
+            for (branches, rows) in
+                [(&[][..], 61 + frequencies.len()), (&[1], 61 + frequencies.len()), (&[7], 0)]
+            {
+                let expected = pack(&branch_array(&store, TableLines::Rows, branches).unwrap()[0]);
+                let records = RowRecords::of(&store, branches).unwrap();
+                let (mut bytes, mut parts) = (Vec::new(), 0);
+                let take = |part: &[u8]| {
+                    bytes.extend_from_slice(part);
+                    parts += 1;
+                    Ok(())
+                };
+                records.each_bytes::<StoreError>(take).unwrap();
+                assert_eq!((records.rows(), rows), (expected.rows, expected.rows));
+                assert_eq!(records.fields(), expected.fields);
+                assert!(bytes == expected.bytes);
+                assert_eq!(parts, rows.div_ceil(BLOCK * BLOCKS).max(1));
+            }
+        }
+    }
+}
