@@ -5,9 +5,12 @@ package, a million samples and a million solutions into NumPy, many studies.
 
 * COMMAND: the command `hammerbeam`, built with the same profile as the extension module.
 * `--whole`: figure 3 of the paper over its whole range, 19 to 110 Hz, instead of 30 to 38 Hz alone.
-* `--wheel`: the wheel; by default the newest in `target/wheels`.
+* `--wheel`: the wheel whose size is told; by default the newest in `target/wheels`.
 * `--only`: some parts alone, of `size`, `import`, `overhead`, `samples`, `solutions`, `planned` and
   `throughput`.
+
+The package is the one that is installed: install the wheel first. Seconds and sizes of a module that was
+built for tests would say nothing.
 
 All seconds but those of the last line are processor time of all threads and processes, the least of some
 rounds: other programs may be at work.
@@ -26,6 +29,9 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
+
+# The folder of this script holds the package as well, beside a module that was built for tests.
+sys.path[:] = [path for path in sys.path if Path(path).resolve() != Path(__file__).resolve().parent]
 
 import hammerbeam
 import numpy as np
@@ -243,7 +249,8 @@ def main() -> None:
         for name in given.only or parts:
             for row in parts[name]:
                 print(f"| {' | '.join(row)} |", flush=True)
-    print(f"\n{np.__name__} {np.__version__}, Python {sys.version.split()[0]}, {os.cpu_count()} cores")
+    print(f"\nthe package in {Path(hammerbeam.__file__).parent}")
+    print(f"{np.__name__} {np.__version__}, Python {sys.version.split()[0]}, {os.cpu_count()} cores")
 
 
 if __name__ == "__main__":

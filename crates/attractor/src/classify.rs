@@ -79,7 +79,7 @@ pub enum Class {
     QuasiPeriodic,
     /// Neighbouring motions part exponentially.
     Chaotic,
-    /// Not told.
+    /// Neither regular nor chaotic for certain.
     Doubtful(Doubt),
 }
 

@@ -1,6 +1,6 @@
 //! Stepped-sine sweeps with the state carried over, and diagrams from many initial states.
 //!
-//! At each frequency the motion is let settle, told apart (`classify.rs`) and sampled once in every
+//! At each frequency the motion is let settle, classified (`classify.rs`) and sampled once in every
 //! excitation period. In a sweep it begins where it ended at the frequency before, at phase 0, so that it
 //! follows a branch as far as that is stable and hysteresis shows. In a diagram it begins at each of several
 //! states, the same ones at every frequency: rest, the motion without contacts, and states about it.

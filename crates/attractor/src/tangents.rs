@@ -217,7 +217,7 @@ mod tests {
     use super::*;
 
     /// A matrix of seven orders of magnitude: `Q` is orthonormal, and `Q^T A` is upper triangular with the
-    /// positive diagonal that is told.
+    /// positive diagonal that is reported.
     #[test]
     fn reflections_give_an_orthonormal_frame_and_the_growth_of_volumes() {
         let n = 5;

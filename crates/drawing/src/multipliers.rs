@@ -28,7 +28,7 @@ pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> Result<(), DrawingError> {
     Ok(())
 }
 
-/// Multipliers along a branch, thinned; a damaged solution is told, drawn or not.
+/// Multipliers along a branch, thinned; a damaged solution is reported, drawn or not.
 fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, StoreError> {
     let mut rows = Vec::new();
     store.each_row::<StoreError>(branch, |row| {

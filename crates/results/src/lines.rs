@@ -55,6 +55,7 @@ pub(crate) struct OwnedBranch<'a> {
 }
 
 /// The branches and curves of a store.
+#[derive(Debug)]
 pub(crate) struct Branches {
     diagram: Vec<BranchRecord>,
     pieces: Vec<PieceRecord>,
@@ -85,9 +86,9 @@ impl OwnedBranch<'_> {
         self.branch.id
     }
 
-    /// Number of its solutions.
-    pub fn solutions(&self) -> u64 {
-        self.branch.solutions()
+    /// Period of its orbits over that of the excitation.
+    pub fn period_multiple(&self) -> u32 {
+        self.branch.period_multiple
     }
 
     /// Each line of a table that the branch has.
@@ -106,29 +107,23 @@ impl OwnedBranch<'_> {
         }
     }
 
-    /// What is the same in each line of [`TableLines::Rows`].
-    pub fn common_line(&self) -> Line<'_> {
-        self.line(Row::default())
-    }
-
     /// The rows of the lines of [`TableLines::Rows`], so many at a time.
-    pub fn each_block(
+    pub fn each_block<E: From<StoreError>>(
         &self,
         store: &Store,
         size: usize,
-        mut take: impl FnMut(&[Row]),
-    ) -> Result<(), StoreError> {
+        mut take: impl FnMut(&[Row]) -> Result<(), E>,
+    ) -> Result<(), E> {
         let mut rows = Vec::with_capacity(size);
-        store.each_row::<StoreError>(self.branch, |row| {
+        store.each_row::<E>(self.branch, |row| {
             rows.push(row);
             if rows.len() == size {
-                take(&rows);
+                take(&rows)?;
                 rows.clear();
             }
             Ok(())
         })?;
-        take(&rows);
-        Ok(())
+        take(&rows)
     }
 
     fn line(&self, row: Row) -> Line<'_> {

@@ -48,7 +48,7 @@ impl NativeOrbits {
     }
 
     /// One row for each.
-    fn table<'py>(&self, py: Python<'py>) -> PyResult<PackedTable<'py>> {
+    fn table(&self, py: Python<'_>) -> PyResult<PackedTable> {
         packed(py, &orbit_table(&self.orbits))
     }
 
@@ -58,7 +58,7 @@ impl NativeOrbits {
         py: Python<'py>,
         samples: usize,
         callbacks: (Callback, Callback),
-    ) -> PyResult<Vec<PackedTable<'py>>> {
+    ) -> PyResult<Vec<PackedTable>> {
         let tables = PythonObserver::run(py, callbacks, |observer| self.tables(samples, observer))?;
         all_packed(py, &tables.map_err(|error| exception(py, error))?)
     }
@@ -71,7 +71,7 @@ impl NativeOrbits {
     }
 
     /// The motion of one of them over its period.
-    fn waveform<'py>(&self, py: Python<'py>, index: usize, samples: usize) -> PyResult<PackedTable<'py>> {
+    fn waveform(&self, py: Python<'_>, index: usize, samples: usize) -> PyResult<PackedTable> {
         let orbit = self.orbits.get(index).ok_or_else(no_such_orbit)?;
         let one = std::slice::from_ref(orbit);
         let tables = py.detach(|| orbit_tables(&self.study.model, one, samples, &mut Quiet));

@@ -26,7 +26,7 @@ use crate::{
     failure::{bad_input, drawing_exception, exception, store_exception, unknown},
     observer::PythonObserver,
     orbits::NativeOrbits,
-    records::{PackedTable, all_packed},
+    records::{NotPacked, PackedTable, all_packed, packed_rows},
     study::NativeStudy,
 };
 
@@ -39,13 +39,14 @@ pub struct NativeResults {
     store: Mutex<Option<Store>>,
 }
 
+/// Name of the table of rows, of which there may be millions: they are packed as they are read.
+const ROWS: &str = "branches";
 /// Names of tables.
-const TABLES: [&str; 7] = ["branches", "events", "ends", "states", "outputs", "varied", "motions"];
+const TABLES: [&str; 7] = [ROWS, "events", "ends", "states", "outputs", "varied", "motions"];
 
-/// Which tables are meant.
+/// Which tables are meant, but for [`ROWS`].
 fn tables(store: &Store, name: &str, branches: &[u32]) -> Result<Option<Vec<ArrayTable>>, StoreError> {
     let tables = match name {
-        "branches" => branch_array(store, TableLines::Rows, branches)?,
         "events" => branch_array(store, TableLines::Events, branches)?,
         "ends" => branch_array(store, TableLines::Ends, branches)?,
         "states" => branch_array(store, TableLines::States, branches)?,
@@ -63,16 +64,16 @@ impl NativeResults {
     }
 
     /// Asks the store without the interpreter's lock.
-    fn ask<T: Send>(
+    fn ask<T: Send, E: Into<NotPacked> + Send>(
         &self,
         py: Python<'_>,
-        ask: impl FnOnce(&Store) -> Result<T, StoreError> + Send,
+        ask: impl FnOnce(&Store) -> Result<T, E> + Send,
     ) -> PyResult<T> {
-        let answer = py.detach(|| self.store().as_ref().map(ask));
-        match answer {
-            Some(answer) => answer.map_err(|error| store_exception(py, error)),
-            None => Err(self.closed(py)),
-        }
+        let answer = py.detach(|| self.store().as_ref().map(ask)).ok_or_else(|| self.closed(py))?;
+        answer.map_err(|error| match error.into() {
+            NotPacked::Store(error) => store_exception(py, error),
+            NotPacked::Python(error) => error,
+        })
     }
 
     /// Refuses what was closed. The interpreter's lock is let go meanwhile: whoever has the store may wait
@@ -125,12 +126,10 @@ impl NativeResults {
     }
 
     /// Tables by their names.
-    fn tables<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        branches: Vec<u32>,
-    ) -> PyResult<Vec<PackedTable<'py>>> {
+    fn tables(&self, py: Python<'_>, name: &str, branches: Vec<u32>) -> PyResult<Vec<PackedTable>> {
+        if name == ROWS {
+            return Ok(vec![self.ask(py, |store| packed_rows(store, &branches))?]);
+        }
         let found = self.ask(py, |store| tables(store, name, &branches))?;
         match found {
             Some(tables) => all_packed(py, &tables),
@@ -139,8 +138,8 @@ impl NativeResults {
     }
 
     /// Tables of one request.
-    fn request_tables<'py>(&self, py: Python<'py>, request: i64) -> PyResult<Vec<PackedTable<'py>>> {
-        let found = self.ask(py, |store| {
+    fn request_tables(&self, py: Python<'_>, request: i64) -> PyResult<Vec<PackedTable>> {
+        let found = self.ask(py, |store| -> Result<_, StoreError> {
             let requests = store.requests()?;
             let record = requests.iter().find(|record| record.id == request);
             record.map_or_else(|| Ok(Vec::new()), |record| request_tables(store, record))

@@ -192,10 +192,10 @@ impl<'a> ResponseLayout<'a> {
             if has_marginal { "marginal dotted, " } else { "" }
         );
         if !self.diagram.chaotic_ranges_hz.is_empty() {
-            let unit = self.style.frequency_unit;
+            let unit = self.style.frequency_unit.up_to(largest(self.panels));
             let words = |(from, to): &(f64, f64)| {
-                let [from, to] = [from, to].map(|end| unit.factor() * end);
-                format!("{from:.3} to {to:.3} {}", unit.symbol())
+                let [from, to] = [from, to].map(|end| unit.factor * end);
+                format!("{from:.3} to {to:.3} {}", unit.symbol)
             };
             let ranges: Vec<String> = self.diagram.chaotic_ranges_hz.iter().map(words).collect();
             description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
@@ -234,18 +234,22 @@ impl<'a> ResponseLayout<'a> {
 
 /// Label of the horizontal axis, and the factor of its numbers.
 fn horizontal(diagram: &ResponseDiagram, panels: &[ResponsePanel], style: &Style) -> (String, f64) {
-    let ends = panels.iter().map(|panel| panel.range_hz);
-    let largest = ends.fold(0.0, |most: f64, (low, high)| most.max(low.abs()).max(high.abs()));
     match &diagram.parameter {
         Some(parameter) => {
-            let unit = parameter.unit_up_to(largest);
+            let unit = parameter.unit_up_to(largest(panels));
             (parameter.label(&unit), unit.factor)
         }
         None => {
-            let unit = style.frequency_unit.up_to(largest);
+            let unit = style.frequency_unit.up_to(largest(panels));
             (format!("Excitation frequency ({})", unit.symbol), unit.factor)
         }
     }
+}
+
+/// Largest value of the horizontal axes, whatever its sign.
+fn largest(panels: &[ResponsePanel]) -> f64 {
+    let ends = panels.iter().map(|panel| panel.range_hz);
+    ends.fold(0.0, |most: f64, (low, high)| most.max(low.abs()).max(high.abs()))
 }
 
 /// Height of a panel over the height of a single one: several panels are lower.

@@ -2,19 +2,13 @@
 
 use hammerbeam_orbit::Stability;
 
-use super::{ArrayTable, ArrayValues, or_nan};
+use super::{ArrayTable, ArrayValues};
 use crate::{
-    columns::{RowValue, TableColumn},
+    columns::TableColumn,
     export::{BranchTable, TableLines, TableOver},
-    lines::{Branches, Cell, Line, OwnedBranch},
-    row::Row,
+    lines::{Branches, Cell, OwnedBranch},
     store::{Store, StoreError},
 };
-
-/// Most rows for which there is room in a column from the beginning.
-const MOST_RESERVED: u64 = 1 << 22;
-/// Rows that are taken at a time, column by column.
-const BLOCK: usize = 512;
 
 /// Branches over the frequency: their rows, events, ends or states, with the columns of the CSV file.
 /// Behind `stable` comes `stability`, which says it in a word.
@@ -54,23 +48,11 @@ fn array(
 ) -> Result<ArrayTable, StoreError> {
     let mut columns: Vec<ColumnBuilder> = table.columns().map(ColumnBuilder::of).collect();
     let is_wanted = |branch: &OwnedBranch<'_>| branches.is_empty() || branches.contains(&branch.id());
-    let wanted: Vec<OwnedBranch<'_>> = all.over(table.over).into_iter().filter(is_wanted).collect();
-    if table.lines == TableLines::Rows {
-        let rows = wanted.iter().map(OwnedBranch::solutions).fold(0, u64::saturating_add);
-        columns.iter_mut().for_each(|column| column.reserve(rows.min(MOST_RESERVED) as usize));
-    }
-    for branch in wanted {
-        if table.lines == TableLines::Rows {
-            let common = branch.common_line();
-            branch.each_block(store, BLOCK, |rows| {
-                columns.iter_mut().for_each(|column| column.add_rows(&common, rows));
-            })?;
-        } else {
-            branch.each_line::<StoreError>(store, table.lines, |line| {
-                columns.iter_mut().for_each(|column| column.add(line.cell(column.column)));
-                Ok(())
-            })?;
-        }
+    for branch in all.over(table.over).iter().filter(|branch| is_wanted(branch)) {
+        branch.each_line::<StoreError>(store, table.lines, |line| {
+            columns.iter_mut().for_each(|column| column.add(line.cell(column.column)));
+            Ok(())
+        })?;
     }
     Ok(ArrayTable::new(table.name, columns.into_iter().flat_map(ColumnBuilder::finished).collect()))
 }
@@ -114,36 +96,6 @@ impl ColumnBuilder {
             _ => Entries::Numbers(vec![]),
         };
         Self { column, entries }
-    }
-
-    /// Makes room for rows, so that none of them moves later.
-    fn reserve(&mut self, rows: usize) {
-        match &mut self.entries {
-            Entries::Numbers(values) => values.reserve(rows),
-            Entries::Whole(values) => values.reserve(rows),
-            Entries::Flags(values) => values.reserve(rows),
-            Entries::Words(values) => values.reserve(rows),
-            Entries::Stability(values) => values.reserve(rows),
-            Entries::Vectors(values) => values.reserve(rows),
-            Entries::Complex(values) => values.reserve(rows),
-        }
-    }
-
-    /// Adds a line for each row, all the same but for what is of the row.
-    fn add_rows(&mut self, common: &Line<'_>, rows: &[Row]) {
-        let column = self.column;
-        let (Some(first), same) = (rows.first(), common.cell(column)) else { return };
-        match (&mut self.entries, first.value(column), same) {
-            // Most columns, so without a detour over cells.
-            (Entries::Numbers(values), Some(RowValue::Number(_)), _) => {
-                values.extend(rows.iter().map(|row| or_nan(row.number(column))));
-            }
-            (Entries::Whole(values), None, Cell::Whole(same)) => {
-                values.extend(std::iter::repeat_n(same as i64, rows.len()));
-            }
-            (_, None, same) => rows.iter().for_each(|_| self.add(same.clone())),
-            _ => rows.iter().for_each(|row| self.add(row.value(column).map_or(Cell::None, Cell::from))),
-        }
     }
 
     fn add(&mut self, cell: Cell) {

@@ -6,6 +6,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `records.rs` | columns packed as records, and their NumPy file |
+//! | `row_records.rs` | the rows of all branches as records, without columns in between |
 //! | `npz.rs`, `json.rs`, `csv.rs` | tables as files |
 //! | `branches.rs` | branches and curves, their events and ends, states and multipliers |
 //! | `export.rs` | all tables of a folder, as files of a format |
@@ -18,6 +19,7 @@ mod json;
 mod motions;
 mod npz;
 mod records;
+mod row_records;
 
 use std::borrow::Cow;
 
@@ -27,7 +29,8 @@ pub use export::{TableFormat, all_tables, export_all, write_tables};
 pub use json::write_json;
 pub use motions::{motion_tables, request_tables};
 pub use npz::write_npz;
-pub use records::{Layout, Records, pack};
+pub use records::{Field, Layout, Records, pack};
+pub use row_records::RowRecords;
 
 /// The entries of a column, one for each row.
 #[derive(Debug, Clone, PartialEq)]

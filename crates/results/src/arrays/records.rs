@@ -11,11 +11,14 @@ const BLOCK: usize = 256;
 /// The header of a `.npy` file ends at a multiple of this.
 const ALIGNED: usize = 64;
 
+/// A field of records: its name, its type in NumPy's letters, and its length if it is a vector.
+pub type Field = (String, String, Option<usize>);
+
 /// Packed records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Records {
-    /// Of each field its name, its type in NumPy's letters, and its length if it is a vector.
-    pub fields: Vec<(String, String, Option<usize>)>,
+    /// The fields of a record.
+    pub fields: Vec<Field>,
     /// Number of records.
     pub rows: usize,
     /// The records.
@@ -50,9 +53,9 @@ impl<'a> Layout<'a> {
         self.rows
     }
 
-    /// Of each field its name, its type in NumPy's letters, and its length if it is a vector.
+    /// The fields of a record.
     #[must_use]
-    pub fn fields(&self) -> Vec<(String, String, Option<usize>)> {
+    pub fn fields(&self) -> Vec<Field> {
         self.columns.iter().map(|(column, width)| field(column, *width)).collect()
     }
 
@@ -98,12 +101,12 @@ fn longest(words: &[std::borrow::Cow<'static, str>]) -> usize {
     words.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1)
 }
 
-fn field(column: &ArrayColumn, bytes: usize) -> (String, String, Option<usize>) {
+fn field(column: &ArrayColumn, bytes: usize) -> Field {
     let (letters, length) = match &column.values {
         ArrayValues::Numbers(_) => ("<f8".to_owned(), None),
         ArrayValues::Whole(_) => ("<i8".to_owned(), None),
         ArrayValues::Flags(_) => ("|b1".to_owned(), None),
-        ArrayValues::Words(_) => (format!("<U{}", bytes / 4), None),
+        ArrayValues::Words(_) => (letters_of_words(bytes), None),
         ArrayValues::Vectors { width, .. } => ("<f8".to_owned(), Some(*width)),
         ArrayValues::Complex { width, .. } => ("<c16".to_owned(), Some(*width)),
     };
@@ -117,9 +120,7 @@ fn put(column: &ArrayColumn, row: usize, place: &mut [u8]) {
         ArrayValues::Flags(values) => place[0] = u8::from(values[row]),
         ArrayValues::Words(words) => {
             place.fill(0);
-            for (letter, place) in words[row].chars().zip(place.chunks_exact_mut(4)) {
-                place.copy_from_slice(&u32::from(letter).to_le_bytes());
-            }
+            put_word(&words[row], place);
         }
         ArrayValues::Vectors { width, values } => {
             numbers(&values[row * width..(row + 1) * width], place);
@@ -127,6 +128,18 @@ fn put(column: &ArrayColumn, row: usize, place: &mut [u8]) {
         ArrayValues::Complex { width, values } => {
             numbers(values[row * width..(row + 1) * width].as_flattened(), place);
         }
+    }
+}
+
+/// The type of words whose entries have so many bytes.
+pub(super) fn letters_of_words(bytes: usize) -> String {
+    format!("<U{}", bytes / 4)
+}
+
+/// * `place`: all zero, long enough.
+pub(super) fn put_word(word: &str, place: &mut [u8]) {
+    for (letter, place) in word.chars().zip(place.chunks_exact_mut(4)) {
+        place.copy_from_slice(&u32::from(letter).to_le_bytes());
     }
 }
 
@@ -140,7 +153,7 @@ impl Records {
     /// The bytes of a `.npy` file in front of the records.
     #[must_use]
     pub fn npy_header(&self) -> Vec<u8> {
-        let field = |(name, letters, length): &(String, String, Option<usize>)| {
+        let field = |(name, letters, length): &Field| {
             let name = name.replace('\\', "\\\\").replace('\'', "\\'");
             match length {
                 None => format!("('{name}', '{letters}'), "),

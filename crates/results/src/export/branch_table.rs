@@ -189,9 +189,12 @@ const PARAMETER_OUTPUTS: [TableColumn; 18] = [
 ];
 
 impl BranchTable {
+    /// The rows of branches over the frequency.
+    pub const ROWS: Self = Self::new("branches", TableOver::Frequency, TableLines::Rows, &BRANCHES);
+
     /// All of them, in the order in which they are written.
     pub const ALL: &'static [Self] = &[
-        Self::new("branches", TableOver::Frequency, TableLines::Rows, &BRANCHES),
+        Self::ROWS,
         Self::new("events", TableOver::Frequency, TableLines::Events, &EVENTS),
         Self::new("ends", TableOver::Frequency, TableLines::Ends, &ENDS),
         Self::new("parameter_branches", TableOver::Parameters, TableLines::Rows, &PARAMETER_BRANCHES),

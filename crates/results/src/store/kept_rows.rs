@@ -67,14 +67,14 @@ fn version(connection: &Connection) -> Result<i64, StoreError> {
 mod tests {
     use std::path::Path;
 
-    use hammerbeam_orbit::{EventSet, Side};
+    use hammerbeam_orbit::Side;
     use tempfile::tempdir;
 
     use super::super::{
-        Continuation, DATABASE, Memory, Store, StoreError, add_checksums,
-        tests::{STUDY, solution, study, walked_folder},
+        DATABASE, Store, StoreError, add_checksums,
+        tests::{STUDY, append, study, walked_folder},
     };
-    use crate::row::{Row, SolvedRow};
+    use crate::row::Row;
 
     fn rows(store: &Store) -> Result<Vec<(Side, u32, Row)>, StoreError> {
         let mut rows = Vec::new();
@@ -90,19 +90,6 @@ mod tests {
         add_checksums(&connection).unwrap();
         connection.execute_batch(statement).unwrap();
         connection.close().unwrap();
-    }
-
-    fn append(run: &mut Store, side: Side, frequencies_hz: &[f64]) {
-        let start = run.branches().unwrap()[0].start;
-        let row = |frequency_hz: &f64| SolvedRow {
-            solution: solution(*frequency_hz),
-            parameter: 0.7,
-            events: EventSet::default(),
-            located: None,
-        };
-        let rows: Vec<SolvedRow> = frequencies_hz.iter().map(row).collect();
-        let memory = Memory { checkpoint: b"there", journal: b"" };
-        run.append(start, side, &rows, Continuation::GoesOn(memory)).unwrap();
     }
 
     #[test]

@@ -61,4 +61,4 @@ mod motion_tests;
 #[cfg(test)]
 mod simulated_tests;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -8,9 +8,9 @@ use tempfile::tempdir;
 use super::*;
 use crate::{end::BranchEnd, row::SolvedRow};
 
-pub(super) const STUDY: &str = include_str!("../../../../studies/duffing.toml");
+pub(crate) const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 
-pub(super) fn study(text: &str) -> StudyFile {
+pub(crate) fn study(text: &str) -> StudyFile {
     StudyFile::parse("study.toml", text.to_owned()).unwrap()
 }
 
@@ -227,7 +227,7 @@ fn everything(folder: &Path) -> Result<String, StoreError> {
 }
 
 /// A finished folder with some of everything that a walk leaves.
-pub(super) fn walked_folder(folder: &Path) {
+pub(crate) fn walked_folder(folder: &Path) {
     let mut store = Store::open_for_run(folder, &study(STUDY)).unwrap();
     let key = begin(&mut store);
     let located = hammerbeam_orbit::LocatedEvent {
@@ -251,6 +251,20 @@ pub(super) fn walked_folder(folder: &Path) {
     let memory = Memory { checkpoint: b"checkpoint", journal: &[3; 9000] };
     store.append(key, Side::Up, &rows, Continuation::GoesOn(memory)).unwrap();
     store.finish().unwrap();
+}
+
+/// More solutions of the first branch of a folder.
+pub(crate) fn append(run: &mut Store, side: Side, frequencies_hz: &[f64]) {
+    let start = run.branches().unwrap()[0].start;
+    let row = |frequency_hz: &f64| SolvedRow {
+        solution: solution(*frequency_hz),
+        parameter: 0.7,
+        events: EventSet::default(),
+        located: None,
+    };
+    let rows: Vec<SolvedRow> = frequencies_hz.iter().map(row).collect();
+    let memory = Memory { checkpoint: b"there", journal: b"" };
+    run.append(start, side, &rows, Continuation::GoesOn(memory)).unwrap();
 }
 
 /// Every bit of a page is looked at sooner or later: one of each tenth byte or so, and whole stretches.
