@@ -144,7 +144,7 @@ fn energy_norm(results: &Results, orbit: &PeriodicSolution) -> f64 {
 }
 
 /// A motion that creeps alternately towards an orbit seems to have a multiple of its period: shooting from
-/// there tells.
+/// there decides.
 fn shortest(results: &Results, attractor: SurveyedAttractor) -> SurveyedAttractor {
     let guess = |state: &[f64], period: usize| PeriodicSolution {
         frequency_hz: attractor.frequency_hz,

@@ -178,7 +178,7 @@ pub fn outcome(reader: Reader, folder: &Path, bytes: &[u8]) -> (Outcome, Duratio
     (outcome, time)
 }
 
-/// Processor time of this thread where Linux tells it: a busy machine makes no reader slow. Elsewhere the
+/// Processor time of this thread where Linux reports it: a busy machine makes no reader slow. Elsewhere the
 /// time of day.
 #[derive(Debug)]
 struct Clock {
@@ -206,7 +206,7 @@ impl Clock {
     }
 }
 
-/// The most memory that this program has had so far [bytes], where Linux tells it.
+/// The most memory that this program has had so far [bytes], where Linux reports it.
 #[must_use]
 pub fn peak_memory() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;

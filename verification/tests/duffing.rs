@@ -229,7 +229,7 @@ fn folds_of_a_softening_spring_are_those_of_harmonic_balance() {
 /// derivative by `A^2` vanishes too.
 ///
 /// With `u = 3/4 a A^2` that is `(1 - s + u)(1 - s + 3 u) + 4 z^2 s = 0` for `s = W^2`: two values of s for
-/// each u, and F tells u.
+/// each u, and F decides u.
 fn first_order_folds(Duffing { damping, cubic, force }: Duffing) -> [f64; 2] {
     let square = |u: f64, branch: f64| {
         // s^2 + s (4 z^2 - 2 - 4 u) + (1 + u)(1 + 3 u) = 0.

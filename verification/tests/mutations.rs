@@ -1,4 +1,4 @@
-//! Damaged input makes no reader panic or crawl: a few hundred mutations each; `examples/mutations.rs` does
+//! Damaged input makes no reader panic or hang: a few hundred mutations each; `examples/mutations.rs` does
 //! it for as long as one likes.
 
 use std::path::Path;

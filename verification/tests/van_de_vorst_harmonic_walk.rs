@@ -106,7 +106,7 @@ fn a_multiplier_is_plus_one_at_every_fold() {
 }
 
 /// `det(M - 1) dx/ds = -dR/df df/ds` along a branch: the branch runs up exactly where an even number of
-/// multipliers exceeds +1, once it does so somewhere. This owes nothing to determinants.
+/// multipliers exceeds +1, once it does so somewhere. No determinant is used for this.
 #[test]
 fn branch_turns_exactly_where_a_multiplier_passes_plus_one() {
     let exceeding = |row: &BranchRow| {
@@ -217,7 +217,7 @@ fn folds_do_not_depend_on_a_step_of_0_01_hz() {
     assert_same_folds(&walked_at(0.01).folds(), &branch().folds(), "0.01 Hz");
 }
 
-/// From just above each thicket of folds to just below it; the whole range if asked for.
+/// From just above each range of dense folds to just below it; the whole range if asked for.
 #[test]
 fn folds_do_not_depend_on_a_step_of_0_001_hz() {
     if extensive() {

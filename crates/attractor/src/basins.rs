@@ -68,10 +68,10 @@ impl From<Classified> for Attractor {
 enum Destination {
     /// To the attractor of that index.
     Known(usize),
-    /// To one that was not known when its round began.
+    /// To one that was not known when its round started.
     New(Attractor),
-    /// No motion begins at the state, or it cannot be computed, or it keeps a contact closed that remembers
-    /// how it began.
+    /// No motion starts at the state, or it cannot be computed, or it keeps a contact of an
+    /// impact-speed-dependent law closed.
     Lost,
 }
 
@@ -80,9 +80,9 @@ enum Destination {
 pub struct Round {
     /// The first cell of the round.
     pub first: usize,
-    /// Number of the attractor of each of its cells, counted from 1; 0 where no motion begins or leads to an
-    /// attractor: behind a rigid stop, within a contact that remembers its impact, where a motion settles
-    /// with such a contact closed, or cannot be computed.
+    /// Number of the attractor of each of its cells, counted from 1; 0 where no motion starts or leads to an
+    /// attractor: behind a rigid stop, within a contact of an impact-speed-dependent law, where a motion
+    /// settles with such a contact closed, or cannot be computed.
     pub cells: Vec<u32>,
     /// Attractors that are new; the first one has the number `known + 1`.
     pub found: Vec<Attractor>,

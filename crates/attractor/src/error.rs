@@ -19,18 +19,18 @@ pub enum AttractorError {
     /// A state has the wrong length.
     #[error("the state has {found} entries, the motion has {expected}")]
     StateLength { found: usize, expected: usize },
-    /// A motion is to begin behind a rigid stop, where no motion comes.
+    /// A motion is to start behind a rigid stop, where no motion comes.
     #[error("the state lies {depth:.3e} m behind the rigid stop {stop:?}, where no motion comes")]
     BehindRigidStop { stop: String, depth: f64 },
-    /// A motion is to begin within a contact whose law remembers its impact: the state does not tell how that
-    /// contact began.
+    /// A motion is to start within a contact of an impact-speed-dependent law: the state does not say how
+    /// fast that contact closed.
     #[error(
         "the state lies {depth:.3e} m within the contact of {stop:?}, \
         and its law needs to know how fast it closed"
     )]
     WithinContact { stop: String, depth: f64 },
-    /// A contact whose law remembers its impact stays closed in the settled motion: what it does there
-    /// depends on the speed of the first touch, and so on where the motion was begun.
+    /// A contact of an impact-speed-dependent law stays closed in the settled motion: its force there depends
+    /// on the speed of the first touch, and so on where the motion was started.
     #[error(
         "{element} is closed over the whole settled motion: its law needs to know how fast a contact began, \
         and that is what is left of how the motion was begun"

@@ -9,8 +9,8 @@
 //! dg/dz`, so for a structure with contacts whose force depends on the displacement alone it is `-tr(M^-1
 //! C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose
 //! force depends on the velocity adds the mean of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e`
-//! (the determinant of its jump is `e^2`). A law that remembers the speed `v` of its impact adds the mean of
-//! `phi^T df/dv . dv/dq'` besides, where `dv/dz` is how the speed of neighbours that were struck at other
+//! (the determinant of its jump is `e^2`). A law that depends on the speed `v` of its impact adds the mean of
+//! `phi^T df/dv . dv/dq'` as well, where `dv/dz` is how the speed of neighbours that were struck at other
 //! speeds goes with their present state. Where a rigid stop sticks, what the motion was relative to it is
 //! forgotten: two exponents are minus infinity for each stop that is held at once, and so is the sum; one is
 //! where an impact without restitution does not stick. The others are those of the motion that is left.
@@ -85,7 +85,7 @@ pub struct Spectrum {
     pub exponents: Vec<Estimate>,
     /// Their sum.
     pub sum: f64,
-    /// What the sum has to be, where [`SectionMap::growth_of_volume`] tells.
+    /// What the sum has to be, where [`SectionMap::growth_of_volume`] gives it.
     pub expected_sum: Option<f64>,
     /// Dimension after Kaplan and Yorke.
     pub kaplan_yorke_dimension: f64,

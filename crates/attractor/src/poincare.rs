@@ -20,7 +20,7 @@ pub enum PoincareSection {
 /// A point of a section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionPoint {
-    /// Time since the motion was begun to be observed [s].
+    /// Time since observation of the motion started [s].
     pub time: f64,
     /// Phase of the excitation, 0 to 1 [cycles].
     pub phase: f64,

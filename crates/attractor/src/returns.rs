@@ -11,9 +11,9 @@
 //!   chaos, in bands that are visited in a fixed order as well, the closest n keeps the order of the bands
 //!   and says nothing of the place in them: `D(3 n)` is about `D(n)`.
 //! - But so does what creeps past an orbit, or towards one whose period is longer than those looked for: it
-//!   goes a short way three times, too. What tells it from a torus is that its last states lie at the end of
-//!   what was visited: states of the past are behind them, and nothing is ahead. On a torus that was seen
-//!   whole the last states fall between earlier ones, with neighbours on opposite sides. On one near a
+//!   goes a short way three times, too. What distinguishes it from a torus is that its last states lie at
+//!   the end of what was visited: states of the past are behind them, and nothing is ahead. On a torus that
+//!   was seen whole the last states fall between earlier ones, with neighbours on opposite sides. On one near a
 //!   resonance, of which these periods show but a part, the way of n periods is as long at the end as at the
 //!   beginning, where it grows or falls beside an orbit.
 

@@ -60,7 +60,7 @@ pub trait SectionMap {
     /// Takes the last [`SectionMap::flow`] back, where the map holds more than the state says.
     fn take_back(&mut self) {}
 
-    /// Refuses a settled motion in which a contact stays closed that remembers how it began.
+    /// Refuses a settled motion in which a contact of an impact-speed-dependent law stays closed.
     ///
     /// * `state`: that to which the motion has come last, at phase 0; `periods`: excitation periods that are
     ///   looked at.
@@ -153,8 +153,8 @@ impl SystemMap {
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
     }
 
-    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes, or in a contact whose
-    /// law remembers its impact.
+    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes, or in a contact of
+    /// an impact-speed-dependent law.
     ///
     /// # Errors
     /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], of the first such stop.
@@ -177,8 +177,8 @@ impl SystemMap {
         Ok(())
     }
 
-    /// The first element whose contact remembers its impact and stays closed over these periods: the state
-    /// lies within it after each of them, and nothing has touched it.
+    /// The first element whose law depends on the impact speed and whose contact stays closed over these
+    /// periods: the state lies within it after each of them, and nothing has touched it.
     fn stays_closed(&mut self, state: &[f64], periods: usize) -> Result<Option<usize>, AttractorError> {
         let period = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
         let mut closed = self.remembered_contacts(state);
@@ -197,8 +197,8 @@ impl SystemMap {
         Ok(closed.first().map(|(element, _)| *element))
     }
 
-    /// Elements within a contact that remembers its impact, and the numbers of these contacts among those of
-    /// all elements.
+    /// Elements within a contact of an impact-speed-dependent law, and the numbers of these contacts among
+    /// those of all elements.
     fn remembered_contacts(&self, state: &[f64]) -> Vec<(usize, usize)> {
         let (system, mut first) = (self.integrator.system(), 0);
         let mut within = Vec::new();
@@ -278,8 +278,8 @@ impl SectionMap for SystemMap {
         self.integrator.directions_lost()
     }
 
-    /// `-tr(M^-1 C)` times the duration, and what contacts contribute; not known where a contact that
-    /// remembers its impact swallows nearly all of it.
+    /// `-tr(M^-1 C)` times the duration, and what contacts contribute; not known where an
+    /// impact-speed-dependent law takes nearly all speed out of an impact.
     fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
     }

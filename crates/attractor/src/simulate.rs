@@ -19,7 +19,7 @@ const SAME_INSTANT: f64 = 1e-12;
 /// A state at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
-    /// Time since the motion was begun to be observed [s].
+    /// Time since observation of the motion started [s].
     pub time: f64,
     /// Phase of the excitation, 0 to 1 [cycles].
     pub phase: f64,
@@ -36,7 +36,7 @@ pub struct ContactRecord {
     pub element: usize,
     /// Number of the contact of its law.
     pub contact: usize,
-    /// The touch, with its time since the motion was begun to be observed; `None` if it was closed then.
+    /// The touch, with its time since observation started; `None` if the contact was closed then.
     pub begin: Option<Touchdown>,
     /// Of an impact on a rigid stop what it did at the touch; `None` where a force acts over a time.
     pub jump: Option<Jump>,
@@ -52,8 +52,8 @@ pub struct ContactRecord {
 
 /// Where a motion is at the end of a period: what it needs to go on with the same bits.
 ///
-/// The state and the contacts are not all of it: a law that remembers the speed of its impact goes on with
-/// that. What sticks to a rigid stop, the state tells.
+/// The state and the contacts are not all of it: an impact-speed-dependent law needs the speed at which its
+/// contact closed. What sticks to a rigid stop follows from the state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SimulationCheckpoint {
     /// `[q; q']` at phase 0, length 2n.
@@ -62,8 +62,8 @@ pub struct SimulationCheckpoint {
     pub periods: u64,
     /// Contacts that are closed, as far as they were seen.
     pub open: Vec<ContactRecord>,
-    /// The speed of the impact that the law of each element remembers [m/s], infinite where it remembers
-    /// none; empty if no law of the system does.
+    /// The impact speed on which the law of each element depends [m/s], infinite where there is none; empty
+    /// if no law of the system depends on one.
     pub impact_speeds: Vec<f64>,
 }
 

@@ -107,8 +107,8 @@ impl Sweeper {
         self.observe(frequency_hz, classified)
     }
 
-    /// Whether a motion can begin at a state at phase 0 that this sweeper has not come to itself: in no
-    /// contact whose law remembers its impact.
+    /// Whether a motion can start at a state at phase 0 that this sweeper has not come to itself: in no
+    /// contact of an impact-speed-dependent law.
     #[must_use]
     pub fn can_begin(&mut self, state: &[f64]) -> bool {
         let frequency_hz = self.map.frequency_hz();
@@ -151,9 +151,10 @@ impl Sweeper {
         })
     }
 
-    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always
-    /// the same ones; of those about it, none behind a rigid stop or within a contact that remembers its
-    /// impact: where no draw is in front of all of them, the last one is reflected at them.
+    /// States from which a diagram starts: rest, the motion without contacts, and states about it, always
+    /// the same ones; of those about it, none behind a rigid stop or within a contact of an
+    /// impact-speed-dependent law: where no draw is in front of all of them, the last one is reflected at
+    /// them.
     ///
     /// # Errors
     /// [`AttractorError::Input`]: the frequency makes no sense.

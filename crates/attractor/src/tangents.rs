@@ -114,7 +114,7 @@ impl Tangents {
     }
 
     /// What the sum over the growth of the last section has to be, where [`SectionMap::growth_of_volume`]
-    /// tells.
+    /// gives it.
     #[must_use]
     pub fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_matrix_is_told() {
+    fn a_singular_matrix_is_reported() {
         let (mut a, mut q, mut growth) = (vec![0.0; 4], vec![0.0; 4], vec![0.0; 2]);
         assert!(!triangularise(&mut a, 2, &mut q, &mut growth));
     }

@@ -75,7 +75,7 @@ fn the_beam_against_its_stop() {
     }
 }
 
-/// Contacts that the state tells all of, closed at borders: what they have gathered goes on.
+/// Contacts that the state determines, closed at borders: what they have gathered goes on.
 #[test]
 fn contacts_without_a_memory() {
     let lossy = HuntCrossleyStop::new(HertzStop::with_gap(20.0, 0.1).unwrap(), 0.3).unwrap();
@@ -91,7 +91,7 @@ fn contacts_without_a_memory() {
     }
 }
 
-/// Laws that remember their impacts, closed at borders: neither the state nor the contact tell how fast they
+/// Impact-speed-dependent laws, closed at borders: neither the state nor the contact says how fast they
 /// closed.
 #[test]
 fn contacts_that_remember_their_impact() {

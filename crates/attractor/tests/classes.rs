@@ -147,7 +147,7 @@ fn motion_that_still_settles_is_doubtful() {
 
 /// A motion that settles ever so slowly, on either side of its fixed point in turn or turning about it, looks
 /// regular to both indicators: its exponents are within rounding of zero and its series has two frequencies
-/// at most. That its returns come closer tells it from a torus.
+/// at most. That its returns come closer distinguishes it from a torus.
 #[test]
 fn motion_that_settles_too_slowly_for_the_exponents_is_doubtful() {
     let impatient =

@@ -1,4 +1,4 @@
-//! Exponents in chaos with laws that remember the speed of their impacts, by the exact integrator and by a
+//! Exponents in chaos with impact-speed-dependent laws, by the exact integrator and by a
 //! second method that shares nothing with it: the general integrator's variational equations, and Gram and
 //! Schmidt instead of reflections.
 //!
@@ -244,9 +244,9 @@ fn long_averages_of_both_methods_are_within_their_intervals() {
     }
 }
 
-/// A contact that swallows nearly all of its impact while a constant force presses it: rounding of the
-/// velocity makes errors in it that shorter steps do not lessen, and steps went down by thousands. Exponents
-/// are told all the same, and their sum.
+/// A contact that takes nearly all speed out of its impact while a constant force presses it: rounding of the
+/// velocity makes errors in it that shorter steps do not lessen, and steps were shortened thousands of times.
+/// Exponents and their sum are reported all the same.
 #[test]
 fn a_contact_that_swallows_its_impact_takes_steps_of_its_motion() {
     let (mass, stiffness, damping) = (0.587_f64, 2.009_f64, 0.117_f64);

@@ -1,4 +1,4 @@
-//! Laws that remember their impact, where a contact lies over phase 0: the motion is the one whose load has
+//! Impact-speed-dependent laws where a contact lies over phase 0: the motion is the one whose load has
 //! another phase, which has no contact there.
 #![allow(clippy::unwrap_used, reason = "tests")]
 

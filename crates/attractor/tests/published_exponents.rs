@@ -73,7 +73,7 @@ fn spectrum<const N: usize>(field: Field<N>, duration: f64, parts: u64, averaged
     lyapunov(&mut map, &state, LyapunovSettings { aligning: 200, averaged: averaged * longer() }).unwrap()
 }
 
-/// Each exponent is the printed one, as far as its digits and the interval of the average tell.
+/// Each exponent is the printed one, within its digits and the interval of the average.
 #[track_caller]
 fn assert_published(found: &Spectrum, published: &[f64]) {
     let accuracy = if longer() > 1 { 1.5e-4 } else { 5e-3 };

@@ -347,8 +347,8 @@ fn a_virtual_rig_goes_through_the_whole_comparison() {
     let signal = &found["signals"][0];
     assert_eq!(signal["measured_as"], "periodic, 1");
     assert!(number(&signal["computed"]["correlation"]) > 0.99, "{signal}");
-    // What `overlay` tells is reported here, too: a harmonic is the same at every frequency, and there is no
-    // branch of period 2.
+    // What `overlay` reports is here, too: a harmonic is the same at every frequency, and there is no branch
+    // of period 2.
     let report = fs::read_to_string(workshop.path("one/report.md")).unwrap();
     for (index, file, part) in [
         (0, "figure_07.csv", "are as alike as the scatter"),

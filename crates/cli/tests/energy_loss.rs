@@ -4,8 +4,8 @@
 use crate::common::{Workshop, assert_success, mass_against_a_stop as study, stderr, stdout};
 use serde_json::Value;
 
-/// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the
-/// polynomial of neither tells its place well: it is that of the general integrator.
+/// Two masses whose largest contact force moves across the border of two steps of the integrator, where the
+/// polynomial of neither gives its place well: it is that of the general integrator.
 #[test]
 fn a_force_that_is_largest_at_the_border_of_two_steps_is_verified() {
     let one_mass = study("law = \"hu-guo\"\nstiffness_n_m15 = 20.0\nrestitution = 0.7");

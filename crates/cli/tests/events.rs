@@ -61,7 +61,7 @@ fn branches() -> String {
     fs::read_to_string(RESULTS.path("exported/branches.csv")).unwrap()
 }
 
-/// One event as both tables tell it: branch, event without start and end, frequency.
+/// One event as both tables have it: branch, event without start and end, frequency.
 fn of_solutions(csv: &str) -> Vec<(String, String, f64)> {
     let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     let named = |events: &str| {

@@ -1,4 +1,4 @@
-//! Commands that write are killed at random instants, each begun again once: the files are those of an
+//! Commands that write are killed at random instants, each started again once: the files are those of an
 //! undisturbed command, to the byte.
 //!
 //! By default two instants a command; `HAMMERBEAM_EXTENSIVE=1` kills a thousand times, `HAMMERBEAM_KILLS=N`

@@ -263,7 +263,7 @@ fn what_a_harmonic_cannot_tell_is_told() {
     assert!(tried > 100.0 && number(&alike["orbits"]) >= tried - 5.0, "{found}");
     assert!(number(&alike["frequency_hz"][1]) > 1.07 * 4.8, "{found}");
     assert!(found["notes"][0].as_str().unwrap().contains("which of them it is remains open"), "{found}");
-    // With the factor its size tells it, as far as others are not nearly as large.
+    // With the factor its size decides, as far as others are not nearly as large.
     let found = overlay(&workshop, &[&near[..], &["--amplitude-factor", "2"]].concat());
     assert!((number(&found["orbit"]["frequency_hz"]) / ORBIT_HZ - 1.0).abs() < 1e-3, "{found}");
     assert_eq!(found["orbit"]["as_alike"], Value::Null, "{found}");

@@ -111,7 +111,7 @@ fn shift_and_factor(found: &Value) {
     assert!((5.5..8.0).contains(&by_filter), "{by_filter}");
 }
 
-/// Each point has its verdict, and records tell what the states do.
+/// Each point has its verdict, and records agree with the states.
 fn classification(workshop: &Workshop, found: &Value) {
     let points = number(&found["sweep"]["points"]);
     assert_eq!(points, 82.0);

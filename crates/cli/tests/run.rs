@@ -92,7 +92,7 @@ fn interrupted(study: &str, after: Duration, whole: usize) -> (Workshop, usize) 
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         wait = wait.mul_f64(0.7);
-        // Whoever is not there any more does not hear it.
+        // A process that has ended gets no signal.
         if output.status.success() {
             continue;
         }

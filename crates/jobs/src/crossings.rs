@@ -160,7 +160,7 @@ impl StoredBranches {
     /// The branch that a periodic motion lies on.
     ///
     /// * `states`: at phase 0 of each of its excitation periods, or of some of them over and over: of an
-    ///   orbit that is in contact at phase 0 with a law that remembers its impact, not all may be known. One
+    ///   orbit that is in contact at phase 0 under an impact-speed-dependent law, not all may be known. One
     ///   in common with an orbit of as many periods is enough.
     ///
     /// # Errors

@@ -27,7 +27,7 @@ pub trait Walk {
     /// walk can only be done from its start to its end.
     fn checkpoint(&self) -> Option<Vec<u8>>;
 
-    /// What the walk has to remember of the solutions since the journal was taken last.
+    /// What the walk has to keep of the solutions since the journal was taken last.
     fn take_journal(&mut self) -> Vec<u8>;
 }
 

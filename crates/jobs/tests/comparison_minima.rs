@@ -1,4 +1,4 @@
-//! Which minimum a comparison finds, and which other one it tells, with points on curves in closed form.
+//! Which minimum a comparison finds, and which other one it reports, with points on curves in closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_jobs::comparison::{

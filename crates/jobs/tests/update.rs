@@ -1,5 +1,5 @@
 //! Model updating with noisy synthetic data: what is recovered, how often intervals hold the truth, and what
-//! is told when the data cannot decide.
+//! is reported when the data cannot decide.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_fit::FitProblem;
@@ -158,7 +158,7 @@ fn intervals_from_eigenfrequencies_hold_the_truth_at_the_stated_rate() {
     assert!(counts.iter().all(|count| (90..100).contains(count)), "{counts:?}");
 }
 
-/// The noise is seven times what the file says, which it is told to find out. Three degrees of freedom: with
+/// The noise is seven times what the file says; the update is to find that. Three degrees of freedom: with
 /// the quantile of the normal distribution the intervals would hold the truth in 86 % of the cases only, less
 /// than 90 of 100 with a probability of 0.85.
 #[test]
@@ -283,7 +283,7 @@ fn modulus_density_and_thickness_of_a_bare_beam_are_told_to_be_one() {
     }
 }
 
-/// The mass at the tip tells modulus and density apart, but two low frequencies hardly see the rotary inertia
+/// The mass at the tip separates modulus from density, but two low frequencies hardly see the rotary inertia
 /// of a mass.
 #[test]
 fn a_parameter_that_the_data_hardly_see_is_named_alone() {

@@ -204,7 +204,7 @@ fn fewer_data_than_parameters_are_refused() {
     assert!(message.contains("there is no parameter to fit"), "{message}");
 }
 
-/// What only the model can tell is told at its place in the data file, too.
+/// A fault that only the model shows is reported with its place in the data file, too.
 #[test]
 fn modes_that_the_study_does_not_have_are_refused() {
     let parameter = "[[parameter]]\nkey = \"structure.length_m\"\n";

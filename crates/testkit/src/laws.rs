@@ -28,7 +28,7 @@ pub fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
     Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
 }
 
-/// A Hertz stop that remembers the speed of its impact, with the coefficient of restitution `e`.
+/// A Hertz stop of an impact-speed-dependent law, with the coefficient of restitution `e`.
 pub fn remembering(stiffness: f64, model: RestitutionModel, e: f64, gap: f64) -> Law {
     let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
     Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())

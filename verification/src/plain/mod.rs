@@ -4,8 +4,9 @@
 //! `M y'' + C y' + K y = f(t) + forces of the stops` are integrated by the classical method of Runge and
 //! Kutta with steps of one length, in physical coordinates; those of a beam in its modes. Nothing is exact,
 //! nothing is clever: a step in which a stop is reached or left is halved until that is at its end. At a
-//! rigid stop an impact turns the relative velocity round, and one that is too slow to be told from rest
-//! holds. It serves surveys, where what is asked is whether an attractor is there, not its last digits.
+//! rigid stop an impact turns the relative velocity round, and one that cannot be
+//! distinguished from rest holds. It serves surveys, which ask whether an attractor is there, not for its
+//! last digits.
 
 mod coordinates;
 mod equations;

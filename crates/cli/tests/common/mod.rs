@@ -142,7 +142,7 @@ impl Workshop {
         command
     }
 
-    /// Begins the command in the folder; what it tells can be read when it has ended.
+    /// Starts the command in the folder; what it prints can be read when it has ended.
     pub fn spawn(&self, arguments: &[&str]) -> Child {
         process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(arguments)

@@ -1,4 +1,4 @@
-//! A contact that a weight keeps closed for good, under a law that remembers how fast it closed: no command
+//! A contact that a weight keeps closed for good, under an impact-speed-dependent law: no command
 //! takes what is left of that for a motion of the system.
 
 use serde_json::Value;
@@ -38,7 +38,7 @@ const COMMANDS: [&[&str]; 4] = [
 const REFUSED: &str =
     "wall is closed over the whole settled motion: its law needs to know how fast a contact began";
 
-/// Exit code 1, as there is nothing to give, with the stop by its name; basins tell what all of their cells
+/// Exit code 1, as there is nothing to give, with the stop by its name; basins report what all of their cells
 /// have in common.
 #[test]
 fn contacts_that_stay_closed_leave_nothing_to_give() {

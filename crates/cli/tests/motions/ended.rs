@@ -136,7 +136,7 @@ fn sweeps_and_exponents_go_on_after_a_kill_with_the_same_bytes() {
     }
 }
 
-/// A sweep whose motions are in contact at phase 0, which their states do not tell all of: killed and taken
+/// A sweep whose motions are in contact at phase 0, which their states do not determine: killed and taken
 /// up again it has the same bytes.
 #[test]
 fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {

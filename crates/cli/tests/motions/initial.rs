@@ -3,7 +3,7 @@
 use super::{IMPACT_OSCILLATOR, remembering};
 use crate::common::{Workshop, assert_bad_input, short_run, stderr};
 
-/// Behind a rigid stop, or within a contact that remembers its impact; of `simulate` see `refused.rs`.
+/// Behind a rigid stop, or within a contact of an impact-speed-dependent law; of `simulate` see `refused.rs`.
 #[test]
 fn lyapunov_and_sweep_refuse_states_in_which_no_motion_begins() {
     let rigid = Workshop::with(IMPACT_OSCILLATOR);

@@ -126,7 +126,7 @@ fn a_motion_with_two_stops_goes_on_after_kills_with_the_same_bytes() {
     }
 }
 
-/// At the ends of periods the mass is in a contact whose law remembers the speed of its impact.
+/// At the ends of periods the mass is in a contact of an impact-speed-dependent law.
 #[test]
 fn a_contact_that_remembers_goes_on_over_a_kill() {
     let study = remembering().replace("law = \"flores\"", "law = \"lankarani-nikravesh\"");

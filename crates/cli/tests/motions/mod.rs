@@ -24,7 +24,7 @@ use serde_json::Value;
 const DUFFING: &str = include_str!("../../../../studies/duffing.toml");
 
 const IMPACT_OSCILLATOR: &str = include_str!("../../../../studies/impact-oscillator.toml");
-/// The same with a stop that remembers its impacts and has no gap.
+/// The same with a stop of an impact-speed-dependent law and no gap.
 fn remembering() -> String {
     let law = "law = \"flores\"\nstiffness_n_m15 = 1e3\nrestitution = 0.8\ngap_m = 0.0";
     IMPACT_OSCILLATOR.replace("law = \"rigid\"\nrestitution = 0.8\ngap_m = 1.0", law)

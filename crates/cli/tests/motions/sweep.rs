@@ -27,8 +27,8 @@ fn sweep_shows_hysteresis_and_names_the_branch() {
     assert_eq!(table(&workshop, "out/sweep_samples.csv").len(), 23);
 }
 
-/// An orbit of two periods that is in contact at phase 0 of one of them, with a law that remembers its
-/// impact: whichever of the two its motion comes to, its branch is named.
+/// An orbit of two periods that is in contact at phase 0 of one of them, with an impact-speed-dependent
+/// law: whichever of the two its motion comes to, its branch is named.
 #[test]
 fn sweep_names_the_branch_of_a_subharmonic_motion_within_a_contact() {
     let workshop = Workshop::driven_mass(

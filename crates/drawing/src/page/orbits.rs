@@ -28,7 +28,7 @@ use spectrum::spectrum;
 
 use super::{Album, Drawn, choice};
 
-/// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do
+/// Orbits that one integrator computes one after the other. It keeps what it did last, so that these do
 /// not depend on the number of threads.
 const PART: usize = 64;
 /// Parts between two looks at whether the page is full: what is short may still fit where something else did

@@ -175,8 +175,8 @@ fn join(earlier: Observed, later: Observed) -> Observed {
 
 /// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a
 /// direction that has all modes in it: along the worst direction the change is about `sqrt(2n)` times that
-/// along any one. The larger one of both signs; that of the one from which a motion can begin, where the
-/// other leads into a contact whose law remembers how it began.
+/// along any one. The larger one of both signs; that of the one from which a motion can start, where the
+/// other leads into a contact of an impact-speed-dependent law.
 pub(super) fn sensitivity(
     observed: (&System, &Response),
     solution: &PeriodicSolution,

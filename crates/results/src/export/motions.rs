@@ -213,7 +213,7 @@ pub(super) fn export_motions(store: &Store, folder: &Path) -> Result<Vec<PathBuf
     Ok(files)
 }
 
-/// The grid of a request, as far as its words tell: where the cells lie, not what the coordinates are.
+/// The grid of a request, as far as its words say: where the cells lie, not what the coordinates are.
 pub(crate) fn grid(request: &RequestRecord) -> Result<Grid, StoreError> {
     let value = |key: &str| {
         let found = request.word(key).unwrap_or_default();

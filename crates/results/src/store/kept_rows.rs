@@ -2,8 +2,8 @@
 //!
 //! Whoever opens a folder reads every solution for its checksum, nodes and multipliers among it. What its
 //! tables show of it can be kept then, some 100 bytes a solution, for whoever wants all rows at once. The
-//! database stays the owner: once another program has written it (`PRAGMA data_version` tells) rows are read
-//! from there. If anything is missing or damaged it is found where it is asked for, as without this.
+//! database stays the owner: once another program has written it (as `PRAGMA data_version` shows) rows are
+//! read from there. If anything is missing or damaged it is found where it is asked for, as without this.
 
 use std::{collections::HashMap, ops::Range};
 

@@ -101,7 +101,7 @@ fn simulated_periods_come_back_bit_by_bit_and_apart_from_other_requests() {
     store.append_simulated(request, 7, &last).unwrap();
     let store = reopened(&folder, store);
     let of = |request, transient_periods| read(&store, request, transient_periods).unwrap();
-    // Texts tell zeros of both signs apart.
+    // Texts differ for zeros of both signs.
     assert_eq!(format!("{:?}", of(request, 5)), format!("{:?}", [transient, first.clone(), last]));
     assert_eq!(of(other, 0), [first]);
     assert_eq!(store.requests().unwrap().iter().map(|request| request.done).collect::<Vec<_>>(), [8, 2]);
