@@ -80,12 +80,15 @@ impl SvgWriter {
     /// it.
     pub(crate) fn new(width_mm: f64, height_mm: f64, title: &str, description: &str) -> Self {
         let (width, height) = (number(points(width_mm)), number(points(height_mm)));
-        let (title, description) = (escape(title), escape(description));
+        let title =
+            if title.is_empty() { String::new() } else { format!("<title>{}</title>\n", escape(title)) };
+        let description = escape(description);
         let (width_mm, height_mm) = (number(width_mm), number(height_mm));
+        // Else browsers round the advance of each glyph to pixels, and letters stand apart.
         let document = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_mm}mm\" height=\"{height_mm}mm\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{}\">\n\
-             <title>{title}</title>\n<desc>{description}</desc>\n",
+             viewBox=\"0 0 {width} {height}\" role=\"img\" text-rendering=\"geometricPrecision\" \
+             font-family=\"{}\">\n{title}<desc>{description}</desc>\n",
             font::FAMILIES
         );
         let fonts_at = document.len();

@@ -109,18 +109,18 @@ pub fn draw_loops() -> Outcome<Figure> {
         let force = Bounce::hertz(model.factor(0.6)).force(&law, HERTZ);
         restitution.push(DataSeries::new(name, DataLook::Line(number), force));
     }
-    let panel = |heading: &str, series, top: f64| DataPanel {
+    let panel = |heading: &str, series| DataPanel {
         heading: heading.to_owned(),
         ..DataPanel::new(
             DataAxis::linear("Penetration (–)").between(0.0, 1.05),
-            DataAxis::linear("Force (–)").between(0.0, top),
+            DataAxis::linear("Force (–)").between(0.0, 1.25),
             series,
         )
     };
     let panels = vec![
-        panel("Linear with damper (L3)", damped, 1.25),
-        panel("Hunt–Crossley (L7)", lossy, 1.05),
-        panel("Restitution e = 0.6 (L9)", restitution, 1.05),
+        panel("Linear with damper (L3)", damped),
+        panel("Hunt–Crossley (L7)", lossy),
+        panel("Restitution e = 0.6 (L9)", restitution),
     ];
     let description = "force over penetration of one bounce: a linear stop with dampers, Hunt-Crossley with \
                        losses, four models with e = 0.6"

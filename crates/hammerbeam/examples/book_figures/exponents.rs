@@ -52,7 +52,7 @@ pub fn draw(periods: u64) -> Outcome<[Figure; 2]> {
             DataAxis::linear("Lyapunov exponent (1/s)").between(-0.35, 0.3),
             vec![
                 DataSeries::new("first exponent", DataLook::Line(0), line(0)),
-                DataSeries::new("second", DataLook::Line(1), line(1)),
+                DataSeries::new("second exponent", DataLook::Line(1), line(1)),
             ],
         )
     };

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 
 use hammerbeam::{
     BranchRow, Side, Study,
-    figure::{Bifurcation, DataAxis, DataDiagram, DataLook, DataPanel, DataSeries, Figure},
+    figure::{
+        Bifurcation, DataAxis, DataDiagram, DataLabel, DataLook, DataPanel, DataSeries, Figure, LabelSide,
+    },
 };
 
 use super::{Outcome, compared, style};
@@ -62,7 +64,7 @@ pub fn draw() -> Outcome<Figure> {
 /// The impact speed along the branch.
 fn branch(rows: &[BranchRow]) -> DataPanel {
     let at = |row: &BranchRow| (row.solution.frequency_hz, speed(row));
-    let mut series = Vec::new();
+    let (mut series, mut labels) = (Vec::new(), Vec::new());
     let mut start = 0;
     while start < rows.len() {
         let stable = rows[start].solution.stable();
@@ -73,9 +75,11 @@ fn branch(rows: &[BranchRow]) -> DataPanel {
         series.push(DataSeries::new(name, look, rows[start..rows.len().min(end + 1)].iter().map(at)));
         start = end;
     }
-    for (name, mark) in
-        [("grazing", Bifurcation::Grazing), ("flip", Bifurcation::Flip), ("fold", Bifurcation::Fold)]
-    {
+    for (name, mark, side) in [
+        ("grazing", Bifurcation::Grazing, LabelSide::Below),
+        ("flip", Bifurcation::Flip, LabelSide::Left),
+        ("fold", Bifurcation::Fold, LabelSide::Right),
+    ] {
         // The multipliers jump at a grazing, which makes it a flip or a fold as well.
         let is_there = |row: &&BranchRow| match mark {
             Bifurcation::Grazing => row.events.grazing,
@@ -87,13 +91,17 @@ fn branch(rows: &[BranchRow]) -> DataPanel {
         if mark == Bifurcation::Grazing {
             compare_grazings(&places);
         }
-        series.push(DataSeries::new(name, DataLook::Events(mark), places));
+        labels.extend(places.iter().map(|&at| DataLabel { at, text: name.to_owned(), side }));
+        series.push(DataSeries::new("", DataLook::Events(mark), places));
     }
-    DataPanel::new(
-        DataAxis::linear("Excitation frequency (Hz)").between(0.1, 0.28),
-        DataAxis::linear("Impact speed (m/s)").between(-0.2, 3.0),
-        series,
-    )
+    DataPanel {
+        labels,
+        ..DataPanel::new(
+            DataAxis::linear("Excitation frequency (Hz)").between(0.1, 0.28),
+            DataAxis::linear("Impact speed (m/s)").between(-0.4, 3.0),
+            series,
+        )
+    }
 }
 
 /// Where the linear amplitude reaches the gap: `(1 - W^2)^2 + (c W)^2 = (F/g)^2`.

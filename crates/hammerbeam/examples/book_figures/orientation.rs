@@ -124,10 +124,14 @@ pub fn draw() -> Outcome<Figure> {
             let [x, y] = difference(points[k], points[k.max(1) - 1]);
             k > 0 && x.hypot(y) < 0.03
         };
-        let labels = (0..count).filter(|k| !crowded(*k)).map(|k| DataLabel {
-            at: pair(&points[k]),
-            text: (k + 1).to_string(),
-            side: if is_on_upper(k) { LabelSide::Above } else { LabelSide::Below },
+        // Points at one place have one label.
+        let labels = (0..count).filter(|k| !crowded(*k)).map(|k| {
+            let last = (k + 1..count).take_while(|k| crowded(*k)).last();
+            DataLabel {
+                at: pair(&points[k]),
+                text: last.map_or((k + 1).to_string(), |last| format!("{}–{}", k + 1, last + 1)),
+                side: if is_on_upper(k) { LabelSide::Above } else { LabelSide::Below },
+            }
         });
         let look = DataLook::Dots(if rule == Rule::Angle { 1 } else { 0 });
         DataPanel {

@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 
 use hammerbeam::{
     BranchRow, PeriodicSolution, Side, Study,
-    figure::{
-        Bifurcation, DataAxis, DataDiagram, DataLabel, DataLook, DataPanel, DataSeries, Figure, LabelSide,
-    },
+    figure::{DataAxis, DataDiagram, DataLabel, DataLook, DataPanel, DataSeries, Figure, LabelSide},
 };
 
 use super::{Outcome, compared, style};
@@ -16,6 +14,8 @@ const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/duffing.
 const FREQUENCY_HZ: f64 = 0.25;
 const DAMPING: f64 = 0.1;
 const SEGMENTS: usize = 4;
+/// Nodes before Newton's method, relative to states of the orbit.
+const BESIDE: [f64; SEGMENTS] = [1.15, 0.85, 1.2, 0.85];
 /// Steps of the method of Runge and Kutta in a segment, and from one drawn point to the next.
 const STEPS: usize = 2000;
 const DRAWN: usize = 20;
@@ -63,7 +63,7 @@ fn segments(solution: &PeriodicSolution) -> DataPanel {
     let (mut orbit, mut nodes) = (vec![first], Vec::new());
     for k in 0..SEGMENTS {
         let [x, v] = orbit[orbit.len() - 1];
-        nodes.push([1.13 * x + 0.05, 0.92 * v - 0.05]);
+        nodes.push([BESIDE[k] * x, BESIDE[k] * v]);
         orbit.extend(flow([x, v], phase(k)).into_iter().skip(1));
     }
     let last = orbit[orbit.len() - 1];
@@ -141,7 +141,7 @@ fn multipliers(rows: &[BranchRow]) -> DataPanel {
             vec![
                 DataSeries::new("unit circle", DataLook::Pale, circle),
                 DataSeries::new("multipliers", DataLook::Specks(0), drawn),
-                DataSeries::new("fold", DataLook::Events(Bifurcation::Fold), folds),
+                DataSeries::new("fold", DataLook::Circles(1), folds),
             ],
         )
     }
