@@ -48,8 +48,8 @@ pub type EffortNumbers = (u64, u64, usize, u64);
 /// Of a job by parts: the part to compute, as `2/4`, or the folders that the whole is put together from.
 pub type Parts = (Option<String>, Vec<PathBuf>);
 
-/// How long a forced motion is: frequency [Hz], transient periods, periods, duration [s] which outranks them,
-/// and samples in a period.
+/// How long a forced motion is: frequency [Hz], transient periods, periods, duration [s] which takes
+/// precedence, and samples in a period.
 pub type ForcedTime = (f64, u64, u64, Option<f64>, u32);
 
 /// What is spent on the kind of a motion.

@@ -157,7 +157,7 @@ fn spread(means: &[Amplitude]) -> impl Iterator<Item = String> {
 }
 
 /// Amplitudes far from the line between their neighbours: by more than a tenth, and by six times the median
-/// distance. The farthest is taken out before the next one is looked for, since it spoils its neighbours'
+/// distance. The farthest is taken out before the next one is looked for, since it affects its neighbours'
 /// lines.
 fn beside(means: &[Amplitude]) -> impl Iterator<Item = String> {
     let mut left = means.to_vec();

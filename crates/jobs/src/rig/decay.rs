@@ -47,7 +47,7 @@ pub(super) fn highest_hz(rig: &Rig) -> f64 {
 /// Eigenfrequencies and damping as a decay shows them, below 0.6 of the filter's cut-off.
 ///
 /// # Returns
-/// Nothing where dampers couple the modes, the structure has a rigid mode, or the decay drowns in noise.
+/// Nothing where dampers couple the modes, the structure has a rigid mode, or noise hides the decay.
 /// # Errors
 /// [`RigError::Signal`].
 pub(super) fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, RigError> {
@@ -73,7 +73,7 @@ pub(super) fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMod
     let settings =
         DecaySettings { band_hz: (0.0, highest_hz(rig)), max_modes: 4, ..DecaySettings::default() };
     let found = match free_decay(&measured.channels[0].samples, rig.sampling_hz, &settings) {
-        // A structure whose decay drowns in the noise shows nothing; that is no fault.
+        // A structure whose decay is hidden by noise shows nothing; that is no fault.
         Err(SignalError::NoDecay) => return Ok(Vec::new()),
         found => found?,
     };

@@ -1,7 +1,7 @@
 //! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts
 //! that are likely to be new.
 //!
-//! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was
+//! Walking ahead of a decision may be wasted. It is done only where the start lies on nothing that was
 //! walked so far, and first for period multiples that nobody is walking, then far from the starts of the
 //! walks under way: the other end of a branch is often near. The second side of a branch waits for the first
 //! one, which may close the branch, as long as there is anything else to do.

@@ -1,4 +1,4 @@
-//! The doors to the agenda of a run: jobs, pieces of the study, starts, and the walks from them.
+//! Access to the agenda of a run: jobs, pieces of the study, starts, and the walks from them.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
 

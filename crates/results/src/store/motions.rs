@@ -1,4 +1,4 @@
-//! The doors to what is kept of motions: requests, and what came of each, a table and a file each.
+//! Access to what is kept of motions: requests, and what came of each, a table and a file each.
 
 use hammerbeam_attractor::{Attractor, Round};
 

@@ -176,7 +176,7 @@ CREATE TABLE cell (
 ) WITHOUT ROWID;
 ";
 
-/// Refuses the database of another study or version; an empty one is nobody's yet.
+/// Refuses the database of another study or version; an empty one belongs to no study yet.
 pub(super) fn check_study(
     connection: &Connection,
     folder: &Path,

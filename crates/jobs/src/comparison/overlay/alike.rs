@@ -9,7 +9,7 @@
 //! aa)`, where `|g a - b|^2/bb` would be small for whatever orbit is large. Without it `h` is whatever leaves
 //! least, `x = c` and `u = 1 - c^2`; where `c` is negative, nothing of the orbit leaves less than its mirror
 //! image, `x = 0`. (The fitted factor is not `1/h`: it brings `a` closest to `b`, and `g^2` takes a part
-//! `c^2` of the orbit for the record. `|g a - b|^2/(g^2 aa) = (1 - c^2)/c^2` would blow differences up by
+//! `c^2` of the orbit for the record. `|g a - b|^2/(g^2 aa) = (1 - c^2)/c^2` would magnify differences by
 //! `1/c^4`.)
 //!
 //! Let the record be of an orbit of a branch. If `e` is small and white, the frequency that leaves least is
