@@ -77,7 +77,7 @@ fn branch(rows: &[BranchRow]) -> DataPanel {
     }
     for (name, mark, side) in [
         ("grazing", Bifurcation::Grazing, LabelSide::Below),
-        ("flip", Bifurcation::Flip, LabelSide::Left),
+        ("flip", Bifurcation::Flip, LabelSide::Right),
         ("fold", Bifurcation::Fold, LabelSide::Right),
     ] {
         // The multipliers jump at a grazing, which makes it a flip or a fold as well.
@@ -91,7 +91,10 @@ fn branch(rows: &[BranchRow]) -> DataPanel {
         if mark == Bifurcation::Grazing {
             compare_grazings(&places);
         }
-        labels.extend(places.iter().map(|&at| DataLabel { at, text: name.to_owned(), side }));
+        // Right of the flip the branch rises.
+        let lower = if mark == Bifurcation::Flip { 0.12 } else { 0.0 };
+        let label = |&(f, v): &(f64, f64)| DataLabel { at: (f, v - lower), text: name.to_owned(), side };
+        labels.extend(places.iter().map(label));
         series.push(DataSeries::new("", DataLook::Events(mark), places));
     }
     DataPanel {

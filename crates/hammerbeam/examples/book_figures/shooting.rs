@@ -86,7 +86,7 @@ fn segments(solution: &PeriodicSolution) -> DataPanel {
     let names = nodes.iter().enumerate().map(|(k, node)| DataLabel {
         at: (node[0], node[1]),
         text: format!("node {k}"),
-        side: if node[0] > 0.0 { LabelSide::Right } else { LabelSide::Left },
+        side: if node[0] > 0.0 { LabelSide::Above } else { LabelSide::Below },
     });
     DataPanel {
         labels: names.collect(),
