@@ -92,7 +92,7 @@ fn segments(solution: &PeriodicSolution) -> DataPanel {
         labels: names.collect(),
         ..DataPanel::new(
             DataAxis::linear("Displacement (m)").between(-2.0, 2.0),
-            DataAxis::linear("Velocity (m/s)").between(-2.5, 2.5),
+            DataAxis::linear("Velocity (m/s)").between(-3.0, 3.0),
             series,
         )
     }
