@@ -18,7 +18,7 @@
 //! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the
 //! motion their means are independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per
 //! cent, with the standard deviation `s` of the block means and Student's `t` for `BLOCKS - 1` degrees of
-//! freedom. The correlation of neighbouring blocks is reported besides: beyond `2/sqrt(BLOCKS)` the blocks are
+//! freedom. The correlation of neighbouring blocks is reported, too: beyond `2/sqrt(BLOCKS)` the blocks are
 //! too short or the motion has not settled, and the half width is too small.
 //!
 //! **Dimension.** With the largest k for which `S_k = lambda_1 + ... + lambda_k >= 0` the dimension after

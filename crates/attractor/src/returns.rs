@@ -14,8 +14,8 @@
 //!   goes a short way three times, too. What distinguishes it from a torus is that its last states lie at
 //!   the end of what was visited: states of the past are behind them, and nothing is ahead. On a torus that
 //!   was seen whole the last states fall between earlier ones, with neighbours on opposite sides. On one near
-//!   a resonance, of which these periods show but a part, the way of n periods is as long at the end as at the
-//!   beginning, where it grows or falls beside an orbit.
+//!   a resonance, of which these periods show but a part, the way of n periods is as long at the end as at
+//!   the start, where it grows or falls beside an orbit.
 
 use crate::settle::{REPEATED, distance};
 

@@ -7,10 +7,10 @@ use crate::book_figures;
 
 /// Figures of whole branches and of chaos: another machine may take other points of the same curve or set.
 /// With each the largest distance (pt) of a point of one picture from the lines and dots of the other. The
-/// branches are dense. Averages and a cloud of two chaotic motions are as far apart as this, once each is
-/// longer than a few periods.
+/// branches are dense. Of four chaotic motions, with transients of 200, 3000, 5000 and 12 000 periods, the
+/// averages come as far as 15 pt from those of the first, and the section 4.2 pt.
 const BY_DISTANCE: [(&str, f64); 4] =
-    [("shooting", 2.0), ("grazing", 2.0), ("exponents-convergence", 20.0), ("exponents-section", 10.0)];
+    [("shooting", 2.0), ("grazing", 2.0), ("exponents-convergence", 20.0), ("exponents-section", 6.0)];
 /// Coordinates of all others have two decimals (pt).
 const TOLERANCE: f64 = 0.05;
 
