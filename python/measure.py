@@ -5,7 +5,7 @@ package, a million samples and a million solutions into NumPy, many studies.
 
 * COMMAND: the command `hammerbeam`, built with the same profile as the extension module.
 * `--whole`: figure 3 of the paper over its whole range, 19 to 110 Hz, instead of 30 to 38 Hz alone.
-* `--wheel`: the wheel whose size is told; by default the newest in `target/wheels`.
+* `--wheel`: the wheel whose size is measured; by default the newest in `target/wheels`.
 * `--only`: some parts alone, of `size`, `import`, `overhead`, `samples`, `solutions`, `planned` and
   `throughput`.
 

@@ -210,6 +210,10 @@ def test_samples_from_a_terminal_are_those_of_the_class(
     expected = Parameters.latin_hypercube({GAP: (0.8, 1.2), force: (0.2, 0.3)}, 5, seed=3)
     made = Batch(tmp_path / "b")
     assert (made.parameters.rows, made.task) == (expected.rows, Task.run())
+    grid = ("--grid", f"{GAP}=0.8,1.2", "--grid", f"{force}=0.2,0.3 N,0.4")
+    assert planned("g", *grid)[1].startswith("0 of 6")
+    every = Parameters.grid({GAP: ["0.8", "1.2"], force: ["0.2", "0.3 N", "0.4"]})
+    assert Batch(tmp_path / "g").parameters.rows == every.rows
     (tmp_path / "sweep.json").write_text('{"method": "sweep", "options": {"starts": 4}, "parts": 2}')
     assert planned("s", *ranges, "--task", str(tmp_path / "sweep.json"))[1].startswith("0 of 10")
     assert Batch(tmp_path / "s").task == Task.sweep(starts=4, parts=2)
@@ -221,7 +225,10 @@ def test_samples_from_a_terminal_are_those_of_the_class(
         (("--latin", f"{GAP}=2:1", "--samples", "2"), "is empty"),
         (("--latin", f"{GAP}=nan:1", "--samples", "2"), "nan"),
         ((*ranges, "--latin", f"{GAP}=1:2"), "the same key is given twice"),
-        (("gaps.csv", "--seed", "1"), "there is one already, gaps.csv"),
+        (("gaps.csv", "--seed", "1"), "one of a table, --grid, and --latin"),
+        ((*ranges, "--grid", f"{GAP}=1,2"), "one of a table, --grid, and --latin"),
+        (("--grid", f"{GAP}=1,,2"), "must be KEY=VALUE,VALUE,..."),
+        (("--grid", f"{GAP}=1", "--grid", f"{GAP}=2"), "the same key is given twice"),
         ((*ranges, "--task", str(tmp_path / "t.json")), "must have method, options and parts"),
     ):
         code, said = planned("n", *given)

@@ -1,6 +1,7 @@
 """`python -m hammerbeam.batch`: a batch folder from a terminal, and what engines call.
 
     python -m hammerbeam.batch plan FOLDER STUDY TABLE.csv [--task TASK.json]
+    python -m hammerbeam.batch plan FOLDER STUDY --grid KEY=VALUE,VALUE,... ...
     python -m hammerbeam.batch plan FOLDER STUDY --latin KEY=LOW:HIGH ... --samples N [--seed S]
     python -m hammerbeam.batch run FOLDER [--processes N] [--hyperqueue]
     python -m hammerbeam.batch status FOLDER
@@ -20,6 +21,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from .. import _check
 from .._errors import BadInput, HammerbeamError
@@ -31,6 +33,8 @@ from ._parameters import Parameters
 from ._slurm import slurm_script
 from ._task import Task
 from ._watch import Lines
+
+Given = TypeVar("Given")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -68,6 +72,7 @@ def _parser() -> argparse.ArgumentParser:
     plan = commands.choices["plan"]
     plan.add_argument("study")
     plan.add_argument("table", nargs="?")
+    plan.add_argument("--grid", action="append", default=[], metavar="KEY=VALUE,VALUE,...")
     plan.add_argument("--latin", action="append", default=[], metavar="KEY=LOW:HIGH")
     plan.add_argument("--samples", type=int)
     plan.add_argument("--seed", type=int)
@@ -93,19 +98,37 @@ def _plan(given: argparse.Namespace, rest: Sequence[str]) -> int:
 
 
 def _table(given: argparse.Namespace) -> Parameters:
-    """The table that is read, or made from ranges."""
+    """The table that is read, made of all combinations of values, or drawn from ranges."""
     samples = (given.samples, given.seed)
+    ways = [given.table is not None, bool(given.grid), bool(given.latin) or samples != (None, None)]
+    if sum(ways) > 1:
+        raise BadInput("one of a table, --grid, and --latin with --samples says which studies are meant")
     if given.table is not None:
-        if given.latin or samples != (None, None):
-            raise BadInput("--latin, --samples and --seed make a table; there is one already, " + given.table)
         return Parameters.read(given.table)
+    if given.grid:
+        return Parameters.grid(_by_key("--grid", [_values(text) for text in given.grid]))
     if not given.latin or given.samples is None:
-        missing = "which studies are meant is missing: a table, or --latin KEY=LOW:HIGH with --samples N"
-        raise BadInput(missing)
-    ranges = dict(_range(text) for text in given.latin)
-    if len(ranges) < len(given.latin):
-        raise BadInput("--latin: the same key is given twice")
+        ways_in_words = "a table, --grid KEY=VALUE,VALUE,..., or --latin KEY=LOW:HIGH with --samples N"
+        raise BadInput(f"which studies are meant is missing: {ways_in_words}")
+    ranges = _by_key("--latin", [_range(text) for text in given.latin])
     return Parameters.latin_hypercube(ranges, given.samples, 0 if given.seed is None else given.seed)
+
+
+def _by_key(option: str, pairs: Sequence[tuple[str, Given]]) -> dict[str, Given]:
+    by_key = dict(pairs)
+    if len(by_key) < len(pairs):
+        raise BadInput(f"{option}: the same key is given twice")
+    return by_key
+
+
+def _values(text: str) -> tuple[str, list[str]]:
+    """A key with its values, as they are written."""
+    key, _, words = text.partition("=")
+    values = [word.strip() for word in words.split(",")]
+    if not key or not all(values):
+        must = "must be KEY=VALUE,VALUE,..., as in stop.1.gap_m=1e-3,2e-3"
+        raise BadInput(f"--grid: found {text!r}, {must}")
+    return key, values
 
 
 def _range(text: str) -> tuple[str, tuple[float, float]]:
