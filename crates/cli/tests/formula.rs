@@ -42,8 +42,11 @@ fn the_example_is_followed_and_verified() {
         assert_eq!(branches.len(), 1, "{run}");
         assert_eq!(branches[0]["mirror_image"], branches[0]["branch"], "{run}");
         assert_eq!(run["undamped_modes"].as_array().map(Vec::len), Some(0), "{run}");
-        let verify = document(&workshop, &["verify", "results", "--all", "--json"]);
-        assert_eq!(verify["agree"], true, "{verify}");
+        // The second run has the bytes of the first.
+        if jobs == "1" {
+            let verify = document(&workshop, &["verify", "results", "--all", "--json"]);
+            assert_eq!(verify["agree"], true, "{verify}");
+        }
         let varied = workshop.path("exported/parameter_branches.csv");
         [workshop.csv("results"), fs::read_to_string(varied).unwrap()]
     });

@@ -19,7 +19,7 @@ spring = [
 kind = "force"
 at = "a"
 amplitude_n = 0.1
-frequency_hz = [0.05, 0.08]
+frequency_hz = [0.05, 0.0765]
 [[stop]]
 name = "s"
 at = "b"

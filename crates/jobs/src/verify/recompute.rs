@@ -121,7 +121,9 @@ pub(super) fn recompute(
         let matrix = &observed.flow.by_state;
         product = Mat::from_fn(size, size, |i, j| matrix[(i, j)] / scales[i] * scales[j]) * &product;
         let gain = norm(&product);
-        let miss = distance(&state, Some(&solution.nodes[(k + 1) % segments]), scales);
+        let next = &solution.nodes[(k + 1) % segments];
+        let observed = with_turns(system, (solution.frequency_hz, phase(k + 1)), next, observed);
+        let miss = distance(&state, Some(next), scales);
         residual = residual.max(miss / (1.0 + gain));
         largest = largest.max(gain);
         joined = Some(match joined {
@@ -149,6 +151,30 @@ pub(super) fn recompute(
         touches: observed.touches,
         of_elements: observed.of_elements,
     })
+}
+
+/// A motion with the extrema of penetrations that lie at its end, where the orbit goes on from its next node:
+/// in rounding, the velocities have one sign before that node and the other behind it, and neither stretch
+/// has the change of sign. So it is where a motion without damping grazes in phase with its load.
+fn with_turns(
+    system: &System,
+    (frequency_hz, phase): (f64, f64),
+    next: &[f64],
+    mut observed: Observed,
+) -> Observed {
+    for (number, element) in system.elements().iter().enumerate() {
+        let [r, before, _] = system.contact_motion(number, frequency_hz, phase, &observed.flow.state);
+        let [_, behind, _] = system.contact_motion(number, frequency_hz, phase, next);
+        if (before > 0.0) == (behind > 0.0) {
+            continue;
+        }
+        for contact in element.law.contacts() {
+            let extremum = contact.sign * (r - contact.level);
+            observed.extrema.push(extremum);
+            observed.of_elements[number].meet(extremum);
+        }
+    }
+    observed
 }
 
 fn join(earlier: Observed, later: Observed) -> Observed {

@@ -2,6 +2,8 @@
 //!
 //! Displacements have their extrema where their velocity vanishes: each change of its sign between samples of
 //! the dense output is bracketed, and the extremum is taken from a step of the method itself that ends there.
+//! Where steps of an element meet, the sign is that of the state itself, for both: a step may end at an
+//! extremum, as where a contact grazes, and the dense outputs on its two sides differ by rounding.
 //! The acceleration has no such derivative; its maximum is sought between samples, and taken from a step that
 //! ends there too. Impulses are integrals of the forces on the dense output by Gauss' rule with eight nodes
 //! in each step.
@@ -82,6 +84,12 @@ impl Default for ElementMaxima {
 }
 
 impl ElementMaxima {
+    /// An extremum of the penetration [m].
+    pub fn meet(&mut self, extremum: f64) {
+        self.deepest = self.deepest.max(extremum);
+        self.nearest = self.nearest.min(extremum.abs());
+    }
+
     /// Of a stretch and the one after it.
     #[must_use]
     pub fn joined(self, later: Self) -> Self {
@@ -211,7 +219,7 @@ struct Observer<'a> {
     maxima: Maxima,
     extrema: Vec<f64>,
     kinks: Vec<(usize, f64)>,
-    /// Velocity of each element with a contact at the end of the last step [m/s].
+    /// Velocity of each element at the end of the last step, behind impacts there [m/s].
     velocities: Vec<f64>,
     of_elements: Vec<ElementMaxima>,
     /// Impacts on rigid stops, and how many stuck.
@@ -278,17 +286,13 @@ impl<'a> Observer<'a> {
     /// Notes an extremum of the penetration of an element.
     fn add_extremum(&mut self, element: usize, extremum: f64) {
         self.extrema.push(extremum);
-        let of_element = &mut self.of_elements[element];
-        of_element.deepest = of_element.deepest.max(extremum);
-        of_element.nearest = of_element.nearest.min(extremum.abs());
+        self.of_elements[element].meet(extremum);
     }
 
     /// Keeps the velocities of the elements, which impacts change.
     fn note_velocities(&mut self, field: &SystemField<'_>, at: Place<'_>) {
-        if !field.rigid.stops.is_empty() {
-            for element in 0..self.velocities.len() {
-                self.velocities[element] = self.read(field, Output::Element(element), at.time, at.state)[1];
-            }
+        for element in 0..self.velocities.len() {
+            self.velocities[element] = self.read(field, Output::Element(element), at.time, at.state)[1];
         }
     }
 
@@ -384,6 +388,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         }
         if !impacts.is_empty() {
             self.add_kinks(field, at, &impacts);
+            self.note_velocities(field, at);
         }
         for (element, speed) in std::mem::take(&mut field.rigid.touches) {
             self.maxima.touches.push(speed);

@@ -40,7 +40,11 @@ impl Observer<'_> {
             step.dense.state(x, &mut state);
             self.read(field, output, step.time + x * step.length, &state)[1]
         };
-        let velocities: Vec<f64> = (0..=SAMPLES).map(|k| velocity(field, sample(k))).collect();
+        let mut velocities: Vec<f64> = (0..=SAMPLES).map(|k| velocity(field, sample(k))).collect();
+        if let Output::Element(element) = output {
+            velocities[0] = self.velocities[element];
+            velocities[SAMPLES] = self.read(field, output, step.end, step.stepper.end_state())[1];
+        }
         let mut places = Vec::new();
         for (k, pair) in velocities.windows(2).enumerate() {
             if (pair[0] > 0.0) != (pair[1] > 0.0) {
