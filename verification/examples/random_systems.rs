@@ -1,6 +1,7 @@
 //! Random systems in two systems of units: `random_systems FIRST COUNT [SOLUTIONS]`. One line for each
 //! system, and one for each difference between its answers in the one and in the other units, or with the
-//! independent integrator. `random_systems SEED` prints the study of a seed.
+//! independent integrator. `random_systems SEED` prints the study of a seed, `random_systems SEED 0` the same
+//! in the other units.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, time::Instant};
@@ -19,6 +20,10 @@ fn main() -> Result<(), BoxedError> {
         print!("{}", random_study(first));
         return Ok(());
     };
+    if count == 0 {
+        print!("{}", random_units(first).rescaled(&random_study(first).parse()?));
+        return Ok(());
+    }
     let solutions = numbers.next().transpose()?.unwrap_or(20_000);
     let limits = Limits { solutions, ..Limits::default() };
     let (mut same, mut different, mut left) = (0, 0, 0);

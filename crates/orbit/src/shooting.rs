@@ -48,6 +48,7 @@
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
+mod beside;
 mod equations;
 mod flows;
 mod judge;
@@ -57,6 +58,8 @@ use hammerbeam_motion::{
     exact::{AtEnd, ExactCounts, ExactIntegrator, MotionError},
 };
 use hammerbeam_path::{DenseLu, PathError};
+
+use beside::Beside;
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
@@ -100,6 +103,8 @@ pub(crate) struct ShootingProblem {
     /// Whether flips and Neimark-Sacker points are looked for.
     watches_stability: bool,
     varied: ContinuationParameter,
+    /// For motions beside the one that was evaluated, once one was asked for.
+    beside: Option<Box<Beside>>,
 }
 
 impl ShootingProblem {
@@ -135,6 +140,7 @@ impl ShootingProblem {
             spectrum: None,
             watches_stability: false,
             varied: ContinuationParameter::Frequency,
+            beside: None,
         };
         problem.set_segments(segments);
         problem

@@ -85,8 +85,8 @@ pub trait Judge {
     ///
     /// An orbit of N periods solves the same equations as one of a divisor of N that is gone through several
     /// times, a solution without a symmetry the same as one with it. Such a path is tangent to nothing: a
-    /// point that comes that close is a jump. Answered without an evaluation.
-    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+    /// point that comes that close is a jump. What was evaluated last stays so.
+    fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         let _ = point;
         f64::INFINITY
     }

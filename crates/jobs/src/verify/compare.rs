@@ -178,15 +178,15 @@ pub(super) fn compare(
         _ => found.touches.iter().filter(|speed| **speed <= slowest).count(),
     };
     list.push(contacts(row, found, grazing + crossed + turned + cut.len()));
-    // At a damper multipliers jump on the row of the grazing.
-    let damped_row = if claims.has(BranchEventKind::Grazing) {
-        damped.min(nearest_kink(system, found))
+    // At a damper multipliers jump on the row of the grazing, which lies where the grazing was located.
+    let (damped_row, located) = if claims.has(BranchEventKind::Grazing) {
+        (damped.min(nearest_kink(system, found)), margin.max(EVENT * measures.contact[0]))
     } else {
-        f64::INFINITY
+        (f64::INFINITY, margin)
     };
-    let jump = rigid.min(damped).min(damped_row);
+    let jumps = rigid.min(damped) <= margin || damped_row <= located;
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
-    list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
+    list.extend(of_multipliers.map(|found| Comparison { grazing: jumps, ..found }));
     list.extend(leading(row, solution));
     // Behind grazing on a rigid stop everything varies like the root of the distance from it.
     if grazing > 0 && system.has_rigid_stops() {

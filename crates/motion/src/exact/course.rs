@@ -21,8 +21,8 @@ pub(super) enum Passage {
     /// A flight, from a homogeneous block state; with the elements that are closed, those held on rigid
     /// stops, and the impulses that these got.
     Flight { start: f64, duration: f64, state: Span, closed: u64, held: Span, impulses: Span },
-    /// A contact closed with this relative velocity [m/s].
-    Touch { speed: f64 },
+    /// A contact of this element closed with that relative velocity [m/s].
+    Touch { element: usize, speed: f64 },
     /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy
     /// [J], and after which the contact stuck or not.
     Impact { element: usize, impulse: f64, energy: f64, sticks: bool },
@@ -140,8 +140,8 @@ impl Course {
         self.passages.push(Passage::Impact { element, impulse, energy, sticks });
     }
 
-    pub fn touch(&mut self, speed: f64) {
-        self.passages.push(Passage::Touch { speed });
+    pub fn touch(&mut self, element: usize, speed: f64) {
+        self.passages.push(Passage::Touch { element, speed });
     }
 
     /// The solved step, with `run` at its start.

@@ -10,7 +10,7 @@ use super::{
     flight::{Boundary, Touch, clearance_of},
     hole,
     impact::MOST_IMPACTS,
-    maxima::closed_bits,
+    maxima::{bit, closed_bits},
     run::Run,
     standstill::Standstill,
 };
@@ -243,7 +243,7 @@ impl ExactIntegrator {
     /// Notes that an open contact closes.
     fn strike(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         if self.notes_course {
-            self.course.touch(self.element_jet(&run.state, touch.element, run.time).slope);
+            self.course.touch(touch.element, self.element_jet(&run.state, touch.element, run.time).slope);
         }
         self.trace_touch(run, touch);
         self.jump_at_onset(run, touch);
@@ -253,6 +253,7 @@ impl ExactIntegrator {
         run.touched = Some(touch.element);
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();
         self.touches[before + touch.contact] += 1;
+        self.closed_throughout &= !bit(touch.element);
         if !run.stuck.is_empty() && self.laws[touch.element].onset_damping() > 0.0 {
             let speed = self.output_jet(&run.state, touch.element, run.time).slope;
             let displacement = self.displacement_sensitivity(run, touch);

@@ -203,7 +203,7 @@ impl ExactIntegrator {
         let place = self.first_touch(impact.touch.element);
         self.touches[place] = self.touches[place].saturating_add(1);
         if self.notes_course {
-            self.course.touch(impact.before.slope);
+            self.course.touch(impact.touch.element, impact.before.slope);
             self.course.impact(impact.touch.element, (impulse, energy), sticks);
         }
         self.trace_impact(run, impact.touch, (impulse, energy), sticks);

@@ -36,7 +36,8 @@ pub struct Maxima {
     pub energy_lost: f64,
     /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
     pub touches: u32,
-    /// Elements that were closed all the time, with or without pressure, one bit each (the first 64).
+    /// Elements that were closed all the time, with or without pressure, one bit each (the first 64). One that
+    /// goes over from one of its two contacts to the other is not among them.
     pub closed_throughout: u64,
 }
 
@@ -165,8 +166,9 @@ impl ExactIntegrator {
                     maxima.impulse += impulse;
                     maxima.energy_lost += energy;
                 }
-                Passage::Touch { speed } => {
+                Passage::Touch { element, speed } => {
                     maxima.touches += 1;
+                    maxima.closed_throughout &= !bit(element);
                     maxima.impact_velocity = maxima.impact_velocity.max(speed.abs());
                 }
                 Passage::Step(step) => {
@@ -224,7 +226,11 @@ pub(crate) fn closed_bits(run: &Run) -> u64 {
     bits(penetrated.map(|(element, _)| element)) | bits(run.stuck.iter().copied())
 }
 
-/// One bit each of the first 64 elements.
 fn bits(elements: impl Iterator<Item = usize>) -> u64 {
-    elements.filter(|element| *element < 64).fold(0, |bits, element| bits | 1 << element)
+    elements.fold(0, |bits, element| bits | bit(element))
+}
+
+/// That of an element, 0 behind the first 64.
+pub(crate) fn bit(element: usize) -> u64 {
+    1_u64.checked_shl(element as u32).unwrap_or(0)
 }

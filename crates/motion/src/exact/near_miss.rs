@@ -75,7 +75,7 @@ impl ExactIntegrator {
             self.drive_over(&course.stretches[piece].stretch);
             for passage in course.of_stretch(piece) {
                 match *passage {
-                    Passage::Touch { speed } => {
+                    Passage::Touch { speed, .. } => {
                         put_among(&mut least.squared_touch_speeds, speed * speed);
                     }
                     Passage::Flight { start, duration, state, held, .. } if course.held(held).is_empty() => {

@@ -34,11 +34,12 @@ impl Judge for ShootingProblem {
         self.spectrum().ok().map(|spectrum| stability::outside(spectrum, events))
     }
 
-    /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.
+    /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart, or
+    /// where there are none by the motion.
     ///
     /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} -
     /// z_j`, the least one over the proper divisors k of N for which s is a whole number.
-    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+    fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         let (periods, m) = (self.period_multiple() as usize, self.segments());
         let states = &point[..self.unknowns()];
         let shift = |k: usize| {
@@ -49,7 +50,11 @@ impl Judge for ShootingProblem {
             let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - b) * (a - b)).sum();
             self.hertz_per_norm() * (squares / m as f64).sqrt()
         };
-        (1..periods).filter_map(shift).map(distance).fold(f64::INFINITY, f64::min)
+        let by_nodes = (1..periods).filter_map(shift).map(distance).reduce(f64::min);
+        match by_nodes {
+            None if periods > 1 => self.distance_by_motion(point),
+            by_nodes => by_nodes.unwrap_or(f64::INFINITY),
+        }
     }
 
     /// The orbit as it begins some whole excitation periods later, if nodes lie so far apart.

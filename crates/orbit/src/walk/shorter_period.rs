@@ -38,22 +38,21 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
 
 /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the
 /// orbit, in a small part of the way that is left each.
-fn crawls_to_shorter_period(path: &OrbitPath) -> bool {
-    let history = &path.follower.state().history;
-    let nodes = &history.nodes[..history.used];
-    let left = |node: &Node| path.problem.distance_to_simpler(&node.point);
+fn crawls_to_shorter_period(path: &mut OrbitPath) -> bool {
     let near = CRAWLS_NEAR * path.hertz_per_norm();
-    let still = |node: &Node| {
+    let OrbitPath { problem, follower, .. } = path;
+    let history = &follower.state().history;
+    let nodes = &history.nodes[..history.used];
+    if nodes.len() < 2 || problem.distance_to_simpler(&nodes[0].point) >= near {
+        return false;
+    }
+    let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_simpler(&node.point)).collect();
+    let still = |(node, left): (&Node, &f64)| {
         let slope = node.tangent[node.tangent.len() - 1].abs();
-        slope * left(node) < STILL * path.problem.parameter_size(&node.point)
+        slope * left < STILL * problem.parameter_size(&node.point)
     };
-    nodes.len() > 1
-        && left(&nodes[0]) < near
-        && nodes.iter().all(still)
-        && nodes.windows(2).all(|pair| {
-            let step = left(&pair[1]) - left(&pair[0]);
-            (0.0..CRAWLS * left(&pair[0])).contains(&step)
-        })
+    nodes.iter().zip(&left).all(still)
+        && left.windows(2).all(|pair| (0.0..CRAWLS * pair[0]).contains(&(pair[1] - pair[0])))
 }
 
 /// Whether the present orbit is, within [`MERGED`], one of shorter period.
