@@ -1,9 +1,9 @@
-#!/usr/bin/env bash
+#!/bin/sh
 # Builds the book from docs/ into target/book; index.html there opens in any browser, without a network.
 #
 # Warnings are errors: a link to a page or heading that does not exist, a page in no table of contents, a key
 # that MyST does not know. Tools are installed once, into target/book-tools.
-set -euo pipefail
+set -eu
 cd "$(dirname "$0")/.."
 target="${CARGO_TARGET_DIR:-target}"
 tools="$target/book-tools"

@@ -31,6 +31,8 @@ html_theme = "furo"
 html_theme_options = {"top_of_page_buttons": []}
 html_copy_source = False
 html_show_sphinx = False
+# Summaries of what is found are fetched, which browsers refuse for files.
+html_show_search_summary = False
 
 
 def links_out_of_the_book(app, page, source):

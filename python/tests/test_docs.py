@@ -14,6 +14,11 @@ from conftest import ROOT
 
 PAGE = ROOT / "docs/tutorials/python.md"
 MANY = ROOT / "docs/how-to/many-studies.md"
+# Pages with studies, whole and in part. The data file of `fit-to-measurements.md` is no study.
+STUDIED = [
+    ROOT / "docs/reference/study-file.md",
+    *(page for page in sorted(MANY.parent.glob("*.md")) if page.name != "fit-to-measurements.md"),
+]
 README = ROOT / "README.md"
 
 
@@ -114,3 +119,20 @@ def test_many_studies_run_from_a_terminal_as_the_page_says(tmp_path: Path) -> No
         words = [sys.executable, *line.split()[1:]]
         done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
         assert done.stdout.startswith(counts), done.stderr
+
+
+def test_examples_of_studies_have_keys_that_there_are() -> None:
+    """What a part of a study lacks is reported, and so is a key that no reader knows."""
+    whole, in_part = 0, 0
+    for page in STUDIED:
+        for snippet in snippets("toml", page):
+            try:
+                hammerbeam.Study.parse(snippet)
+                whole += 1
+            except hammerbeam.StudyError as error:
+                in_part += 1
+                unknown = [one["message"] for one in error.problems if "unknown key" in one["message"]]
+                assert error.problems and not unknown, f"{page.name}: {unknown}"
+    assert whole >= 6 and in_part >= 20
+    with pytest.raises(hammerbeam.StudyError, match="unknown key"):
+        hammerbeam.Study.parse("[damping]\nmodal_ratios = 0.02\n")

@@ -27,9 +27,10 @@ function diagramSvg(frame: Frame, shown: Scene, of: LegendOf): string {
     const rows = legendRows(of, scene, width - 2 * MARGIN);
     const height = plot.height + 2 * MARGIN + ROW * rows.length;
     const { paper } = scene.theme.look;
+    // Else browsers round the advance of each glyph to pixels, and letters stand apart.
     svg.put(
         `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
-            `viewBox="0 0 ${width} ${height}">`,
+            `viewBox="0 0 ${width} ${height}" text-rendering="geometricPrecision">`,
     );
     const title = of.meta.title || "Response diagram";
     svg.put(`<title>${title.replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</title>`);

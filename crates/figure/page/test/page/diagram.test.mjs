@@ -132,9 +132,10 @@ test("a logarithmic axis has labels and lines at few ticks, and short strokes at
 test("what is seen is saved as SVG, PNG and CSV", options, async () => {
     const tab = await open(pages.run);
     const svg = await tab.value(`hammerbeam.saved("svg")`);
-    const parsed = await tab.value(`(() => { const made = new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml"); return { errors: made.querySelectorAll("parsererror").length, paths: made.querySelectorAll("path").length, texts: [...made.querySelectorAll("text")].map((one) => one.textContent) }; })()`);
+    const parsed = await tab.value(`(() => { const made = new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml"); return { errors: made.querySelectorAll("parsererror").length, paths: made.querySelectorAll("path").length, letters: made.documentElement.getAttribute("text-rendering"), texts: [...made.querySelectorAll("text")].map((one) => one.textContent) }; })()`);
     assert.equal(parsed.errors, 0);
     assert.ok(parsed.paths >= pages.run.branches);
+    assert.equal(parsed.letters, "geometricPrecision", "letters stand where they were measured");
     for (const text of ["Excitation frequency (Hz)", "harmonic", "stable"]) {
         assert.ok(parsed.texts.includes(text), `${text} in ${parsed.texts}`);
     }
