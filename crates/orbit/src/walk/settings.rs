@@ -15,6 +15,11 @@ const SHORTEST_AT_IMPACTS: f64 = 100.0;
 /// much of what is left of the state, so a small correction tells nothing there.
 const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
 
+/// Residual to which other orbits are corrected. Where hard contacts make the monodromy matrix large, though its
+/// multipliers are not, a correction within the tolerance leaves a residual of 1e-7 and multipliers that are
+/// known to nothing: such solutions were called marginal, one by one between unstable ones.
+const RESIDUAL: f64 = 1e-8;
+
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
 /// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
 /// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
@@ -33,7 +38,7 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
     let (shortest, wanted) = if system.has_rigid_stops() {
         (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS)
     } else {
-        (1.0, default.residual_wanted)
+        (1.0, RESIDUAL)
     };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,

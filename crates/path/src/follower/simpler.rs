@@ -2,16 +2,16 @@
 //! the one that it doubled.
 //!
 //! The judge knows the distance `d` of a point from it. On the path `d` is as smooth as the path and zero
-//! at branch points alone; after a jump it is what Newton's method left, which beside a branch point is more
-//! than elsewhere. A step in which `d` falls to a twentieth, or to where it cannot be told from zero, is in
-//! doubt. A step that ends so close to a branch point by chance is in doubt as well, which does no harm: of
-//! twenty steps over a branch point one is halved, and the halves are beyond doubt.
+//! at branch points alone; after a jump it is what Newton's method left. A step in which `d` falls to a
+//! hundredth, or to where it cannot be told from zero, is in doubt. A step that ends so close to a branch
+//! point by chance is in doubt as well, which does no harm: of a hundred steps over a branch point one is
+//! halved, and the halves are beyond doubt.
 
 use super::{arrival::Arrival, attempt::Attempt};
 use crate::error::StepDoubt;
 
 /// A distance that falls in one step to less than this share was not walked.
-const FALLEN: f64 = 5e-2;
+const FALLEN: f64 = 1e-2;
 /// Corrections still due, of the tolerance at least, below which a distance is none: Newton's method leaves
 /// errors of a few of them.
 const NOTHING: f64 = 100.0;
