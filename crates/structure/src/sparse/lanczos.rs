@@ -39,6 +39,17 @@ const BEYOND: f64 = 1e-6;
 /// Blocks after which the search gives up, for each block that the modes wanted would fill.
 const PATIENCE: usize = 40;
 
+/// Length of a basis beyond which it is restarted.
+fn longest_basis(count: usize) -> usize {
+    8 * count + 50 * BLOCK
+}
+
+/// Vectors that the search for so many modes holds at once, at most: the basis, and at its end the modes in
+/// three forms with their products.
+pub(super) fn most_vectors(count: usize) -> usize {
+    longest_basis(count) + 2 * BLOCK + 4 * count
+}
+
 /// Eigenpairs, lowest first.
 pub(super) struct LowestModes {
     /// `lambda` [1/s^2].
@@ -71,7 +82,7 @@ pub(super) fn lowest_modes(
             }
             basis.add_random_block();
         }
-        if basis.length() > 8 * count + 50 * BLOCK {
+        if basis.length() > longest_basis(count) {
             basis.restart(&ritz, count + 4 * BLOCK);
         }
     }

@@ -29,9 +29,11 @@ mod label;
 mod lanczos;
 mod map;
 mod matrix;
+mod memory;
 mod mesh;
 mod modal_form;
 mod model;
+mod part;
 mod passive;
 mod pencil_modes;
 mod points;
@@ -46,9 +48,12 @@ mod vectors;
 
 pub use label::{Direction, RowKind, RowLabel};
 pub use matrix::{Entry, SymmetricMatrix};
+pub use memory::MemoryNeed;
+pub(crate) use memory::in_gigabytes;
 pub use mesh::{MeshNode, MeshShape};
 pub use model::{
     Along, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport, PointPlace, RowSet,
     SupportRows,
 };
+pub use part::MatrixPart;
 pub use survey::MatrixSurvey;

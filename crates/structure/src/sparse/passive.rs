@@ -6,8 +6,8 @@
 //! small `e`: there are as many negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of
 //! inertia).
 
-use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
-use crate::{StructureError, error::not_negative};
+use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry, memory::MemoryBudget};
+use crate::StructureError;
 
 /// Eigenvalues of the mass below this part of its diagonal are zero.
 const RANK: f64 = 1e-9;
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 /// Refuses mass and damping that would make energy.
 ///
 /// # Errors
-/// [`StructureError::Negative`] with the row, [`StructureError::MassNegative`], [`StructureError::NoMass`].
+/// [`StructureError::NegativeDiagonal`] with the row, [`StructureError::MassNegative`], [`StructureError::NoMass`].
 pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<(), StructureError> {
     ensure_diagonals(assembled)?;
     ensure_not_negative(&scaled_mass(&assembled.mass, limit_bytes)?)
@@ -48,12 +48,12 @@ pub(super) fn passive_mass_rank(
 
 fn ensure_diagonals(assembled: &Assembled) -> Result<(), StructureError> {
     let matrices = [("mass", Some(&assembled.mass)), ("damping", assembled.damping.as_ref())];
-    for (what, matrix) in matrices {
-        let diagonal = matrix.map_or_else(Vec::new, SymmetricMatrix::diagonal);
+    for (matrix, entries) in matrices {
+        let diagonal = entries.map_or_else(Vec::new, SymmetricMatrix::diagonal);
         let least = -ROUNDING * largest(&diagonal);
         if let Some(column) = diagonal.iter().position(|entry| *entry < least) {
             let row = assembled.row_of(column).map_or_else(String::new, |row| assembled.joined.label(row));
-            not_negative(&format!("{what} on the diagonal of {row}"), diagonal[column])?;
+            return Err(StructureError::NegativeDiagonal { matrix, row, found: diagonal[column] });
         }
     }
     Ok(())
@@ -79,7 +79,7 @@ fn scaled_mass(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Pencil, Struc
         value: if *entry == 0.0 { largest } else { entry.abs() },
     });
     let scale = SymmetricMatrix::from_entries(mass.size(), &scale.collect::<Vec<_>>());
-    Pencil::new(mass.clone(), scale, limit_bytes)
+    Pencil::new(mass.clone(), scale, MemoryBudget::of(limit_bytes))
 }
 
 /// Number of eigenvalues of `D^-1 M` below a shift; `None` if there is no factor there.

@@ -7,6 +7,7 @@ use super::{
     assemble::Assembled,
     factor::{Factors, Pencil},
     map::CoordinateMap,
+    memory::MemoryBudget,
     passive::ensure_passive,
     pencil_modes::PencilModes,
     statics::Statics,
@@ -52,7 +53,7 @@ impl Prepared {
         let supported = Pencil::new(
             selected.congruence(&assembled.stiffness),
             selected.congruence(&assembled.mass),
-            matrices.memory_limit_bytes,
+            MemoryBudget::of(matrices.memory_limit_bytes),
         )?;
         let weights = |point: &MatrixPoint| {
             let weights = point.weights(&assembled.joined)?;
