@@ -228,3 +228,17 @@ fn faults_of_matrices_stand_at_the_key_that_is_to_blame() {
     let loose = "stiffness = \"loose.mtx\"\nmass = \"first.mtx\"";
     refused(loose, &["study.toml:3:", "can move without mass and without stiffness"]);
 }
+
+#[test]
+fn matrices_of_a_beam_in_two_planes_are_refused_with_what_is_allowed() {
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/tube-in-hole.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let output = hammerbeam().arg("import").arg(&study).arg("--out").arg(folder.path().join("tube")).output();
+    let output = output.unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in ["bends in two planes", "tube-in-hole.toml:7:", "allowed: planes = 1"] {
+        assert!(message.contains(part), "{message}");
+    }
+    assert!(!folder.path().join("tube").exists(), "nothing is written");
+}

@@ -8,8 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Direction, Entry, Matrices, MatrixComponent, MatrixPart, RowKind, RowLabel, RowSet, SupportRows,
-    SymmetricMatrix,
+    Direction, Entry, Matrices, MatrixComponent, MatrixPart, RowKind, RowSet, SupportRows, SymmetricMatrix,
     constraints::{Dependent, conditions, lagrange_rows},
     joined::{Joined, SharedRows, Unplaced},
     map::CoordinateMap,
