@@ -71,9 +71,10 @@ struct Piece {
 impl Piece {
     /// Free pieces in a row, nodes numbered from one.
     fn of_beam(pieces: usize, first_node: i64) -> Self {
-        let force =
-            "[excitation]\nkind = \"force\"\nat = \"tip\"\namplitude_n = 1.0\nfrequency_hz = [5.0, 25.0]";
-        let (exported, _) = matrix_study(&beam(pieces, "free", force)).unwrap();
+        let driven = "[reduction]\nmethod = \"truncation\"\ncut_off_hz = 400.0\n[excitation]\n\
+                      kind = \"force\"\nat = \"tip\"\namplitude_n = 1.0\nfrequency_hz = [5.0, 25.0]\n\
+                      [damping]\nmodal_ratio = 0.01\n[response]\npoint = \"tip\"\n";
+        let (exported, _) = matrix_study(&beam(pieces, "free", driven)).unwrap();
         let label = |label: &RowLabel| RowLabel::physical(label.node - 1 + first_node, label.direction);
         Self {
             stiffness: exported.stiffness.dense(),

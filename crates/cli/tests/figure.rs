@@ -116,9 +116,9 @@ fn an_orbit_is_drawn_with_the_force_of_its_stop() {
     assert!(workshop.path("drawn/orbit-1-spectrum.png").is_file());
 }
 
-/// The path reaches as far as the displacement that is observed, one of the two across the hole, and less than
-/// the square root of two as far: the load across is smaller, so the tube swings less that way. Of a flat
-/// load there is contact for a part of the period only.
+/// The path reaches as far as the displacement that is observed, one of the two across the hole, and less
+/// than the square root of two as far: the load across is smaller, so the tube swings less that way. Of a
+/// flat load there is contact for a part of the period only.
 #[test]
 fn an_orbit_in_a_round_hole_is_drawn_along_its_axis() {
     let workshop = Workshop::with(include_str!("../../../studies/tube-in-hole.toml"));

@@ -1,5 +1,5 @@
-//! A run of 100 000 solutions stays below 200 MB of memory and 200 MB of disk; a large structure takes what was
-//! estimated.
+//! A run of 100 000 solutions stays below 200 MB of memory and 200 MB of disk; a large structure takes what
+//! was estimated.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

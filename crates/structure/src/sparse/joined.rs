@@ -70,7 +70,8 @@ impl SharedRows {
             if component == other {
                 let MatrixComponent { name, labels, .. } = &components[component];
                 let part = MatrixPart::Component(component, name.clone());
-                let (label, rows) = (labels[first].to_string(), vec![first + 1, second + 1]);
+                let RowLabel { node, direction, .. } = labels[first];
+                let (label, rows) = (format!("node {node} {direction}"), vec![first + 1, second + 1]);
                 return Err(StructureError::JoinedTwice { part, label, rows });
             }
         }

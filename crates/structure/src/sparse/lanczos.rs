@@ -26,10 +26,13 @@
 
 use faer::{Mat, MatRef, Side};
 
-use super::{factor::Factors, matrix::SymmetricMatrix, random::Random};
+use super::{
+    factor::Factors,
+    krylov_size::{BLOCK, longest_basis},
+    matrix::SymmetricMatrix,
+    random::Random,
+};
 
-/// Vectors of a block: as many as a body has rigid motions.
-const BLOCK: usize = 6;
 /// Residual of a mode relative to its `theta`: the error of `lambda` is of the order of its square.
 const RESIDUAL: f64 = 1e-8;
 /// A vector of which orthogonalisation leaves this part or less is spanned by the others.
@@ -38,17 +41,6 @@ const DEPENDENT: f64 = 1e-11;
 const BEYOND: f64 = 1e-6;
 /// Blocks after which the search gives up, for each block that the modes wanted would fill.
 const PATIENCE: usize = 40;
-
-/// Length of a basis beyond which it is restarted.
-fn longest_basis(count: usize) -> usize {
-    8 * count + 50 * BLOCK
-}
-
-/// Vectors that the search for so many modes holds at once, at most: the basis, and at its end the modes in
-/// three forms with their products.
-pub(super) fn most_vectors(count: usize) -> usize {
-    longest_basis(count) + 2 * BLOCK + 4 * count
-}
 
 /// Eigenpairs, lowest first.
 pub(super) struct LowestModes {

@@ -1,12 +1,12 @@
 //! What memory the modes of sparse matrices take, known before most of it is taken.
 //!
 //! `K - sigma M` is factored to count the modes below the cut-off, and again to find them. One of these sets
-//! of factors is there at a time; beside it that of another pencil, where its static answers are still needed.
-//! The vectors of the search come when the work space of the factors is gone.
+//! of factors is there at a time; beside it that of another pencil, where its static answers are still
+//! needed. The vectors of the search come when the work space of the factors is gone.
 
 use std::fmt;
 
-use super::{SymmetricMatrix, lanczos};
+use super::{krylov_size::most_vectors, matrix::SymmetricMatrix};
 
 /// Copies of stiffness and mass: as given, joined, assembled, over the free coordinates.
 const COPIES: u64 = 4;
@@ -80,5 +80,5 @@ pub(super) fn of_matrices(stiffness: &SymmetricMatrix, mass: &SymmetricMatrix, p
 
 /// Bytes of the vectors of a search for so many modes of so many coordinates.
 pub(super) fn of_vectors(size: usize, modes: usize) -> u64 {
-    8 * size as u64 * lanczos::most_vectors(modes) as u64
+    8 * size as u64 * most_vectors(modes) as u64
 }

@@ -25,6 +25,7 @@ mod factor;
 mod free_interface;
 mod guyan;
 mod joined;
+mod krylov_size;
 mod label;
 mod lanczos;
 mod map;

@@ -47,7 +47,6 @@ impl Prepared {
     /// The structure with the supports of these groups told apart.
     pub fn new(matrices: &Matrices, moving: &[&[&str]]) -> Result<Self, StructureError> {
         let assembled = matrices.assembled(moving)?;
-        ensure_passive(&assembled, matrices.memory_limit_bytes)?;
         let free: Vec<usize> = (0..assembled.free).collect();
         let selected = CoordinateMap::selecting(assembled.map.columns(), &free);
         let supported = Pencil::new(
@@ -55,6 +54,7 @@ impl Prepared {
             selected.congruence(&assembled.mass),
             MemoryBudget::of(matrices.memory_limit_bytes),
         )?;
+        ensure_passive(&assembled)?;
         let weights = |point: &MatrixPoint| {
             let weights = point.weights(&assembled.joined)?;
             Ok((point.name.clone(), assembled.map.pulled_back(&weights)))

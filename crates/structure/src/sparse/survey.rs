@@ -39,12 +39,12 @@ impl Matrices {
     /// As [`Matrices::reduce`].
     pub fn survey(&self, count: usize) -> Result<MatrixSurvey, StructureError> {
         let assembled = self.assembled(&[])?;
-        let mass_rank = passive_mass_rank(&assembled, self.memory_limit_bytes)?;
         let pencil = Pencil::new(
             assembled.stiffness.clone(),
             assembled.mass.clone(),
             MemoryBudget::of(self.memory_limit_bytes),
         )?;
+        let mass_rank = passive_mass_rank(&assembled)?;
         let modes =
             pencil.first_modes(count, assembled.joined.precision).map_err(|error| assembled.named(error))?;
         let mut report = assembled.report.clone();

@@ -81,8 +81,8 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
 
 /// The key of a structure of matrices that is to blame, and what is allowed there.
 fn matrix_fault(matrices: &MatricesTable, error: &StructureError) -> Option<(String, Vec<String>)> {
-    let rows_of = || {
-        let files = matrices.label_files();
+    let rows_of = |part| {
+        let files = Vec::from_iter(matrices.label_files(part));
         (!files.is_empty()).then(|| format!("what rows are is said by {}", files.join(", ")))
     };
     let none = Vec::new;
@@ -90,12 +90,12 @@ fn matrix_fault(matrices: &MatricesTable, error: &StructureError) -> Option<(Str
         StructureError::NoSuchRow { part, .. } => (matrices.key_of(part, false), none()),
         StructureError::NoSuchNodes { part: MatrixPart::Lines, .. } => ("structure.lines".into(), none()),
         StructureError::NoSuchNodes { part, .. } => {
-            (matrices.key_of(part, true), rows_of().into_iter().collect())
+            (matrices.key_of(part, true), rows_of(part).into_iter().collect())
         }
         StructureError::NoSuchLabel { part, .. }
         | StructureError::LabelTwice { part, .. }
         | StructureError::JoinedTwice { part, .. } => {
-            (matrices.key_of(part, false), rows_of().into_iter().collect())
+            (matrices.key_of(part, false), rows_of(part).into_iter().collect())
         }
         StructureError::NoLabels { part: Some(part) } => (matrices.key_of(part, true), none()),
         StructureError::StiffnessNotPositive { .. }

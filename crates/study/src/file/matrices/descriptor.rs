@@ -1,6 +1,6 @@
 //! Matrices of a study in the terms of the structure crate.
 
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 use hammerbeam_matrices::{
     ComponentFiles, MatrixError, MatrixFile, MatrixFormat, Nodes, read_component, read_lines, read_nodes,
@@ -116,9 +116,11 @@ impl MatricesTable {
         key.unwrap_or_else(|| "structure".to_owned())
     }
 
-    /// The files that say what rows are.
-    pub(crate) fn label_files(&self) -> Vec<&str> {
-        self.components.iter().flat_map(|files| &files.dofs).map(|file| file.written.as_str()).collect()
+    /// The files that say what rows are: of a component, or of all where any can be meant.
+    pub(crate) fn label_files(&self, part: &MatrixPart) -> BTreeSet<&str> {
+        let is_meant = |number: usize| !matches!(part, MatrixPart::Component(only, _) if *only != number);
+        let files = self.components.iter().enumerate().filter(|(number, _)| is_meant(*number));
+        files.flat_map(|(_, files)| &files.dofs).map(|file| file.written.as_str()).collect()
     }
 }
 
