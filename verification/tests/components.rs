@@ -157,9 +157,11 @@ fn joined(folder: &Path, components: &[(&str, Piece)]) -> StudyFile {
 
 /// Two superelements with so many modes each, and the beam between them.
 fn synthesised(folder: &Path, modes: usize) -> StudyFile {
+    let folder = folder.join(modes.to_string());
+    fs::create_dir(&folder).unwrap();
     let piece = |number: usize| Piece::of_beam(1, (number * ELEMENTS) as i64 + 1);
     let pieces = [("root", piece(0).reduced(modes)), ("middle", piece(1)), ("end", piece(2).reduced(modes))];
-    joined(folder, &pieces)
+    joined(&folder, &pieces)
 }
 
 fn frequencies(file: &StudyFile) -> Vec<f64> {
@@ -184,7 +186,8 @@ fn superelements_with_all_their_modes_and_a_beam_are_the_whole_beam() {
     assert!(motion.iter().any(|y| *y > 1.05e-3), "the tip meets its stop: {motion:?}");
     for study in [&all, &pair] {
         let found = frequencies(study);
-        assert_eq!((found.len(), expected.len()), (5, 5));
+        // Of a beam all are known.
+        assert_eq!((found.len(), expected.len()), (5, 36));
         for (found, expected) in found.iter().zip(&expected) {
             assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
         }
@@ -213,7 +216,9 @@ fn superelements_with_some_modes_come_to_the_beam_from_above() {
         );
     }
     let differences = studies.each_ref().map(|study| difference(&orbit(study), &motion));
-    let errors: Vec<Vec<f64>> =
-        found.iter().map(|found| found.iter().zip(&expected).map(|(f, e)| f / e - 1.0).collect()).collect();
-    panic!("{errors:?} {differences:?}");
+    let error = |found: &Vec<f64>| found[4] / expected[4] - 1.0;
+    // Of the fifth mode, 353 Hz, the shapes of a piece held at its ends are needed, the first at 356 Hz.
+    assert!(error(&found[0]) > 1e-2 && error(&found[3]) < 1e-4, "{found:?}");
+    assert!(differences.is_sorted_by(|fewer, more| fewer > more), "{differences:?}");
+    assert!(differences[3] < 1e-5, "{differences:?}");
 }
