@@ -8,6 +8,7 @@ mod bilinear_oscillator;
 mod bracket;
 mod common;
 mod completeness;
+mod components;
 mod contact_damping;
 mod contacts;
 mod discontinuous_supports;

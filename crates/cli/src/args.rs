@@ -178,7 +178,7 @@ pub struct ImportOptions {
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
     pub length_factor: f64,
 
-    /// Memory that factors of the matrices may take [GB]
+    /// Memory that matrices, factors and the search for modes may take [GB]
     #[arg(long, value_name = "GB", default_value_t = 4.0, value_parser = positive)]
     pub memory_gb: f64,
 }

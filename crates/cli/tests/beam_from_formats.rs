@@ -9,6 +9,8 @@
 
 use std::{collections::BTreeMap, fs, path::Path};
 
+use hammerbeam_testkit::output4::{self, Strings};
+
 use crate::common::{BEAM, Workshop, assert_success};
 
 /// Entries of a matrix: row and column from 0, and the number as it was written.
@@ -82,25 +84,13 @@ fn harwell_boeing(_: &str, entries: &Entries) -> Vec<u8> {
     (head + &lines).into_bytes()
 }
 
-/// Text, every column from its first row to its last.
-fn output4(name: &str, entries: &Entries) -> Vec<u8> {
+fn in_output4(name: &str, entries: &Entries) -> Vec<u8> {
     let columns = columns(entries);
-    let size = columns.len();
-    let lines = |values: &[f64]| -> String {
-        let field = |value: &f64| {
-            let text = format!("{value:.16e}");
-            let (mantissa, exponent) = text.split_once('e').unwrap();
-            format!("{:>23}", format!("{mantissa}E{:+03}", exponent.parse::<i32>().unwrap()))
-        };
-        values.chunks(3).map(|line| line.iter().map(field).collect::<String>() + "\n").collect()
+    let dense = |values: &BTreeMap<usize, f64>| {
+        (0..columns.len()).map(|row| values.get(&row).copied().unwrap_or(0.0)).collect()
     };
-    let mut text = format!("{size:8}{size:8}{:8}{:8}{name:<8}1P,3E23.16\n", 6, 2);
-    for (column, values) in columns.iter().enumerate() {
-        let [first, last] = [values.keys().next().unwrap(), values.keys().last().unwrap()];
-        let values: Vec<f64> = (*first..=*last).map(|row| values.get(&row).copied().unwrap_or(0.0)).collect();
-        text += &format!("{:8}{:8}{:8}\n{}", column + 1, first + 1, values.len(), lines(&values));
-    }
-    (text + &format!("{:8}{:8}{:8}\n{}", size + 1, 1, 1, lines(&[1.0]))).into_bytes()
+    let columns: Vec<Vec<f64>> = columns.iter().map(dense).collect();
+    output4::text(name, &columns, Strings::Dense).into_bytes()
 }
 
 /// A sparse matrix of MATLAB 5.
@@ -169,7 +159,7 @@ fn rows_of_the_beam_are_those_of_its_matrices_in_each_format() {
     fs::write(workshop.path("beam.toml"), &study).unwrap();
     let mut studies = vec!["market.toml".to_owned()];
     let formats: [(&str, Writer); 5] =
-        [("sti", calculix), ("mtx", abaqus), ("rua", harwell_boeing), ("op4", output4), ("mat", mat)];
+        [("sti", calculix), ("mtx", abaqus), ("rua", harwell_boeing), ("op4", in_output4), ("mat", mat)];
     for (ending, written) in formats {
         let mut text = bundle.clone();
         for matrix in ["K", "M"] {

@@ -116,6 +116,36 @@ fn an_orbit_is_drawn_with_the_force_of_its_stop() {
     assert!(workshop.path("drawn/orbit-1-spectrum.png").is_file());
 }
 
+/// The path reaches as far as the displacement that is observed, one of the two across the hole, and less
+/// than the square root of two as far: the load across is smaller, so the tube swings less that way. Of a
+/// flat load there is contact for a part of the period only.
+#[test]
+fn an_orbit_in_a_round_hole_is_drawn_along_its_axis() {
+    let workshop = Workshop::with(include_str!("../../../studies/tube-in-hole.toml"));
+    let flat = "excitation.force.2.amplitude_n=0.1";
+    let command = ["orbit", "study.toml", "--frequency", "16", "--set", flat, "--out", "drawn", "--json"];
+    let output = workshop.hammerbeam(&command);
+    assert_success(&output);
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let orbits = document["solutions"].as_array().unwrap();
+    assert_eq!(document["figures"].as_array().unwrap().len(), 8 * orbits.len());
+    for (number, orbit) in (1..).zip(orbits) {
+        let hole = fs::read_to_string(workshop.path(&format!("drawn/orbit-{number}-hole.svg"))).unwrap();
+        for label in
+            [">hole: Tube in a round hole, 16 Hz", ">baffle.y (mm)<", ">baffle.z (mm)<", ">clearance<"]
+        {
+            assert!(hole.contains(label), "{label}");
+        }
+        let largest = hole.split_once("largest displacement ").unwrap().1.split_once(" mm").unwrap().0;
+        let largest: f64 = largest.parse().unwrap();
+        let observed = 1e3 * orbit["max_abs_displacement_m"].as_f64().unwrap();
+        assert!(largest > 0.999 * observed && largest < 1.42 * observed, "{largest} {observed}");
+        for label in [">path in contact<", ">path without contact<", ">contact begins<"] {
+            assert!(hole.contains(label), "{label}");
+        }
+    }
+}
+
 #[test]
 fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";

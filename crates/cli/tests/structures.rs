@@ -158,6 +158,12 @@ fn refused(structure: &str, parts: &[&str]) {
     fs::write(folder.path().join("three.mtx"), "1 1 1.0\n2 2 1.0\n3 3 1.0\n").unwrap();
     fs::write(folder.path().join("nan.mtx"), "1 1 1.0\n2 2 nan\n").unwrap();
     fs::write(folder.path().join("dofs.csv"), "row,node,direction,kind,name\n1,1,x,physical,\n").unwrap();
+    fs::write(folder.path().join("both.csv"), "1,4,x,physical,tip\n2,4,x,physical,\n").unwrap();
+    let twice = "row,node,direction,kind,name\n1,1,x,physical,end\n2,2,x,physical,end\n";
+    fs::write(folder.path().join("twice.csv"), twice).unwrap();
+    fs::write(folder.path().join("negative.mtx"), "1 1 1.0\n2 2 -1.0\n").unwrap();
+    fs::write(folder.path().join("loose.mtx"), "1 1 1.0\n2 2 1.0\n3 2 -1.0\n3 3 1.0\n").unwrap();
+    fs::write(folder.path().join("first.mtx"), "1 1 1.0\n3 3 0.0\n").unwrap();
     let output = hammerbeam().arg("modes").arg(&study).output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{message}");
@@ -174,4 +180,65 @@ fn files_that_do_not_fit_are_refused_with_their_place() {
     refused("stiffness = \"S.mtx\"\nmass = \"gone.mtx\"", &["cannot read", "gone.mtx"]);
     refused("stiffness = \"S.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.csv\"", &["labels has 1 rows"]);
     refused("stiffness = \"S.mtx\"\nmass = \"M.mtx\"\nmas = 3", &["`mas`", "did you mean"]);
+}
+
+/// Line by line as `refused` writes the study: the files of the matrices stand in lines 3 and 4.
+#[test]
+fn faults_of_matrices_stand_at_the_key_that_is_to_blame() {
+    let files = "stiffness = \"S.mtx\"\nmass = \"M.mtx\"\n";
+    let labelled = format!("{files}dofs = \"both.csv\"\n");
+    let point = |keys: &str| format!("[[structure.point]]\nname = \"tip\"\n{keys}");
+    let of_node = |node: u32, direction: &str| point(&format!("node = {node}\ndirection = \"{direction}\""));
+    for (point, parts) in [
+        (
+            of_node(9, "x"),
+            ["study.toml:8:", "point \"tip\" is at nodes that no row has: 9", "said by both.csv"],
+        ),
+        (of_node(4, "y"), ["study.toml:9:", "node 4 y, which no row has", "both.csv"]),
+        (of_node(4, "x"), ["study.toml:9:", "several rows, 1, 2; name the one by its row", "both.csv"]),
+        (point("label = \"end\""), ["study.toml:8:", "the name \"end\", which no row has", "both.csv"]),
+    ] {
+        refused(&(labelled.clone() + &point), &parts);
+    }
+    refused(&(files.to_owned() + &point("row = 3")), &["study.toml:7:", "row 3, there are 2 rows"]);
+    refused(&(files.to_owned() + &of_node(4, "x")), &["study.toml:7:", "give `dofs`"]);
+    let fixed = "[[structure.fixed]]\nrows = [1]\n[[structure.fixed]]\n";
+    refused(
+        &format!("{files}{fixed}rows = [5]"),
+        &["study.toml:8:", "entry 2 of the fixed rows is at row 5"],
+    );
+    refused(&format!("{labelled}{fixed}nodes = [7]"), &["study.toml:9:", "nodes that no row has: 7"]);
+    let support = "[[structure.support]]\nname = \"base\"\ndirection = \"x\"\nnodes = [8]";
+    refused(&format!("{labelled}{support}"), &["study.toml:9:", "support \"base\" is at nodes"]);
+    // The labels of files, and what components share.
+    let twice = format!("{files}dofs = \"twice.csv\"\n");
+    refused(
+        &twice,
+        &["study.toml:5:", "twice.csv, line 3", "the name \"end\" stands for row 1 and for row 2"],
+    );
+    let component = |name: &str| format!("[[structure.component]]\nname = \"{name}\"\n{labelled}");
+    let parts =
+        ["study.toml:7:", "node 4 x of component \"one\" stands for several rows, 1, 2, and joins it"];
+    refused(&(component("one") + &component("two")), &parts);
+    let broken = component("two").replace("M.mtx", "nan.mtx");
+    refused(&(component("one") + &broken), &["study.toml:11:", "nan.mtx, line 2"]);
+    // Matrices that are no structure.
+    let negative = files.replace("M.mtx", "negative.mtx");
+    refused(&negative, &["study.toml:4:", "mass on the diagonal of row 2 is -1"]);
+    let loose = "stiffness = \"loose.mtx\"\nmass = \"first.mtx\"";
+    refused(loose, &["study.toml:3:", "can move without mass and without stiffness"]);
+}
+
+#[test]
+fn matrices_of_a_beam_in_two_planes_are_refused_with_what_is_allowed() {
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/tube-in-hole.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let output = hammerbeam().arg("import").arg(&study).arg("--out").arg(folder.path().join("tube")).output();
+    let output = output.unwrap();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in ["bends in two planes", "tube-in-hole.toml:7:", "allowed: planes = 1"] {
+        assert!(message.contains(part), "{message}");
+    }
+    assert!(!folder.path().join("tube").exists(), "nothing is written");
 }

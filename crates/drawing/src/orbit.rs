@@ -5,22 +5,24 @@ mod history;
 
 use std::path::Path;
 
-use hammerbeam_figure::{FilteredAcceleration, FrequencyUnit, OrbitDiagram, OrbitImpulse, OrbitSample};
+use hammerbeam_figure::{
+    FilteredAcceleration, FrequencyUnit, HoleDiagram, OrbitDiagram, OrbitImpulse, OrbitSample,
+};
 use hammerbeam_jobs::StoredBranches;
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{
     Model, StudyFile,
-    file::{DrawnOrbit, Excitation},
+    file::{DrawnOrbit, Excitation, Place},
 };
 
 use crate::{Album, DrawingError, Drawn};
-use history::{SAMPLES, history};
+use history::{History, SAMPLES, history};
 
 /// Order of the low-pass filter.
 const ORDER: usize = 4;
 
-/// Draws each orbit over its period, in the phase plane, and its spectrum.
+/// Draws each orbit over its period, in the phase plane, its spectrum, and its path in each round hole.
 ///
 /// * `low_pass_hz`: cut-off of the filter behind which accelerations are drawn as well.
 pub fn draw(
@@ -30,8 +32,8 @@ pub fn draw(
     drawn: &mut Drawn<'_>,
 ) -> Result<(), DrawingError> {
     for (number, orbit) in (1..).zip(orbits) {
-        let diagram = diagram((file, model), orbit, (low_pass_hz, drawn.frequency_unit()))?;
-        add(drawn, &format!("orbit-{number}"), &diagram);
+        let diagrams = diagrams((file, model), orbit, (low_pass_hz, drawn.frequency_unit()))?;
+        add(drawn, &format!("orbit-{number}"), &diagrams);
     }
     Ok(())
 }
@@ -63,7 +65,7 @@ pub fn draw_stored(
         match found.first() {
             Some(orbit) => {
                 let shown = (low_pass_hz, drawn.frequency_unit());
-                add(drawn, &name, &diagram((file, model), orbit, shown)?);
+                add(drawn, &name, &diagrams((file, model), orbit, shown)?);
             }
             None => drawn.refuse(
                 &name,
@@ -76,25 +78,30 @@ pub fn draw_stored(
     Ok(())
 }
 
-fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) {
+fn add(drawn: &mut Drawn<'_>, name: &str, (diagram, holes): &(OrbitDiagram, Vec<HoleDiagram>)) {
     let (wide, narrow) = (drawn.wide(), drawn.narrow());
     drawn.add(&format!("{name}-history"), diagram.draw_history(&wide));
     drawn.add(&format!("{name}-phase"), diagram.draw_phase(&narrow));
     drawn.add(&format!("{name}-spectrum"), diagram.draw_spectrum(&wide));
+    for (number, hole) in (1..).zip(holes) {
+        let which = if holes.len() == 1 { String::new() } else { format!("-{number}") };
+        drawn.add(&format!("{name}-hole{which}"), hole.draw(&narrow));
+    }
 }
 
-fn diagram(
+fn diagrams(
     (file, model): (&StudyFile, &Model),
     orbit: &PeriodicSolution,
     (low_pass_hz, unit): (Option<f64>, FrequencyUnit),
-) -> Result<OrbitDiagram, DrawingError> {
+) -> Result<(OrbitDiagram, Vec<HoleDiagram>), DrawingError> {
     let frequency_hz = orbit.frequency_hz;
     let stability = orbit.stability().word();
     let (frequency, multiple) = (unit.words(frequency_hz), orbit.period_multiple);
     let title = format!("{}, {frequency}, period {multiple}, {stability}", file.study.title);
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
-    let (samples, impulses) = history(model, orbit)?;
+    let History { samples, impulses, paths } = history(model, orbit)?;
+    let holes = holes((file, model), (frequency_hz, multiple), paths, &title);
     let duration_s = f64::from(orbit.period_multiple) / frequency_hz;
     let filtered = match low_pass_hz {
         Some(cut_off_hz) => {
@@ -104,18 +111,38 @@ fn diagram(
         }
         None => None,
     };
-    let period_multiple = orbit.period_multiple;
-    Ok(OrbitDiagram {
+    let diagram = OrbitDiagram {
         title,
         frequency_hz,
-        period_multiple,
+        period_multiple: multiple,
         samples,
         impulses,
         filtered,
         element_names: model.system.elements().iter().map(|element| element.name.clone()).collect(),
         eigenfrequencies_hz,
         support_names: support_names(&file.study.excitation),
-    })
+    };
+    Ok((diagram, holes))
+}
+
+/// The paths in round holes, each under the name of its hole.
+fn holes(
+    (file, model): (&StudyFile, &Model),
+    (frequency_hz, period_multiple): (f64, u32),
+    paths: Vec<(usize, Vec<[f64; 2]>)>,
+    title: &str,
+) -> Vec<HoleDiagram> {
+    let of_holes = file.study.stops.iter().filter_map(|stop| match &stop.place {
+        Place::Around { first, second, .. } => Some([first.clone(), second.clone()]),
+        Place::At { .. } | Place::Between { .. } => None,
+    });
+    let diagram = |((element, path_m), names): ((usize, Vec<[f64; 2]>), [String; 2])| {
+        let element = &model.system.elements()[element];
+        let clearance_m = element.law.round_hole()?.clearance();
+        let title = format!("{}: {title}", element.name);
+        Some(HoleDiagram { title, frequency_hz, period_multiple, clearance_m, names, path_m })
+    };
+    paths.into_iter().zip(of_holes).filter_map(diagram).collect()
 }
 
 /// Names of the supports that move, where there are several.

@@ -2,7 +2,7 @@
 
 use hammerbeam_matrices::{FileMatrix, parse_matrices};
 
-use crate::writers::{Binary, Strings, text};
+use hammerbeam_testkit::output4::{Binary, Strings, text};
 
 /// A symmetric matrix with gaps within its columns, and an empty column.
 fn columns() -> Vec<Vec<f64>> {

@@ -7,4 +7,3 @@ mod mat;
 mod output4;
 mod shared_files;
 mod texts;
-mod writers;

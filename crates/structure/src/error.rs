@@ -1,5 +1,10 @@
 //! What can be wrong with a structure or with the reduction asked for.
 
+use crate::{
+    MatrixPart,
+    sparse::{MemoryNeed, in_gigabytes},
+};
+
 /// Why a description is no structure, or a structure cannot be reduced as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -70,12 +75,15 @@ pub enum StructureError {
     /// Masses so different that their matrix is not positive in floating point.
     #[error("the mass matrix of {size} coordinates is not positive definite")]
     MassNotPositive { size: usize },
-    /// The factors of a sparse matrix do not fit into the memory that is allowed.
+    /// Matrices, factors and vectors do not fit into the memory that is allowed.
     #[error(
-        "the factors of {size} coordinates would take {:.1} GB, allowed are {:.1} GB", 
-        *needed_bytes as f64 / 1e9, *limit_bytes as f64 / 1e9
+        "the modes of {size} coordinates take up to {need} of memory, allowed are {} GB",
+        in_gigabytes(*limit_bytes)
     )]
-    TooMuchMemory { size: usize, needed_bytes: u64, limit_bytes: u64 },
+    TooMuchMemory { size: usize, need: MemoryNeed, limit_bytes: u64 },
+    /// Factors have more entries than their numbers can count.
+    #[error("the factors of {size} coordinates have more than 2e9 entries, 17 GB")]
+    TooManyEntries { size: usize },
     /// A larger structure has to say up to which frequency its modes are kept.
     #[error(
         "all modes of {found} coordinates are asked for, allowed are {allowed}; give a reduction with a \
@@ -105,6 +113,9 @@ pub enum StructureError {
         6 * parts
     )]
     TooManyRigidModes { found: usize, parts: usize, row: String },
+    /// A motion of one coordinate would have negative kinetic energy, or be driven by its damper.
+    #[error("{matrix} on the diagonal of {row} is {found}, must be 0 or greater")]
+    NegativeDiagonal { matrix: &'static str, row: String, found: f64 },
     /// The mass matrix has negative eigenvalues, by more than rounding.
     #[error("the mass matrix has {negative} negative eigenvalues, must have none")]
     MassNegative { negative: usize },
@@ -112,20 +123,29 @@ pub enum StructureError {
     #[error("the {what} has {found} rows, the stiffness has {expected}")]
     RowCount { what: &'static str, found: usize, expected: usize },
     /// A row beyond the last one.
-    #[error("{what} is at row {row}, there are {rows} rows")]
-    NoSuchRow { what: String, row: usize, rows: usize },
+    #[error("{part} is at row {row}, there are {rows} rows")]
+    NoSuchRow { part: MatrixPart, row: usize, rows: usize },
     /// Nodes that no row has.
-    #[error("{what} is at nodes that no row has: {}", nodes.join(", "))]
-    NoSuchNodes { what: String, nodes: Vec<String> },
+    #[error("{part} is at nodes that no row has: {}", nodes.join(", "))]
+    NoSuchNodes { part: MatrixPart, nodes: Vec<String> },
     /// A label that no row has.
-    #[error("{what} is at {label}, which no row has")]
-    NoSuchLabel { what: String, label: String },
+    #[error("{part} is at {label}, which no row has")]
+    NoSuchLabel { part: MatrixPart, label: String },
     /// A label that several rows have.
-    #[error("{label} stands for several rows, {}; name the one by its row", counted(rows))]
-    LabelTwice { label: String, rows: Vec<usize> },
+    #[error("{label} of {part} stands for several rows, {}; name the one by its row", counted(rows))]
+    LabelTwice { part: MatrixPart, label: String, rows: Vec<usize> },
+    /// A row that components share is several rows of one of them.
+    #[error(
+        "{label} of {part} stands for several rows, {}, and joins it to another component",
+        counted(rows)
+    )]
+    JoinedTwice { part: MatrixPart, label: String, rows: Vec<usize> },
     /// Nodes and directions can only be found with labels.
-    #[error("it is not known which node and direction each row is; give `dofs`")]
-    NoLabels,
+    #[error(
+        "{}it is not known which node and direction each row is; give `dofs`",
+        part.as_ref().map_or(String::new(), |part| format!("{part} is at a node, but "))
+    )]
+    NoLabels { part: Option<MatrixPart> },
     /// Rows are not the displacements that their labels say.
     #[error(
         "nothing holds the matrices, and yet displacing all rows that are labelled x, y or z strains them \

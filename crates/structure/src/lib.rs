@@ -92,8 +92,9 @@ pub use reduced_model::{PointOutput, ReducedModel, SupportInput};
 pub use reduction::Reduction;
 pub use section::Section;
 pub use sparse::{
-    Along, Direction, Entry, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport,
-    MatrixSurvey, MeshNode, MeshShape, PointPlace, RowKind, RowLabel, RowSet, SupportRows, SymmetricMatrix,
+    Along, Direction, Entry, Matrices, MatrixComponent, MatrixPart, MatrixPoint, MatrixReport, MatrixSupport,
+    MatrixSurvey, MemoryNeed, MeshNode, MeshShape, PointPlace, RowKind, RowLabel, RowSet, SupportRows,
+    SymmetricMatrix,
 };
 pub use structure::Structure;
 pub use tables::{FlexibilityError, FrequencyError, ModeTables};

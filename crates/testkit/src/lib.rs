@@ -1,10 +1,12 @@
-//! What the tests of several crates share: structures, laws, systems, walks, and the switch for whole sets.
+//! What the tests of several crates share: structures, laws, systems, walks, files of OUTPUT4, and the switch
+//! for whole sets.
 //!
 //! The beam of the paper is written here once. Only tests depend on this crate.
 #![allow(clippy::unwrap_used, reason = "a test ends where its model is wrong")]
 
 pub mod laws;
 mod observed_system;
+pub mod output4;
 mod random;
 pub mod structures;
 pub mod systems;

@@ -1,6 +1,7 @@
 //! Structures and walks shared by the verification tests.
 
 pub mod crossings;
+pub mod settled;
 pub mod spectrum;
 
 pub use hammerbeam_testkit::{

@@ -1,9 +1,9 @@
-//! The history of an orbit: its samples from phase 0 on, and its impacts on rigid stops.
+//! The history of an orbit: its samples from phase 0 on, its impacts on rigid stops, and its paths in holes.
 
 use hammerbeam_attractor::{ContactRecord, Simulation};
 use hammerbeam_figure::{OrbitImpulse, OrbitSample};
 use hammerbeam_motion::{
-    PointMotion,
+    LocalElement, PointMotion,
     exact::{ExactIntegrator, ExactSettings},
 };
 use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
@@ -17,11 +17,18 @@ pub(super) const SAMPLES: usize = 2048;
 /// than rounding.
 const BESIDE: f64 = 1e-9;
 
-/// Samples of an orbit from phase 0 on, and its impacts on rigid stops.
-pub(super) fn history(
-    model: &Model,
-    orbit: &PeriodicSolution,
-) -> Result<(Vec<OrbitSample>, Vec<OrbitImpulse>), DrawingError> {
+/// What is drawn of an orbit.
+pub(super) struct History {
+    /// Samples from phase 0 on.
+    pub samples: Vec<OrbitSample>,
+    /// Impacts on rigid stops.
+    pub impulses: Vec<OrbitImpulse>,
+    /// The path in each round hole at the instants of the samples (m), with the number of its first element.
+    pub paths: Vec<(usize, Vec<[f64; 2]>)>,
+}
+
+/// The history of an orbit.
+pub(super) fn history(model: &Model, orbit: &PeriodicSolution) -> Result<History, DrawingError> {
     let frequency_hz = orbit.frequency_hz;
     let settings = ExactSettings::default();
     let mut integrator = ExactIntegrator::new(model.system.clone(), settings)?;
@@ -30,6 +37,9 @@ pub(super) fn history(
     let first = states.first().map_or(&[][..], Vec::as_slice);
     let mut simulation = Simulation::new(model.system.clone(), frequency_hz, first, settings)?;
     let response = model.response_motion(frequency_hz);
+    let holes = holes(model, frequency_hz);
+    let mut paths: Vec<(usize, Vec<[f64; 2]>)> =
+        holes.iter().map(|(element, _)| (*element, Vec::new())).collect();
     let (mut samples, mut contacts) = (Vec::new(), Vec::new());
     for _ in 0..orbit.period_multiple {
         let (sampled, ended) = simulation.period(SAMPLES)?;
@@ -37,6 +47,10 @@ pub(super) fn history(
         for sample in sampled {
             let [displacement_m, velocity_m_s, acceleration_m_s2] =
                 response.at(sample.phase, &sample.state, &sample.forces);
+            for ((_, directions), (_, path)) in holes.iter().zip(&mut paths) {
+                let at = |motion: &PointMotion| motion.at(sample.phase, &sample.state, &sample.forces)[0];
+                path.push(directions.each_ref().map(at));
+            }
             let motions = model.system.support_motions(frequency_hz, sample.phase);
             samples.push(OrbitSample {
                 displacement_m,
@@ -56,7 +70,22 @@ pub(super) fn history(
     for (impulse, acceleration_m_s2) in impulses.iter_mut().zip(accelerations) {
         impulse.acceleration_m_s2 = acceleration_m_s2;
     }
-    Ok((samples, impulses))
+    Ok(History { samples, impulses, paths })
+}
+
+/// The first element of each round hole, with the relative displacements across its axis.
+fn holes(model: &Model, frequency_hz: f64) -> Vec<(usize, [PointMotion; 2])> {
+    let elements = model.system.elements();
+    let of_hole = (0..elements.len()).filter(|&element| elements[element].law.round_hole().is_some());
+    // The element of the second direction follows that of the first.
+    let motions = of_hole.map(|first| {
+        let motion = |element: usize| {
+            let LocalElement { shape, support_ratios, .. } = &elements[element];
+            model.system.point_motion(frequency_hz, shape, support_ratios)
+        };
+        (first, [motion(first), motion(first + 1)])
+    });
+    motions.collect()
 }
 
 /// Accelerations of the response point just before and just after instants of a motion, with all forces that

@@ -11,10 +11,10 @@ use std::io::Read;
 
 use hammerbeam_figure::{
     BasinMap, ConvergenceDiagram, DataDiagram, ExponentDiagram, ExponentPoint, Figure, FigureError,
-    MultiplierDiagram, OrbitDiagram, SectionDiagram, Style, SweepDiagram,
+    HoleDiagram, MultiplierDiagram, OrbitDiagram, SectionDiagram, Style, SweepDiagram,
 };
 
-use samples::{basins, convergence, exponents, multipliers, orbit, section, struck, sweep};
+use samples::{basins, convergence, exponents, hole, multipliers, orbit, section, struck, sweep};
 
 /// Every kind of figure, from the data above.
 fn all() -> Vec<(&'static str, Figure)> {
@@ -30,6 +30,7 @@ fn all() -> Vec<(&'static str, Figure)> {
         ("history", orbit().draw_history(&style).unwrap()),
         ("phase", orbit().draw_phase(&style).unwrap()),
         ("spectrum", orbit().draw_spectrum(&style).unwrap()),
+        ("hole", hole().draw(&style).unwrap()),
         ("history with impulses", struck().draw_history(&style).unwrap()),
         ("phase with impulses", struck().draw_phase(&style).unwrap()),
         ("spectrum with impulses", struck().draw_spectrum(&style).unwrap()),
@@ -100,6 +101,7 @@ fn nothing_to_draw_is_refused_with_a_sentence() {
         MultiplierDiagram::default().draw_circle(&style),
         OrbitDiagram::default().draw_history(&style),
         OrbitDiagram::default().draw_spectrum(&style),
+        HoleDiagram::default().draw(&style),
         DataDiagram { panels: vec![data::panel(Vec::new())], ..DataDiagram::default() }.draw(&style),
     ];
     for result in refused {

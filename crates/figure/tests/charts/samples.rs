@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    BasinAttractor, BasinMap, ConvergenceDiagram, DrawnMotion, ExponentDiagram, ExponentPoint, MotionKind,
-    MultiplierDiagram, Multipliers, OrbitDiagram, OrbitImpulse, OrbitSample, SectionDiagram, SweepDiagram,
-    SweepOrigin,
+    BasinAttractor, BasinMap, ConvergenceDiagram, DrawnMotion, ExponentDiagram, ExponentPoint, HoleDiagram,
+    MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitImpulse, OrbitSample, SectionDiagram,
+    SweepDiagram, SweepOrigin,
 };
 
 pub fn basins() -> BasinMap {
@@ -113,4 +113,20 @@ pub fn struck() -> OrbitDiagram {
     let samples = orbit().samples.into_iter();
     let samples = samples.map(|sample| OrbitSample { forces_n: vec![0.0; 2], ..sample }).collect();
     OrbitDiagram { samples, impulses: vec![impulse(0, 0.2), impulse(1, 0.7)], ..orbit() }
+}
+
+/// A path that leaves its hole twice.
+pub fn hole() -> HoleDiagram {
+    let at = |j: i32| {
+        let t = TAU * f64::from(j) / 256.0;
+        [0.6e-3 * t.cos(), 0.3e-3 * t.sin()]
+    };
+    HoleDiagram {
+        title: "Orbit".to_owned(),
+        frequency_hz: 10.0,
+        period_multiple: 1,
+        clearance_m: 0.5e-3,
+        names: ["tube.y".to_owned(), "tube.z".to_owned()],
+        path_m: (0..256).map(at).collect(),
+    }
 }

@@ -17,6 +17,7 @@ pub type Nodes = BTreeMap<i64, [f64; 3]>;
 pub(crate) fn dofs<R: BufRead>(source: R) -> Result<Vec<RowLabel>, PlacedFault> {
     let mut lines = Lines::new(source);
     let mut labels = Vec::new();
+    let mut named: BTreeMap<String, u64> = BTreeMap::new();
     while let Some(line) = lines.next()? {
         let text = String::from_utf8_lossy(line).into_owned();
         if labels.is_empty() && text.trim_start_matches('\u{feff}').starts_with("row")
@@ -25,6 +26,13 @@ pub(crate) fn dofs<R: BufRead>(source: R) -> Result<Vec<RowLabel>, PlacedFault> 
             continue;
         }
         let label = dof(&text, labels.len()).map_err(|fault| fault.at(lines.place()))?;
+        let second = labels.len() as u64 + 1;
+        if !label.name.is_empty()
+            && let Some(first) = named.insert(label.name.clone(), second)
+        {
+            let label = format!("the name \"{}\"", label.name);
+            return Err(MatrixFault::DuplicateLabel { label, first, second }.at(lines.place()));
+        }
         labels.push(label);
     }
     Ok(labels)

@@ -8,9 +8,9 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Direction, Entry, Matrices, MatrixComponent, RowKind, RowLabel, RowSet, SupportRows, SymmetricMatrix,
+    Direction, Entry, Matrices, MatrixComponent, MatrixPart, RowKind, RowSet, SupportRows, SymmetricMatrix,
     constraints::{Dependent, conditions, lagrange_rows},
-    joined::{Joined, Unplaced},
+    joined::{Joined, SharedRows, Unplaced},
     map::CoordinateMap,
     model::MatrixReport,
 };
@@ -42,7 +42,7 @@ enum RowState {
 impl Matrices {
     /// These components and nothing else: no places of nodes, no points, nothing that holds them.
     ///
-    /// * `memory_limit_bytes`: memory that factors may take [bytes].
+    /// * `memory_limit_bytes`: memory that matrices, factors and the search for modes may take [bytes].
     #[must_use]
     pub fn new(components: Vec<MatrixComponent>, memory_limit_bytes: u64) -> Self {
         Self {
@@ -62,39 +62,8 @@ impl Matrices {
     /// # Errors
     /// Matrices of different size, labels that are too few or stand for two rows that are to be joined.
     pub(super) fn joined(&self) -> Result<Joined, StructureError> {
-        let mut labels: Vec<Option<RowLabel>> = Vec::new();
-        let mut rows: Vec<Vec<usize>> = Vec::new();
-        let mut known: BTreeMap<(i64, Direction), usize> = BTreeMap::new();
-        for component in &self.components {
-            component.check()?;
-            let mut own: BTreeMap<(i64, Direction), usize> = BTreeMap::new();
-            let mut places = Vec::with_capacity(component.stiffness.size());
-            for row in 0..component.stiffness.size() {
-                let label = component.labels.get(row);
-                let key = label
-                    .filter(|label| label.kind == RowKind::Physical)
-                    .map(|label| (label.node, label.direction));
-                let shared = key.and_then(|key| known.get(&key).copied());
-                if let (Some(key), Some(_)) = (key, shared)
-                    && let Some(first) = own.insert(key, row)
-                {
-                    let label = label.map(RowLabel::to_string).unwrap_or_default();
-                    return Err(StructureError::LabelTwice { label, rows: vec![first + 1, row + 1] });
-                }
-                places.push(shared.unwrap_or(labels.len()));
-                if shared.is_none() {
-                    labels.push(label.cloned());
-                }
-            }
-            if self.components.len() > 1 {
-                for (label, &place) in component.labels.iter().zip(&places) {
-                    if label.kind == RowKind::Physical {
-                        known.entry((label.node, label.direction)).or_insert(place);
-                    }
-                }
-            }
-            rows.push(places);
-        }
+        self.components.iter().try_for_each(MatrixComponent::check)?;
+        let SharedRows { labels, rows } = SharedRows::of(&self.components)?;
         let size = labels.len();
         let sum = |of: &dyn Fn(&MatrixComponent) -> Option<SymmetricMatrix>| {
             let mut entries = Vec::new();
@@ -152,8 +121,8 @@ impl Matrices {
             fixed_rows += rows.len();
             rows.iter().for_each(|&row| states[row] = RowState::Zero);
         };
-        for set in &self.fixed {
-            hold(&mut states, &set.found("fixed rows", &joined)?);
+        for (number, set) in self.fixed.iter().enumerate() {
+            hold(&mut states, &set.found(&MatrixPart::Fixed(number), &joined)?);
         }
         for support in self
             .supports
@@ -161,7 +130,7 @@ impl Matrices {
             .filter(|support| !moving.iter().any(|names| names.contains(&support.name.as_str())))
         {
             if let SupportRows::Of(set) = &support.rows {
-                hold(&mut states, &set.found(&format!("support \"{}\"", support.name), &joined)?);
+                hold(&mut states, &set.found(&MatrixPart::Support(support.name.clone()), &joined)?);
             }
         }
         for (number, names) in moving.iter().enumerate() {
@@ -215,7 +184,7 @@ impl Matrices {
         })?;
         let SupportRows::Of(set) = &support.rows else { return Ok(()) };
         let along = unit(&support.along, &format!("the direction of support \"{name}\""))?;
-        for row in set.found(&format!("support \"{name}\""), joined)? {
+        for row in set.found(&MatrixPart::Support(name.into()), joined)? {
             if let RowState::Moving { support: other, .. } = states[row]
                 && other != number
             {
@@ -287,16 +256,19 @@ impl RowSet {
     ///
     /// # Errors
     /// A row or a node that is not there.
-    pub(super) fn found(&self, what: &str, joined: &Joined) -> Result<Vec<usize>, StructureError> {
+    pub(super) fn found(&self, part: &MatrixPart, joined: &Joined) -> Result<Vec<usize>, StructureError> {
         let mut rows = Vec::new();
         for &row in &self.rows {
             let first = &joined.rows[0];
             let found = first.get(row).copied();
             rows.push(found.ok_or(StructureError::NoSuchRow {
-                what: what.into(),
+                part: part.clone(),
                 row: row + 1,
                 rows: first.len(),
             })?);
+        }
+        if !self.nodes.is_empty() && joined.labels.iter().all(Option::is_none) {
+            return Err(StructureError::NoLabels { part: Some(part.clone()) });
         }
         let wanted: std::collections::BTreeSet<i64> = self.nodes.iter().copied().collect();
         let mut met = std::collections::BTreeSet::new();
@@ -313,7 +285,7 @@ impl RowSet {
         }
         let missing: Vec<String> = wanted.difference(&met).take(NAMED).map(i64::to_string).collect();
         if !missing.is_empty() {
-            return Err(StructureError::NoSuchNodes { what: what.into(), nodes: missing });
+            return Err(StructureError::NoSuchNodes { part: part.clone(), nodes: missing });
         }
         rows.sort_unstable();
         rows.dedup();

@@ -38,8 +38,6 @@ pub(super) struct FixedInterface<'a> {
     pub cut_off_hz: f64,
     /// Relative error of the entries of the stiffness.
     pub precision: f64,
-    /// Memory for factors [bytes].
-    pub limit_bytes: u64,
 }
 
 /// Constraint modes, a row each, made orthonormal in `K`: `Psi L = X L^-T` with the flexibility `F = W^T X
@@ -117,7 +115,7 @@ impl FixedInterface<'_> {
         let held = Pencil::new(
             map.congruence(&self.pencil.stiffness),
             map.congruence(&self.pencil.mass),
-            self.limit_bytes,
+            self.pencil.beside(),
         )?;
         let modes = held.modes(self.cut_off_hz, self.precision)?;
         Ok((modes, map))

@@ -19,7 +19,11 @@ use faer::{
     },
 };
 
-use super::{SymmetricMatrix, random::Random};
+use super::{
+    SymmetricMatrix,
+    memory::{MemoryBudget, MemoryNeed, of_matrices, of_vectors},
+    random::Random,
+};
 use crate::StructureError;
 
 /// Largest correction of a solution, relative to it, of factors that are trusted.
@@ -35,6 +39,7 @@ pub(crate) struct Pencil {
     starts: Vec<u32>,
     rows: Vec<u32>,
     symbolic: SymbolicCholesky<u32>,
+    budget: MemoryBudget,
 }
 
 /// Factors of `K - sigma M`.
@@ -48,31 +53,58 @@ pub(crate) struct Factors<'a> {
 impl Pencil {
     /// Finds the order of elimination.
     ///
-    /// * `limit_bytes`: memory that the factors may take.
-    ///
     /// # Errors
-    /// They would take more.
+    /// Matrices and factors would take more memory than there may be.
     pub fn new(
         stiffness: SymmetricMatrix,
         mass: SymmetricMatrix,
-        limit_bytes: u64,
+        budget: MemoryBudget,
     ) -> Result<Self, StructureError> {
         let (starts, rows) = joint_pattern(&stiffness, &mass);
         let size = stiffness.size();
         let pattern = SymbolicSparseColMatRef::new_checked(size, size, &starts, None, &rows);
-        let too_large = |needed_bytes| StructureError::TooMuchMemory { size, needed_bytes, limit_bytes };
         let symbolic = factorize_symbolic_cholesky(
             pattern,
             Side::Lower,
             SymmetricOrdering::Amd,
             CholeskySymbolicParams::default(),
         )
-        .map_err(|_| too_large(32 << 30))?;
-        let needed = 8 * symbolic.len_val() as u64;
-        if needed > limit_bytes {
-            return Err(too_large(needed));
+        .map_err(|_| StructureError::TooManyEntries { size })?;
+        let pencil = Self { stiffness, mass, starts, rows, symbolic, budget };
+        pencil.ensure_memory(0)?;
+        Ok(pencil)
+    }
+
+    /// The memory for so many modes.
+    pub fn memory(&self, modes: usize) -> MemoryNeed {
+        let work = self.symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, faer::Spec::default());
+        let of_rows = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(symbolic) => symbolic.row_idx().len(),
+            SymbolicCholeskyRaw::Supernodal(symbolic) => symbolic.row_idx().len(),
+        };
+        MemoryNeed {
+            matrices: of_matrices(&self.stiffness, &self.mass, self.rows.len()),
+            factors: (8 * self.symbolic.len_val() + 4 * of_rows) as u64,
+            held_factors: self.budget.held_factors,
+            work: work.unaligned_bytes_required() as u64,
+            vectors: if modes == 0 { 0 } else { of_vectors(self.size(), modes) },
         }
-        Ok(Self { stiffness, mass, starts, rows, symbolic })
+    }
+
+    /// What is left for another form of the structure while the factors of this one stay.
+    pub fn beside(&self) -> MemoryBudget {
+        let MemoryNeed { factors, held_factors, .. } = self.memory(0);
+        MemoryBudget { held_factors: factors + held_factors, ..self.budget }
+    }
+
+    /// # Errors
+    /// So many modes would take more memory than there may be.
+    pub fn ensure_memory(&self, modes: usize) -> Result<(), StructureError> {
+        let (need, limit_bytes) = (self.memory(modes), self.budget.limit_bytes);
+        if need.total() > limit_bytes {
+            return Err(StructureError::TooMuchMemory { size: self.size(), need, limit_bytes });
+        }
+        Ok(())
     }
 
     /// Number of coordinates.
@@ -278,7 +310,7 @@ mod tests {
         let unit = (0..size as u32).map(|row| Entry { row, column: row, value: 1.0 });
         let stiffness = SymmetricMatrix::from_entries(size, &entries);
         let mass = SymmetricMatrix::from_entries(size, &unit.collect::<Vec<_>>());
-        Pencil::new(stiffness, mass, 1 << 30).unwrap()
+        Pencil::new(stiffness, mass, MemoryBudget::of(1 << 30)).unwrap()
     }
 
     #[test]
@@ -312,7 +344,7 @@ mod tests {
         let pencil = Pencil::new(
             SymmetricMatrix::from_entries(3, &spring),
             SymmetricMatrix::from_entries(3, &heavy),
-            1 << 30,
+            MemoryBudget::of(1 << 30),
         )
         .unwrap();
         assert!(pencil.factors(-1.0).unwrap_err() < 2);
@@ -321,7 +353,42 @@ mod tests {
     #[test]
     fn factors_that_do_not_fit_are_refused_with_what_they_need() {
         let stiffness = chain(300, 120).stiffness;
-        let error = Pencil::new(stiffness.clone(), stiffness, 1000).unwrap_err();
-        assert!(error.to_string().contains("300 coordinates would take"), "{error}");
+        let budget = MemoryBudget::of(1000);
+        let error = Pencil::new(stiffness.clone(), stiffness, budget).unwrap_err();
+        assert!(error.to_string().contains("of 300 coordinates take"), "{error}");
+        assert!(error.to_string().ends_with("allowed are 0.0000 GB"), "{error}");
+    }
+
+    /// A chain is eliminated without filling in: two entries a column. Of its modes the vectors are most.
+    #[test]
+    fn parts_of_the_memory_are_counted() {
+        let size = 1000;
+        let pencil = chain(size, 1);
+        let (below, diagonal, starts) = (size - 1, size, size + 1);
+        let need = pencil.memory(0);
+        let stiffness = 12 * (below + diagonal) + 8 * starts;
+        let mass = 12 * diagonal + 8 * starts;
+        let pattern = (4 + 8) * (below + diagonal) + 4 * starts;
+        assert_eq!(need.matrices, (4 * (stiffness + mass) + pattern) as u64);
+        assert_eq!(need.factors, ((8 + 4) * (below + diagonal)) as u64);
+        assert_eq!((need.held_factors, need.vectors), (0, 0));
+        assert_eq!(need.total(), need.matrices + need.factors + need.work);
+        let of_modes = pencil.memory(10);
+        // 10 modes: 8 * 10 + 50 * 6 in the basis, two blocks more, and 4 * 10.
+        assert_eq!(of_modes.vectors, 8 * 1000 * (380 + 12 + 40));
+        assert_eq!(of_modes.total(), need.matrices + need.factors + of_modes.vectors);
+        // Another pencil finds the factors of this one there.
+        let unit = (0..3).map(|row| Entry { row, column: row, value: 1.0 }).collect::<Vec<_>>();
+        let unit = SymmetricMatrix::from_entries(3, &unit);
+        let beside = Pencil::new(unit.clone(), unit, pencil.beside()).unwrap();
+        assert_eq!(beside.memory(0).held_factors, need.factors);
+    }
+
+    #[test]
+    fn vectors_that_do_not_fit_are_refused_once_the_number_of_modes_is_known() {
+        let Pencil { stiffness, mass, .. } = chain(1000, 1);
+        let pencil = Pencil::new(stiffness, mass, MemoryBudget::of(3_000_000)).unwrap();
+        let error = pencil.modes(0.3 / std::f64::consts::TAU, 1e-16).unwrap_err();
+        assert!(matches!(error, StructureError::TooMuchMemory { .. }), "{error}");
     }
 }

@@ -65,7 +65,7 @@ impl FreeInterfaceReduction<'_> {
         let selected = CoordinateMap::selecting(all, &chosen);
         let of_chosen = |matrix: &SymmetricMatrix| selected.congruence(matrix);
         let (stiffness, mass) = (&prepared.assembled.stiffness, &prepared.assembled.mass);
-        let released = Pencil::new(of_chosen(stiffness), of_chosen(mass), u64::MAX)?;
+        let released = Pencil::new(of_chosen(stiffness), of_chosen(mass), prepared.supported.beside())?;
         let (modes, factors) = prepared.modes(&released, cut_off_hz, prepared.assembled.joined.precision)?;
         ensure_elastic(&released, &modes, cut_off_hz)?;
         let statics = Statics::new(&released, &modes, factors);

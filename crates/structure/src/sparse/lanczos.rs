@@ -26,10 +26,13 @@
 
 use faer::{Mat, MatRef, Side};
 
-use super::{factor::Factors, matrix::SymmetricMatrix, random::Random};
+use super::{
+    factor::Factors,
+    krylov_size::{BLOCK, longest_basis},
+    matrix::SymmetricMatrix,
+    random::Random,
+};
 
-/// Vectors of a block: as many as a body has rigid motions.
-const BLOCK: usize = 6;
 /// Residual of a mode relative to its `theta`: the error of `lambda` is of the order of its square.
 const RESIDUAL: f64 = 1e-8;
 /// A vector of which orthogonalisation leaves this part or less is spanned by the others.
@@ -71,7 +74,7 @@ pub(super) fn lowest_modes(
             }
             basis.add_random_block();
         }
-        if basis.length() > 8 * count + 50 * BLOCK {
+        if basis.length() > longest_basis(count) {
             basis.restart(&ritz, count + 4 * BLOCK);
         }
     }

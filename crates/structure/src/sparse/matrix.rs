@@ -91,6 +91,11 @@ impl SymmetricMatrix {
         self.rows.len()
     }
 
+    /// Memory that it takes [bytes].
+    pub(super) fn bytes(&self) -> u64 {
+        (size_of::<usize>() * self.starts.len() + 12 * self.values.len()) as u64
+    }
+
     /// The entries of a column on and below the diagonal, as row and value.
     pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
         let range = self.starts[column]..self.starts[column + 1];

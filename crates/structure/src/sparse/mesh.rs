@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use faer::Mat;
 
-use super::{Direction, Matrices, RowKind, SupportRows, assemble::unit, prepared::Prepared};
+use super::{Direction, Matrices, MatrixPart, RowKind, SupportRows, assemble::unit, prepared::Prepared};
 use crate::StructureError;
 
 /// A node of a mesh that is drawn.
@@ -53,7 +53,7 @@ impl MeshShape {
         let unknown = numbers.iter().filter(|number| !matrices.nodes.contains_key(number));
         let unknown: Vec<String> = unknown.take(8).map(i64::to_string).collect();
         if !unknown.is_empty() {
-            return Err(StructureError::NoSuchNodes { what: "a line of the mesh".into(), nodes: unknown });
+            return Err(StructureError::NoSuchNodes { part: MatrixPart::Lines, nodes: unknown });
         }
         let rows = rows_of_nodes(prepared);
         let bases = bases(matrices, moving)?;

@@ -25,13 +25,16 @@ mod factor;
 mod free_interface;
 mod guyan;
 mod joined;
+mod krylov_size;
 mod label;
 mod lanczos;
 mod map;
 mod matrix;
+mod memory;
 mod mesh;
 mod modal_form;
 mod model;
+mod part;
 mod passive;
 mod pencil_modes;
 mod points;
@@ -46,9 +49,12 @@ mod vectors;
 
 pub use label::{Direction, RowKind, RowLabel};
 pub use matrix::{Entry, SymmetricMatrix};
+pub use memory::MemoryNeed;
+pub(crate) use memory::in_gigabytes;
 pub use mesh::{MeshNode, MeshShape};
 pub use model::{
     Along, Matrices, MatrixComponent, MatrixPoint, MatrixReport, MatrixSupport, PointPlace, RowSet,
     SupportRows,
 };
+pub use part::MatrixPart;
 pub use survey::MatrixSurvey;

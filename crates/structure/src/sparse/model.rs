@@ -109,7 +109,7 @@ pub struct Matrices {
     pub fixed: Vec<RowSet>,
     /// Direction of a uniform acceleration, such as gravity.
     pub acceleration: Option<[f64; 3]>,
-    /// Memory that factors may take [bytes].
+    /// Memory that matrices, their factors and the search for modes may take [bytes].
     pub memory_limit_bytes: u64,
 }
 

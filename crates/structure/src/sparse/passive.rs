@@ -6,8 +6,8 @@
 //! small `e`: there are as many negative ones as eigenvalues of `D^-1 M` below `-e` (Sylvester's law of
 //! inertia).
 
-use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry};
-use crate::{StructureError, error::not_negative};
+use super::{SymmetricMatrix, assemble::Assembled, factor::Pencil, matrix::Entry, memory::MemoryBudget};
+use crate::StructureError;
 
 /// Eigenvalues of the mass below this part of its diagonal are zero.
 const RANK: f64 = 1e-9;
@@ -17,13 +17,15 @@ const NEGATIVE: f64 = 1e-5;
 /// Entries of a diagonal below this part of its largest are zero.
 const ROUNDING: f64 = 1e-12;
 
-/// Refuses mass and damping that would make energy.
+/// Refuses mass and damping that would make energy. The factors of the mass take less memory than those of
+/// the pencil, which has been found to fit.
 ///
 /// # Errors
-/// [`StructureError::Negative`] with the row, [`StructureError::MassNegative`], [`StructureError::NoMass`].
-pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<(), StructureError> {
+/// [`StructureError::NegativeDiagonal`] with the row, [`StructureError::MassNegative`],
+/// [`StructureError::NoMass`].
+pub(super) fn ensure_passive(assembled: &Assembled) -> Result<(), StructureError> {
     ensure_diagonals(assembled)?;
-    ensure_not_negative(&scaled_mass(&assembled.mass, limit_bytes)?)
+    ensure_not_negative(&scaled_mass(&assembled.mass)?)
 }
 
 /// The same, with the rank of the mass; `None` if it could not be found.
@@ -33,12 +35,9 @@ pub(super) fn ensure_passive(assembled: &Assembled, limit_bytes: u64) -> Result<
 ///
 /// # Errors
 /// As [`ensure_passive`].
-pub(super) fn passive_mass_rank(
-    assembled: &Assembled,
-    limit_bytes: u64,
-) -> Result<Option<usize>, StructureError> {
+pub(super) fn passive_mass_rank(assembled: &Assembled) -> Result<Option<usize>, StructureError> {
     ensure_diagonals(assembled)?;
-    let mass = scaled_mass(&assembled.mass, limit_bytes)?;
+    let mass = scaled_mass(&assembled.mass)?;
     let small = counted_below(&mass, RANK);
     if small != Some(0) {
         ensure_not_negative(&mass)?;
@@ -48,12 +47,12 @@ pub(super) fn passive_mass_rank(
 
 fn ensure_diagonals(assembled: &Assembled) -> Result<(), StructureError> {
     let matrices = [("mass", Some(&assembled.mass)), ("damping", assembled.damping.as_ref())];
-    for (what, matrix) in matrices {
-        let diagonal = matrix.map_or_else(Vec::new, SymmetricMatrix::diagonal);
+    for (matrix, entries) in matrices {
+        let diagonal = entries.map_or_else(Vec::new, SymmetricMatrix::diagonal);
         let least = -ROUNDING * largest(&diagonal);
         if let Some(column) = diagonal.iter().position(|entry| *entry < least) {
             let row = assembled.row_of(column).map_or_else(String::new, |row| assembled.joined.label(row));
-            not_negative(&format!("{what} on the diagonal of {row}"), diagonal[column])?;
+            return Err(StructureError::NegativeDiagonal { matrix, row, found: diagonal[column] });
         }
     }
     Ok(())
@@ -67,7 +66,7 @@ fn ensure_not_negative(mass: &Pencil) -> Result<(), StructureError> {
 }
 
 /// The pencil of `M` and `D`, with the order of elimination for all shifts.
-fn scaled_mass(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Pencil, StructureError> {
+fn scaled_mass(mass: &SymmetricMatrix) -> Result<Pencil, StructureError> {
     let diagonal = mass.diagonal();
     let largest = largest(&diagonal);
     if largest == 0.0 {
@@ -79,7 +78,7 @@ fn scaled_mass(mass: &SymmetricMatrix, limit_bytes: u64) -> Result<Pencil, Struc
         value: if *entry == 0.0 { largest } else { entry.abs() },
     });
     let scale = SymmetricMatrix::from_entries(mass.size(), &scale.collect::<Vec<_>>());
-    Pencil::new(mass.clone(), scale, limit_bytes)
+    Pencil::new(mass.clone(), scale, MemoryBudget::of(u64::MAX))
 }
 
 /// Number of eigenvalues of `D^-1 M` below a shift; `None` if there is no factor there.

@@ -75,9 +75,14 @@ impl Pencil {
             return Err(StructureError::TooManyCoordinates { found: self.size(), allowed: DENSE });
         }
         let square = if cut_off_hz.is_finite() { (TAU * cut_off_hz).powi(2) } else { self.typical_square() };
+        // Counted first, so that its factors are gone when those of the search come.
+        let count = if whole { Ok(0) } else { self.count_below(square) };
         let (shift, factors) = self.below_all(square)?;
-        let found =
-            if whole { self.all_modes(shift)? } else { self.modes_by_lanczos(&factors, shift, square)? };
+        let found = if whole {
+            self.all_modes(shift)?
+        } else {
+            self.modes_by_lanczos(&factors, shift, (count?, square))?
+        };
         let upto = found.values.iter().filter(|value| **value <= (TAU * cut_off_hz).powi(2)).count();
         let shapes = found.shapes.subcols(0, upto).to_owned();
         let largest_theta =
@@ -142,18 +147,18 @@ impl Pencil {
         Ok(LowestModes { values: theta[..massive].iter().map(|value| 1.0 / value + shift).collect(), shapes })
     }
 
-    /// The modes below a cut-off, as many as the pivots there say.
+    /// The modes below the square of a cut-off, as many as the pivots there say.
     fn modes_by_lanczos(
         &self,
         factors: &Factors<'_>,
         shift: f64,
-        square: f64,
+        (count, square): (usize, f64),
     ) -> Result<LowestModes, StructureError> {
         let size = self.size();
-        let count = self.count_below(square)?;
         if count > MOST_MODES {
             return Err(StructureError::TooManyModes { found: count, allowed: MOST_MODES });
         }
+        self.ensure_memory(count)?;
         lowest_modes(factors, &self.mass, shift, (count, square))
             .ok_or(StructureError::ModesNotConverged { size })
     }

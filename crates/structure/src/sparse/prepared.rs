@@ -7,6 +7,7 @@ use super::{
     assemble::Assembled,
     factor::{Factors, Pencil},
     map::CoordinateMap,
+    memory::MemoryBudget,
     passive::ensure_passive,
     pencil_modes::PencilModes,
     statics::Statics,
@@ -46,14 +47,14 @@ impl Prepared {
     /// The structure with the supports of these groups told apart.
     pub fn new(matrices: &Matrices, moving: &[&[&str]]) -> Result<Self, StructureError> {
         let assembled = matrices.assembled(moving)?;
-        ensure_passive(&assembled, matrices.memory_limit_bytes)?;
         let free: Vec<usize> = (0..assembled.free).collect();
         let selected = CoordinateMap::selecting(assembled.map.columns(), &free);
         let supported = Pencil::new(
             selected.congruence(&assembled.stiffness),
             selected.congruence(&assembled.mass),
-            matrices.memory_limit_bytes,
+            MemoryBudget::of(matrices.memory_limit_bytes),
         )?;
+        ensure_passive(&assembled)?;
         let weights = |point: &MatrixPoint| {
             let weights = point.weights(&assembled.joined)?;
             Ok((point.name.clone(), assembled.map.pulled_back(&weights)))

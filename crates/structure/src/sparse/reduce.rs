@@ -51,8 +51,7 @@ impl Matrices {
         let (full, factors) = prepared.modes(&prepared.supported, cut_off_hz, precision)?;
         let statics = Statics::new(&prepared.supported, &full, factors);
         let loads = prepared.interface(interface)?;
-        let stage =
-            Stage { full: &full, statics: &statics, cut_off_hz, limit_bytes: self.memory_limit_bytes };
+        let stage = Stage { full: &full, statics: &statics, cut_off_hz };
         let ReducedModes { frequencies, mut shapes, kept_hz } =
             reduced_modes(reduction, &prepared, &stage, &loads)?;
         prepared.orient(&mut shapes, &loads);
@@ -87,7 +86,6 @@ struct Stage<'a> {
     full: &'a PencilModes,
     statics: &'a Statics<'a>,
     cut_off_hz: f64,
-    limit_bytes: u64,
 }
 
 /// The modes that a method of reduction leaves.
@@ -97,7 +95,7 @@ fn reduced_modes(
     stage: &Stage<'_>,
     loads: &[(String, Weights)],
 ) -> Result<ReducedModes, StructureError> {
-    let Stage { full, statics, cut_off_hz, limit_bytes } = *stage;
+    let Stage { full, statics, cut_off_hz } = *stage;
     let free = |inertia| FreeInterfaceReduction { prepared, full, statics, cut_off_hz, inertia }.modes(loads);
     match reduction {
         Reduction::Truncation { .. } => {
@@ -116,7 +114,7 @@ fn reduced_modes(
             } else {
                 let precision = prepared.assembled.joined.precision;
                 let pencil = &prepared.supported;
-                FixedInterface { pencil, statics, loads, cut_off_hz, precision, limit_bytes }.modes()?
+                FixedInterface { pencil, statics, loads, cut_off_hz, precision }.modes()?
             };
             let shapes = over_all(&modes.shapes, prepared.assembled.map.columns());
             Ok(ReducedModes { frequencies: modes.frequencies, shapes, kept_hz: modes.kept_hz })

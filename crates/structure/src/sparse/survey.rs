@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     Matrices, MatrixReport, RowLabel, SymmetricMatrix, assemble::Assembled, factor::Pencil,
-    passive::passive_mass_rank, pencil_modes::PencilModes, report,
+    memory::MemoryBudget, passive::passive_mass_rank, pencil_modes::PencilModes, report,
 };
 use crate::StructureError;
 
@@ -39,9 +39,12 @@ impl Matrices {
     /// As [`Matrices::reduce`].
     pub fn survey(&self, count: usize) -> Result<MatrixSurvey, StructureError> {
         let assembled = self.assembled(&[])?;
-        let mass_rank = passive_mass_rank(&assembled, self.memory_limit_bytes)?;
-        let pencil =
-            Pencil::new(assembled.stiffness.clone(), assembled.mass.clone(), self.memory_limit_bytes)?;
+        let pencil = Pencil::new(
+            assembled.stiffness.clone(),
+            assembled.mass.clone(),
+            MemoryBudget::of(self.memory_limit_bytes),
+        )?;
+        let mass_rank = passive_mass_rank(&assembled)?;
         let modes =
             pencil.first_modes(count, assembled.joined.precision).map_err(|error| assembled.named(error))?;
         let mut report = assembled.report.clone();

@@ -33,7 +33,7 @@ impl Joined {
     /// Nothing is known of the rows.
     pub fn translation(&self, along: [f64; 3]) -> Result<Vec<f64>, StructureError> {
         if self.labels.iter().all(Option::is_none) {
-            return Err(StructureError::NoLabels);
+            return Err(StructureError::NoLabels { part: None });
         }
         Ok(self.displaced(along, &self.unplaced.internal))
     }

@@ -1,12 +1,12 @@
 //! Faults of a structure or a system, at the keys of the study that are to blame.
 
 use hammerbeam_motion::SystemError;
-use hammerbeam_structure::StructureError;
+use hammerbeam_structure::{MatrixPart, StructureError};
 
 use super::structure::{self, ReduceError};
 use crate::{
     document::{FaultReport, unit::readable},
-    file::{StudyError, StudyFile},
+    file::{MatricesTable, StructureTable, StudyError, StudyFile},
 };
 
 /// Faults of a study file, and beside them what only its assembled structure shows: else that came to light
@@ -25,7 +25,13 @@ pub fn with_structure_fault(error: StudyError) -> StudyError {
                 StructureError::CutOffBelowFirstMode { .. }
                 | StructureError::NotHeld { .. }
                 | StructureError::MovedTwice { .. }
-                | StructureError::StiffnessNotPositive { .. },
+                | StructureError::StiffnessNotPositive { .. }
+                | StructureError::NoSuchRow { .. }
+                | StructureError::NoSuchNodes { .. }
+                | StructureError::NoSuchLabel { .. }
+                | StructureError::LabelTwice { .. }
+                | StructureError::JoinedTwice { .. }
+                | StructureError::NoLabels { .. },
             )),
         ) => reduce_fault(&file, &error),
         _ => return StudyError::Invalid(report),
@@ -38,24 +44,24 @@ pub fn with_structure_fault(error: StudyError) -> StudyError {
 pub(super) fn reduce_fault(file: &StudyFile, error: &ReduceError) -> StudyError {
     match error {
         ReduceError::Structure(error) => structure_fault(file, error),
-        ReduceError::Files(problem) => {
-            file.fault(&format!("structure.{}", problem.key), problem.message.clone(), Vec::new())
-        }
+        ReduceError::Files(problem) => file.fault(&problem.key, problem.message.clone(), Vec::new()),
     }
 }
 
 /// The fault of a structure at the key that is to blame.
 fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
+    if let StructureTable::Matrices(matrices) = &file.study.structure
+        && let Some((key, help)) = matrix_fault(matrices, error)
+    {
+        return file.fault(&key, error.to_string(), help);
+    }
     let key = match error {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
         StructureError::LumpedIsNotReduced
         | StructureError::NotHeld { .. }
         | StructureError::NoInterface
         | StructureError::TooManyCoordinates { .. } => "reduction.method",
-        StructureError::StiffnessNotPositive { .. } => "structure.stiffness",
-        StructureError::RowCount { what: "mass", .. } => "structure.mass",
-        StructureError::RowCount { what: "damping", .. } => "structure.damping",
-        StructureError::NoLabels => "structure.kind",
+        StructureError::NoLabels { .. } => "structure.kind",
         StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
         StructureError::MovedTwice { .. } => "excitation.support",
         _ => "structure",
@@ -71,6 +77,46 @@ fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
         _ => Vec::new(),
     };
     file.fault(key, error.to_string(), help)
+}
+
+/// The key of a structure of matrices that is to blame, and what is allowed there.
+fn matrix_fault(matrices: &MatricesTable, error: &StructureError) -> Option<(String, Vec<String>)> {
+    let rows_of = |part| {
+        let files = Vec::from_iter(matrices.label_files(part));
+        (!files.is_empty()).then(|| format!("what rows are is said by {}", files.join(", ")))
+    };
+    let none = Vec::new;
+    Some(match error {
+        StructureError::NoSuchRow { part, .. } => (matrices.key_of(part, false), none()),
+        StructureError::NoSuchNodes { part: MatrixPart::Lines, .. } => ("structure.lines".into(), none()),
+        StructureError::NoSuchNodes { part, .. } => {
+            (matrices.key_of(part, true), rows_of(part).into_iter().collect())
+        }
+        StructureError::NoSuchLabel { part, .. }
+        | StructureError::LabelTwice { part, .. }
+        | StructureError::JoinedTwice { part, .. } => {
+            (matrices.key_of(part, false), rows_of(part).into_iter().collect())
+        }
+        StructureError::NoLabels { part: Some(part) } => (matrices.key_of(part, true), none()),
+        StructureError::StiffnessNotPositive { .. }
+        | StructureError::MasslessMechanism { .. }
+        | StructureError::TooManyRigidModes { .. } => ("structure.stiffness".into(), none()),
+        StructureError::RowCount { what: "mass", .. }
+        | StructureError::NegativeDiagonal { matrix: "mass", .. }
+        | StructureError::MassNegative { .. }
+        | StructureError::NoMass => ("structure.mass".into(), none()),
+        StructureError::RowCount { what: "damping", .. }
+        | StructureError::NegativeDiagonal { matrix: "damping", .. } => ("structure.damping".into(), none()),
+        StructureError::TooManyModes { .. } => ("reduction.cut_off_hz".into(), none()),
+        StructureError::TooMuchMemory { need, .. } => {
+            let enough = (need.total() as f64 / 1e8).ceil() / 10.0;
+            (
+                "structure.memory_gb".into(),
+                vec![format!("allowed: `memory_gb = {enough:?}`, if there is so much")],
+            )
+        }
+        _ => return None,
+    })
 }
 
 /// The fault of a system at the key that is to blame.

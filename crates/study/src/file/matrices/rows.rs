@@ -6,8 +6,12 @@ use crate::document::{Key, KeyRow, Quantity, key::words, quantity};
 
 use super::files::factor;
 
-pub(super) const MEMORY: Key<Quantity> =
-    Key::new("memory_gb", quantity::MEMORY_GB, "memory that factors may take").or(4.0);
+pub(super) const MEMORY: Key<Quantity> = Key::new(
+    "memory_gb",
+    quantity::MEMORY_GB,
+    "memory that matrices, factors and the search for modes may take",
+)
+.or(4.0);
 
 fn row(name: &str, allowed: &str, default: &str, meaning: &str) -> KeyRow {
     KeyRow::read_apart(name, allowed, default, meaning)

@@ -3,13 +3,16 @@
 /// How a matrix is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Strings {
+    /// From the first to the last row that is not zero.
     Dense,
+    /// Strings of rows, place and length in one word.
     Sparse,
+    /// Strings of rows, place and length in two words: BIGMAT.
     Big,
 }
 
 /// Columns of a matrix as strings: first row from 1, and values.
-pub fn strings_of(column: &[f64]) -> Vec<(usize, Vec<f64>)> {
+fn strings_of(column: &[f64]) -> Vec<(usize, Vec<f64>)> {
     let mut strings: Vec<(usize, Vec<f64>)> = Vec::new();
     for (row, value) in column.iter().enumerate().filter(|(_, value)| **value != 0.0) {
         match strings.last_mut() {
@@ -29,14 +32,18 @@ fn dense_string(column: &[f64]) -> Option<(usize, Vec<f64>)> {
 
 /// Binary OUTPUT4 of one matrix.
 pub struct Binary {
+    /// How columns are written.
     pub strings: Strings,
+    /// The byte of the highest order first.
     pub big_endian: bool,
+    /// Numbers of 8 bytes, not of 4.
     pub double: bool,
     /// Bytes of a word.
     pub word: usize,
 }
 
 impl Binary {
+    /// The bytes of a matrix, given as columns.
     pub fn write(&self, name: &str, columns: &[Vec<f64>]) -> Vec<u8> {
         let rows = columns[0].len() as i64;
         let signed = if self.strings == Strings::Big { -rows } else { rows };
