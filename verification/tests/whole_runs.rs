@@ -8,6 +8,7 @@ use crate::common::extensive;
 use hammerbeam_orbit::{BranchEventKind, OrbitSettings};
 use hammerbeam_verification::{
     attractors::{Random, SimulationEffort, Simulator, attractors, distance},
+    random_study::random_study,
     results::Results,
 };
 
@@ -148,4 +149,17 @@ fn is_one_closed_branch(results: &Results) {
     let turned: Vec<f64> = exact.advance(&half, &orbits[0].1.nodes[0]).unwrap().iter().map(|z| -z).collect();
     let off = distance(&results.model.system, &turned, &orbits[1].1.nodes[0]);
     assert!(off < 1e-7, "{off:.1e}");
+}
+
+/// A flip 2.5e-10 Hz beside a grazing, with a law for which orbits are not cut into segments. The branch of two
+/// periods comes to within 7e-8 of the orbit that flips: it went on as that one, and its flip began the same
+/// branch once more.
+#[test]
+fn a_branch_of_two_periods_ends_at_a_flip_beside_a_grazing_and_is_found_once() {
+    let results = run(&random_study(20_091));
+    let doubled: Vec<_> =
+        results.branches().iter().filter(|branch| branch.record.period_multiple == 2).collect();
+    assert_eq!(doubled.len(), 1);
+    let end = doubled[0].record.up.end.as_ref().unwrap();
+    assert!(end.to_string().contains("met the flip of a branch of shorter period at 0.171659"), "{end}");
 }

@@ -75,6 +75,23 @@ fn a_stop_under_heavy_preload_is_closed_throughout() {
     assert_near(found.impulse, 50.0 * stretch.duration(), 1e-8, "impulse");
 }
 
+/// Backlash without a gap: one side opens in the instant in which the other one closes. Neither is closed
+/// throughout, though the element always is: in two periods four sides close.
+#[test]
+fn an_element_that_goes_over_from_side_to_side_has_a_contact_for_each_closing() {
+    let stop = element(&[1.0], 0.0, Law::TwoSided(TwoSidedStop::new(300.0, 0.0, 0.0).unwrap()));
+    let system = System::new(model(&[10.0], diagonal(&[0.0])), &Load::default(), vec![stop]).unwrap();
+    // `q'' + 400 q = 0`.
+    let stretch = Stretch { frequency_hz: 20.0 / TAU, start: 0.0, end: 2.0 };
+    let found = watch(&system, &stretch, &[0.02, 0.0], (&[1.0], &[0.0]));
+    assert_eq!((found.touches.len(), found.closed_throughout, found.contacts()), (4, 0, 4));
+    let settings = ExactSettings { tolerance: 1e-12 };
+    let mut exact = ExactIntegrator::watching(system, settings, Some((&[1.0], &[0.0]))).unwrap();
+    let maxima = exact.observe(&[(stretch, &[0.02, 0.0])]).unwrap();
+    assert_eq!((maxima.touches, maxima.closed_throughout, maxima.contacts()), (4, 0, 4));
+    assert_eq!(exact.closed_throughout(), 0);
+}
+
 /// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q +
 /// q^3` is its acceleration.
 #[test]
