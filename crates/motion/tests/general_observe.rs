@@ -9,7 +9,7 @@ use hammerbeam_motion::{
     Harmonic, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, Observed, observe},
-    law::{HertzStop, LinearStop, PowerSpring},
+    law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 fn watch(system: &System, stretch: &Stretch, state: &[f64], response: (&[f64], &[f64])) -> Observed {
