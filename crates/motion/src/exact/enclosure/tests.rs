@@ -128,7 +128,7 @@ fn the_motion_stays_within_the_bounds_of_its_polynomial() {
     assert!((1e-3..=1.0).contains(&largest), "the bounds are met and not absurdly wide: {largest:e}");
 }
 
-/// Theorem 3, for displacements and velocities.
+/// Theorem 4, for displacements and velocities.
 #[test]
 fn what_all_blocks_have_in_common_bounds_their_sum() {
     let hertz = Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap());
