@@ -220,7 +220,8 @@ fn the_change_of_another_block_is_the_integral_of_its_propagator() {
 #[test]
 fn bounds_and_majorants_hold_and_are_not_absurdly_wide() {
     const N: usize = 16;
-    let mut closest = [0.0_f64; N];
+    // Of resonant loads, then of free ones.
+    let mut closest = [[0.0_f64; N]; 2];
     for case in cases() {
         let load = case.load();
         let blocks = Blocks { stiffness: vec![case.block.0], damping: vec![case.block.1], transform: None };
@@ -229,6 +230,7 @@ fn bounds_and_majorants_hold_and_are_not_absurdly_wide() {
             for until in case.times() {
                 let bounds: [f64; N] = load.bounds(&output, until);
                 let majorant = load.majorant(&output, until);
+                let closest = &mut closest[usize::from(load.is_constant())];
                 assert!(bounds.iter().all(|bound| bound.is_finite()));
                 for place in 0..=200 {
                     let states: [[f64; 2]; N] = load.derivatives(until * f64::from(place) / 200.0);
@@ -252,5 +254,7 @@ fn bounds_and_majorants_hold_and_are_not_absurdly_wide() {
             }
         }
     }
-    assert!(closest.iter().all(|ratio| *ratio > 0.9), "{closest:?}");
+    assert!(closest[1].iter().all(|ratio| *ratio > 0.99), "{closest:?}");
+    // At resonance half of the size of a load that oscillates works.
+    assert!(closest[0].iter().all(|ratio| (0.4..0.9).contains(ratio)), "{closest:?}");
 }
