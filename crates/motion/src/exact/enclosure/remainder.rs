@@ -138,7 +138,7 @@ impl ExactIntegrator {
     }
 
     /// The series Y with `y << Y` over the solved step for an output y.
-    fn displacement_series(&self, run: &Run, output: usize) -> [f64; MOST] {
+    pub(super) fn displacement_series(&self, run: &Run, output: usize) -> [f64; MOST] {
         let (step, read) = (&self.step, &self.outputs[output]);
         let (length, rule) = (step.length, step.grading().rule());
         let forces: Vec<([f64; NODES], &[f64])> = (step.force.as_chunks::<NODES>().0.iter())
