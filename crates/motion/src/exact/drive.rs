@@ -3,9 +3,9 @@
 //!
 //! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has
 //! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the
-//! denominator (nearly) vanishes - a constant load on a rigid mode, a load on an undamped eigenfrequency - the
-//! load is *secular*: the solution that starts from rest with the stretch takes its place (`secular.rs`); it
-//! stays finite.
+//! denominator (nearly) vanishes - a constant load on a rigid mode, a load on an undamped eigenfrequency -
+//! the load is *secular*: the solution that starts from rest with the stretch takes its place
+//! (`secular.rs`); it stays finite.
 
 use std::f64::consts::TAU;
 
@@ -67,8 +67,8 @@ impl Drive {
         drive
     }
 
-    /// Makes it that of another stretch, if only the phase differs. Secular loads begin with their stretch: so
-    /// they have to be constant.
+    /// Makes it that of another stretch, if only the phase differs. Secular loads begin with their stretch:
+    /// so they have to be constant.
     ///
     /// # Returns
     /// Whether it is now.
@@ -230,8 +230,8 @@ impl Drive {
         }
     }
 
-    /// The blocks of secular loads, with what these make of their states at `time` and of the derivatives by the
-    /// time.
+    /// The blocks of secular loads, with what these make of their states at `time` and of the derivatives
+    /// by the time.
     pub(super) fn secular_states<const N: usize>(
         &self,
         time: f64,
@@ -262,10 +262,10 @@ impl Drive {
         self.scaled_part().add_state(time, factor / self.scale, state);
     }
 
-    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for a
-    /// change `dA` of the blocks, and modal loads `db` of its orders (as many as there are): the steady
-    /// solution where there is one, from rest elsewhere. Of it only values and their derivatives by the time are
-    /// told, and no bounds.
+    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for
+    /// a change `dA` of the blocks, and modal loads `db` of its orders (as many as there are): the steady
+    /// solution where there is one, from rest elsewhere. Of it only values and their derivatives by the
+    /// time are told, and no bounds.
     pub fn change(
         &self,
         blocks: &Blocks,

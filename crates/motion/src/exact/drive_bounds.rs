@@ -54,7 +54,8 @@ impl Drive {
         self.orders.iter().map(of_order).chain(secular)
     }
 
-    /// Largest value that the part of secular loads in an output can take until `until`, for rounding margins.
+    /// Largest value that the part of secular loads in an output can take until `until`, for rounding
+    /// margins.
     pub fn secular_magnitude(&self, output: &Output, until: f64) -> f64 {
         self.secular_bound::<1>(output, until)
     }

@@ -60,11 +60,12 @@
 //!
 //! **Theorem 3.** With `z = w h`, `D_0 = h v` and `D' = gamma (z D + h^2 g)`, `d_1 << D` for `d_1 = h q'`.
 //!
-//! *Proof.* Let `d_j` be the derivative j of q by tau; by s, that of `d_j` is `c' d_(j+1)`. Claim: `d_1 << D`
-//! and, for `j >= 2`, `d_j << z^(j-2) (z D + h^2 g)`. The first coefficients are the bounds. If all hold up to
-//! the coefficient i, then `(i + 1) d_(1,i+1)` is at most `[gamma (z D + h^2 g)]_i = (i + 1) D_(i+1)`, and `(i +
-//! 1) d_(j,i+1)` at most `[gamma z^(j-1) (z D + h^2 g)]_i = z^(j-1) (i + 1) D_(i+1)`, which is `i + 1` times the
-//! coefficient of the claim. Coefficients up to `n + 1` are all that is used, so derivatives up to that suffice.
+//! *Proof.* Let `d_j` be the derivative j of q by tau; by s, that of `d_j` is `c' d_(j+1)`. Claim: `d_1 <<
+//! D` and, for `j >= 2`, `d_j << z^(j-2) (z D + h^2 g)`. The first coefficients are the bounds. If all hold
+//! up to the coefficient i, then `(i + 1) d_(1,i+1)` is at most `[gamma (z D + h^2 g)]_i = (i + 1)
+//! D_(i+1)`, and `(i + 1) d_(j,i+1)` at most `[gamma z^(j-1) (z D + h^2 g)]_i = z^(j-1) (i + 1) D_(i+1)`,
+//! which is `i + 1` times the coefficient of the claim. Coefficients up to `n + 1` are all that is used, so
+//! derivatives up to that suffice.
 //!
 //! So a part of a load enters like a block, with the constant `h^2 g` as driving series. A constant load on a
 //! free body without a damper makes a parabola: `z = 0`, and nothing of it is left in `r_n`.
@@ -81,13 +82,13 @@
 //! # Round holes
 //! The guard of a hole is its reading less the clearance, `(y^2 + z^2)/(2 c) - c/2` (`hole.rs`).
 //!
-//! **Theorem 5.** Let D be the sums of the series of theorems 2 and 3 for the outputs y and z, and Y and Z the
-//! series with `Y_0 = |y(0)| + D_0` and `Y_j = [gamma D]_(j-1)/j`. Then `r_n = [Y Y + Z Z]_n/(2 c)`.
+//! **Theorem 5.** Let D be the sums of the series of theorems 2 and 3 for the outputs y and z, and Y and Z
+//! the series with `Y_0 = |y(0)| + D_0` and `Y_j = [gamma D]_(j-1)/j`. Then `r_n = [Y Y + Z Z]_n/(2 c)`.
 //!
-//! *Proof.* By s the derivative of y is `c'` times `sum d_1`, so `y << Y` but for the first coefficient. That
-//! bounds y itself, which moves from y(0) by no more than `h max |y'| <= D_0`. Products keep the relation, and
-//! `n > 0` leaves the constant out. A parabola in y has no part in `r_n` for y alone; here it has, by its
-//! product with what else moves.
+//! *Proof.* By s the derivative of y is `c'` times `sum d_1`, so `y << Y` but for the first coefficient.
+//! That bounds y itself, which moves from y(0) by no more than `h max |y'| <= D_0`. Products keep the
+//! relation, and `n > 0` leaves the constant out. A parabola in y has no part in `r_n` for y alone; here it
+//! has, by its product with what else moves.
 
 mod remainder;
 

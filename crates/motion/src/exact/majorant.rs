@@ -6,8 +6,8 @@
 ///
 /// up to the derivative [`Majorant::DERIVATIVES`].
 ///
-/// `A cos(w t)` has the speed `A w` and the rate w, without an acceleration of its own; a parabola the largest
-/// of its velocity, and its acceleration, with the rate 0.
+/// `A cos(w t)` has the speed `A w` and the rate w, without an acceleration of its own; a parabola the
+/// largest of its velocity, and its acceleration, with the rate 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Majorant {
     pub speed: f64,

@@ -4,10 +4,10 @@
 //! steady response where `i w` is an eigenvalue of the block, and one that loses its digits nearby. There are
 //! two kinds of such *secular* loads, by what `drive.rs` takes for near:
 //!
-//! - *free* (`free.rs`): a constant load on a block without stiffness, as gravity or a torque on a rigid mode,
-//!   damped or not;
-//! - *resonant* (`resonance.rs`): a harmonic load on a block of nearly that eigenfrequency and with hardly any
-//!   damping.
+//! - *free* (`free.rs`): a constant load on a block without stiffness, as gravity or a torque on a rigid
+//!   mode, damped or not;
+//! - *resonant* (`resonance.rs`): a harmonic load on a block of nearly that eigenfrequency and with hardly
+//!   any damping.
 //!
 //! For both the particular solution is the motion from rest at the start of the stretch. Of it this module
 //! tells, in closed form and without cancellation,
@@ -51,8 +51,8 @@ enum Kind {
 }
 
 impl SecularLoad {
-    /// A load of order 0 acts on a block without stiffness, any other near the resonance of one with hardly any
-    /// damping.
+    /// A load of order 0 acts on a block without stiffness, any other near the resonance of one with hardly
+    /// any damping.
     ///
     /// * `(k, c)`: the block; `input`: `[beta, phi]`; `input_by_frequency` [1/Hz].
     /// * `(w, rate)`: circular frequency and its derivative by the excitation frequency.

@@ -1,9 +1,9 @@
 //! How the motion from rest under a secular load changes with the damping (`change.rs`, `by_damping.rs`).
 //!
-//! A block with the matrix A changes by what another one (or itself), x, does: `y' = A y + K x` from rest, with
-//! `x' = A_x x + Re(u exp(i w t))`. With `C = cos(w t)` and `S = sin(w t)` these six are one linear system with
-//! constant coefficients, and its exponential is finite however the eigenvalues of both blocks and the
-//! frequency lie to one another.
+//! A block with the matrix A changes by what another one (or itself), x, does: `y' = A y + K x` from rest,
+//! with `x' = A_x x + Re(u exp(i w t))`. With `C = cos(w t)` and `S = sin(w t)` these six are one linear
+//! system with constant coefficients, and its exponential is finite however the eigenvalues of both blocks
+//! and the frequency lie to one another.
 //!
 //! Displacements are scaled to velocities by the rates of their blocks, u and K to the size 1: so the number
 //! of squarings, which costs digits, follows from the rates alone. The derivatives by the time follow by the

@@ -5,12 +5,12 @@
 //!
 //! `s = phi t e_1(-c t)`, `p = beta t + phi t^2 e_2(-c t)`, `s' = phi exp(-c t)`,
 //!
-//! and every further derivative is `p^(j+1) = s^(j)`, `s^(j+1) = -c s^(j)`. Of a block without damping that is
-//! the parabola `beta t + phi t^2/2`.
+//! and every further derivative is `p^(j+1) = s^(j)`, `s^(j+1) = -c s^(j)`. Of a block without damping that
+//! is the parabola `beta t + phi t^2/2`.
 //!
-//! **Bounds.** With `c >= 0` the integrals `t e_1(-c t)` and `t^2 e_2(-c t)` grow with t, and `exp(-c t) <= 1`:
-//! so the same sums of magnitudes at the end of a time bound p and s all over it, and `|s'| <= |phi|`. Of
-//! what a row reads, the derivatives from the second on fall like powers of c.
+//! **Bounds.** With `c >= 0` the integrals `t e_1(-c t)` and `t^2 e_2(-c t)` grow with t, and `exp(-c t) <=
+//! 1`: so the same sums of magnitudes at the end of a time bound p and s all over it, and `|s'| <= |phi|`.
+//! Of what a row reads, the derivatives from the second on fall like powers of c.
 
 use super::{
     super::{majorant::Majorant, output::Output},

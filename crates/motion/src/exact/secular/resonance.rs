@@ -24,10 +24,10 @@
 //!
 //! **Derivatives by the time** follow from the equation itself, `X^(j+1) = A X^(j) + m^j u exp(m t)`.
 //!
-//! **Bounds.** In the energy norm `sqrt(k |p|^2 + |s|^2)` damping only takes, and the load gives at most `g =
-//! |u|` a time: `|X| <= e_0 = g t`. As the norm of A is at most `a = sqrt(k) + c`, the derivatives have the
-//! bounds `e_(j+1) = a e_j + w^j g`. With `r = max(a, w)` and all times up to T that is `e_j <= r^(j-1) g (j +
-//! r T)`, so for `2 <= j <= J` at most `r^(j-2) (r e_1 + r g (J - 1))` with `e_1 = g (1 + r T)`.
+//! **Bounds.** In the energy norm `sqrt(k |p|^2 + |s|^2)` damping only takes, and the load gives at most `g
+//! = |u|` a time: `|X| <= e_0 = g t`. As the norm of A is at most `a = sqrt(k) + c`, the derivatives have
+//! the bounds `e_(j+1) = a e_j + w^j g`. With `r = max(a, w)` and all times up to T that is `e_j <= r^(j-1)
+//! g (j + r T)`, so for `2 <= j <= J` at most `r^(j-2) (r e_1 + r g (J - 1))` with `e_1 = g (1 + r T)`.
 
 use faer::c64;
 
