@@ -22,6 +22,13 @@
 //!
 //! with the polynomial through both again.
 //!
+//! **Shortly after the start** the motion is small against what it is made of here, and sensitivities there
+//! are compared with nothing else. Up to [`EARLY`] radians the power series serves, with `l_j = (m
+//! t)^j/j!`:
+//!
+//! `X = sum_j a_j`, `a_(j+1) = t/(j + 1) (A a_j + l_j u)`, `a_0 = 0`, and for `X_f` the same with `l_j u_f +
+//! i w' t l_(j-1) u` in the place of `l_j u`.
+//!
 //! **Derivatives by the time** follow from the equation itself, `X^(j+1) = A X^(j) + m^j u exp(m t)`.
 //!
 //! **Bounds.** In the energy norm `sqrt(k |p|^2 + |s|^2)` damping only takes, and the load gives at most `g
@@ -36,6 +43,11 @@ use super::{
     divided::complex_divided,
 };
 
+/// Radians of the load up to which the power series serves.
+const EARLY: f64 = 1.0;
+/// Its terms: they fall like `j/j!`, and the first one left out is below 1e-20 of the first.
+const TERMS: u32 = 22;
+
 /// The load and its block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Resonant {
@@ -46,22 +58,6 @@ pub(super) struct Resonant {
     /// `[beta, phi]` at the start.
     input: [c64; 2],
     input_by_frequency: [c64; 2],
-}
-
-/// A function of the block's matrix, `constant + linear A`.
-#[derive(Debug, Clone, Copy)]
-struct OfMatrix {
-    constant: c64,
-    linear: c64,
-}
-
-/// What the motion is made of at a time.
-struct Parts {
-    /// `exp(i w t)`.
-    rotation: c64,
-    /// `G(A)` and `H(A)`.
-    motion: OfMatrix,
-    by_frequency: OfMatrix,
 }
 
 impl Resonant {
@@ -76,8 +72,8 @@ impl Resonant {
 
     /// `[p, s]` at `time` after the start, and its derivatives by the time.
     pub fn derivatives<const N: usize>(&self, time: f64) -> [[f64; 2]; N] {
-        let Parts { rotation, motion, .. } = self.parts(time);
-        let mut state = self.apply(motion, self.input).map(|value| value.re);
+        let rotation = self.rotation(time);
+        let mut state = self.motion(time, rotation).map(|value| value.re);
         let mut load = self.input.map(|value| value * rotation);
         std::array::from_fn(|_| {
             let here = state;
@@ -90,11 +86,8 @@ impl Resonant {
 
     /// Derivatives of `[p, s]` and of its rate by the frequency.
     pub fn by_frequency(&self, time: f64) -> [[f64; 2]; 2] {
-        let Parts { rotation, motion, by_frequency } = self.parts(time);
-        let turning = c64::new(0.0, self.frequency.1);
-        let (own, turned) =
-            (self.apply(motion, self.input_by_frequency), self.apply(by_frequency, self.input));
-        let [p, s] = [0, 1].map(|row| (own[row] + turning * turned[row]).re);
+        let (rotation, turning) = (self.rotation(time), c64::new(0.0, self.frequency.1));
+        let [p, s] = self.motion_by_frequency(time, rotation).map(|value| value.re);
         let load = [0, 1]
             .map(|row| ((self.input_by_frequency[row] + turning * time * self.input[row]) * rotation).re);
         [[p, s], [s + load[0], load[1] - self.stiffness * p - self.damping * s]]
@@ -132,28 +125,78 @@ impl Resonant {
         self.stiffness.sqrt() + self.damping
     }
 
-    fn parts(&self, t: f64) -> Parts {
-        let ((w, _), half) = (self.frequency, 0.5 * self.damping);
-        let square = self.stiffness - half * half;
-        let n = square.sqrt();
-        let (sin, cos) = sine_and_cosine(w * t);
-        let rotation = c64::new(cos, sin);
-        let (near, far) = (c64::new(-half, n), c64::new(-half, -n));
-        let apart = c64::new(-half, (square - w * w) / (n + w)) * t;
-        let [first, second] = complex_divided(apart);
-        let of_far = far - c64::new(0.0, w);
-        let vibration = rotation * (apart * first + 1.0);
-        let motion = [rotation * first * t, (vibration.conj() - rotation) / of_far];
-        let by_frequency = [rotation * second * (t * t), (motion[1] - rotation * t) / of_far];
-        let through = |[at_near, at_far]: [c64; 2]| {
-            let linear = (at_near - at_far) / c64::new(0.0, 2.0 * n);
-            OfMatrix { constant: at_near - near * linear, linear }
-        };
-        Parts { rotation, motion: through(motion), by_frequency: through(by_frequency) }
+    /// `exp(m t)`.
+    fn rotation(&self, t: f64) -> c64 {
+        let (sin, cos) = sine_and_cosine(self.frequency.0 * t);
+        c64::new(cos, sin)
     }
 
-    fn apply(&self, of: OfMatrix, [p, s]: [c64; 2]) -> [c64; 2] {
-        let moved = [s, -p * self.stiffness - s * self.damping];
-        [of.constant * p + of.linear * moved[0], of.constant * s + of.linear * moved[1]]
+    /// `X`.
+    fn motion(&self, t: f64, rotation: c64) -> [c64; 2] {
+        if self.frequency.0 * t.abs() <= EARLY {
+            return self.early(t, |now, _| self.input.map(|u| u * now));
+        }
+        let [motion, _] = self.at_eigenvalues(t, rotation);
+        self.apply(motion, self.input)
+    }
+
+    /// `X_f`.
+    fn motion_by_frequency(&self, t: f64, rotation: c64) -> [c64; 2] {
+        let turning = c64::new(0.0, self.frequency.1);
+        if self.frequency.0 * t.abs() <= EARLY {
+            let load = |row: usize, now: c64, before: c64| {
+                self.input_by_frequency[row] * now + self.input[row] * before * turning * t
+            };
+            return self.early(t, |now, before| [0, 1].map(|row| load(row, now, before)));
+        }
+        let [motion, moved] = self.at_eigenvalues(t, rotation);
+        let [own, turned] = [self.apply(motion, self.input_by_frequency), self.apply(moved, self.input)];
+        [0, 1].map(|row| own[row] + turning * turned[row])
+    }
+
+    /// The power series.
+    ///
+    /// * `load`: what takes the place of `l_j u`, from `l_j` and `l_(j-1)`.
+    fn early(&self, t: f64, load: impl Fn(c64, c64) -> [c64; 2]) -> [c64; 2] {
+        let zero = c64::new(0.0, 0.0);
+        let (mut term, mut sum) = ([zero; 2], [zero; 2]);
+        let (mut now, mut before) = (c64::new(1.0, 0.0), zero);
+        for j in 1..=TERMS {
+            let (moved, load, part) = (self.times(term), load(now, before), t / f64::from(j));
+            term = [0, 1].map(|row| (moved[row] + load[row]) * part);
+            sum = [0, 1].map(|row| sum[row] + term[row]);
+            (now, before) = (now * c64::new(0.0, self.frequency.0 * part), now);
+        }
+        sum
+    }
+
+    /// `G` and `H` at both eigenvalues.
+    fn at_eigenvalues(&self, t: f64, rotation: c64) -> [[c64; 2]; 2] {
+        let (w, half, n) = (self.frequency.0, 0.5 * self.damping, self.turning());
+        let apart = c64::new(-half, (self.stiffness - half * half - w * w) / (n + w)) * t;
+        let [first, second] = complex_divided(apart);
+        let of_far = c64::new(-half, -n - w);
+        let vibration = rotation * (apart * first + 1.0);
+        let motion = [rotation * first * t, (vibration.conj() - rotation) / of_far];
+        [motion, [rotation * second * (t * t), (motion[1] - rotation * t) / of_far]]
+    }
+
+    /// n.
+    fn turning(&self) -> f64 {
+        (self.stiffness - 0.25 * self.damping * self.damping).sqrt()
+    }
+
+    /// What a function of the matrix, from its values at both eigenvalues, makes of a load.
+    fn apply(&self, [near, far]: [c64; 2], load: [c64; 2]) -> [c64; 2] {
+        let (n, half) = (self.turning(), 0.5 * self.damping);
+        let linear = (near - far) / c64::new(0.0, 2.0 * n);
+        let constant = near - c64::new(-half, n) * linear;
+        let moved = self.times(load);
+        [0, 1].map(|row| constant * load[row] + linear * moved[row])
+    }
+
+    /// A times a complex state.
+    fn times(&self, [p, s]: [c64; 2]) -> [c64; 2] {
+        [s, -p * self.stiffness - s * self.damping]
     }
 }

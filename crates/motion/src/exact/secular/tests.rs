@@ -44,9 +44,9 @@ impl Case {
     }
 
     /// Times up to 40 periods or decays.
-    fn times(&self) -> [f64; 6] {
+    fn times(&self) -> [f64; 7] {
         let ((k, c), unit) = (self.block, TAU);
-        [1e-3, 0.04, 0.3, 1.0, 7.0, 40.0].map(|x| x * unit / (k.sqrt() + c).max(0.5))
+        [1e-7, 1e-3, 0.04, 0.3, 1.0, 7.0, 40.0].map(|x| x * unit / (k.sqrt() + c).max(0.5))
     }
 }
 
@@ -144,6 +144,23 @@ fn motions_are_those_of_the_exponential_of_the_joined_system() {
                 states = system.map(|row| row.iter().zip(&states).map(|(a, x)| a * x).sum());
             }
         }
+    }
+}
+
+/// A force `cos(w t)` on a block at rest: `p = t^2/2`, `s = t` and, since its slope by w is `-w t^2`, `p_f = -w
+/// w' t^4/12`, `s_f = -w w' t^3/3`, all but for terms of `(w t)^2`.
+#[test]
+fn shortly_after_the_start_all_digits_are_kept() {
+    let w = TAU * 1.3;
+    let force = [c64::new(0.0, 0.0), c64::new(1.0, 0.0)];
+    let load =
+        SecularLoad::new(0, (w * w * (1.0 + 1e-5), 0.0), force, [c64::new(0.0, 0.0); 2], (w, TAU), 0.0);
+    for time in [1e-9, 1e-7, 1e-5, 1e-3].map(|x| x / w) {
+        let ([[p, s]], [[p_f, s_f], _]) = (load.derivatives(time), load.by_frequency(time));
+        let slope = -w * TAU * time.powi(3);
+        let parts = [p / (0.5 * time * time), s / time, p_f / (slope * time / 12.0), s_f / (slope / 3.0)];
+        let allowed = (w * time).powi(2) + 1e-15;
+        assert!(parts.iter().all(|part| (part - 1.0).abs() < allowed), "{time}: {parts:?}");
     }
 }
 
