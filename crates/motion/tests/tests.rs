@@ -41,6 +41,7 @@ mod resting_contacts;
 mod rigid;
 mod rigid_recursion;
 mod round_hole;
+mod secular_loads;
 mod stick_at_speed;
 mod stiff_contacts;
 mod work;

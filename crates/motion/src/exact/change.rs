@@ -19,7 +19,7 @@
 
 use faer::{Mat, c64};
 
-use super::{block::Blocks, propagator::Propagator, secular::exponential};
+use super::{block::Blocks, matrix_exponential::exponential, propagator::Propagator};
 
 type Square = [[f64; 2]; 2];
 

@@ -4,14 +4,19 @@
 //! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has
 //! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the
 //! denominator (nearly) vanishes - a constant load on a rigid mode, a load on an undamped eigenfrequency -
-//! the solution that starts from rest with the stretch takes its place (`secular.rs`); it stays finite.
+//! the load is *secular*: the solution that starts from rest with the stretch takes its place
+//! (`secular.rs`); it stays finite.
 
 use std::f64::consts::TAU;
 
 use faer::c64;
 
 use super::{
-    block::Blocks, change::Change, elementary::sine_and_cosine, output::Output, secular::SecularLoad,
+    block::Blocks,
+    change::Change,
+    elementary::sine_and_cosine,
+    output::Output,
+    secular::{SecularChange, SecularLoad},
 };
 use crate::{ModalLoad, Stretch, System};
 
@@ -38,6 +43,8 @@ pub(crate) struct Drive {
     start_angle: f64,
     pub(super) orders: Vec<Order>,
     pub(super) secular: Vec<SecularLoad>,
+    /// In the change by the damping: what the secular loads of the motion itself do.
+    secular_changes: Vec<SecularChange>,
     /// Scale of all orders above 0.
     pub(super) scale: f64,
 }
@@ -60,14 +67,15 @@ impl Drive {
         drive
     }
 
-    /// Makes it that of another stretch, if only the phase differs; a resonant load begins with its stretch.
+    /// Makes it that of another stretch, if only the phase differs. Secular loads begin with their stretch:
+    /// so they have to be constant.
     ///
     /// # Returns
     /// Whether it is now.
     pub fn turn_to(&mut self, stretch: &Stretch) -> bool {
         let other = Self::start_angle(stretch);
         let serves = self.circular_frequency == TAU * stretch.frequency_hz
-            && (self.start_angle == other || self.secular.is_empty());
+            && (self.start_angle == other || self.secular.iter().all(SecularLoad::is_constant));
         if serves {
             self.start_angle = other;
         }
@@ -88,8 +96,9 @@ impl Drive {
     pub fn silent(system: &System, stretch: &Stretch) -> Self {
         let circular_frequency = TAU * stretch.frequency_hz;
         let start_angle = Self::start_angle(stretch);
-        let (orders, secular, scale) = (Vec::new(), Vec::new(), system.excitation_scale());
-        Self { circular_frequency, start_angle, orders, secular, scale }
+        let (secular, secular_changes) = (Vec::new(), Vec::new());
+        let (orders, scale) = (Vec::new(), system.excitation_scale());
+        Self { circular_frequency, start_angle, orders, secular, secular_changes, scale }
     }
 
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
@@ -129,7 +138,7 @@ impl Drive {
     }
 
     /// Steady solution of the first `moving` blocks under one order, and its derivative by the frequency;
-    /// what is resonant becomes secular.
+    /// where there is none the load is secular.
     fn steady(
         &mut self,
         blocks: &Blocks,
@@ -215,11 +224,20 @@ impl Drive {
             }
         }
         let n = state.len() / 2;
-        for load in &self.secular {
-            let [p, s] = load.state(time);
-            state[load.block] += factor * p;
-            state[n + load.block] += factor * s;
+        for (block, [[p, s]]) in self.secular_states(time) {
+            state[block] += factor * p;
+            state[n + block] += factor * s;
         }
+    }
+
+    /// The blocks of secular loads, with what these make of their states at `time` and of the derivatives
+    /// by the time.
+    pub(super) fn secular_states<const N: usize>(
+        &self,
+        time: f64,
+    ) -> impl Iterator<Item = (usize, [[f64; 2]; N])> {
+        let loads = self.secular.iter().map(move |load| (load.block, load.derivatives(time)));
+        loads.chain(self.secular_changes.iter().map(move |load| (load.block, load.derivatives(time))))
     }
 
     /// Calls `add(i, value)` with the derivative of the particular state by the frequency at fixed `time`.
@@ -232,9 +250,9 @@ impl Drive {
             }
         }
         for load in &self.secular {
-            let response = load.response(time);
-            add(load.block, response.by_frequency[0]);
-            add(n + load.block, response.by_frequency[1]);
+            let [[p, s], _] = load.by_frequency(time);
+            add(load.block, p);
+            add(n + load.block, s);
         }
     }
 
@@ -244,9 +262,10 @@ impl Drive {
         self.scaled_part().add_state(time, factor / self.scale, state);
     }
 
-    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for a
-    /// change `dA` of the blocks, and modal loads `db` of its orders (as many as there are): the steady
-    /// solution where there is one, from rest elsewhere. Of it only states, values and rates are told.
+    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for
+    /// a change `dA` of the blocks, and modal loads `db` of its orders (as many as there are): the steady
+    /// solution where there is one, from rest elsewhere. Of it only values and their derivatives by the
+    /// time are told, and no bounds.
     pub fn change(
         &self,
         blocks: &Blocks,
@@ -254,7 +273,7 @@ impl Drive {
         (change, loads): (&Change, &[Vec<c64>]),
     ) -> Self {
         let n = blocks.count();
-        let mut changed = Self { orders: Vec::new(), secular: Vec::new(), ..*self };
+        let mut changed = self.without_loads();
         for (index, order) in self.orders.iter().enumerate() {
             let w = order.order * self.circular_frequency;
             let mut input = change.times(&order.state);
@@ -282,7 +301,7 @@ impl Drive {
         for load in &self.secular {
             for pair in change.pairs().iter().filter(|pair| pair.from == load.block) {
                 let block = (blocks.stiffness[pair.to], blocks.damping[pair.to]);
-                changed.secular.push(load.change(pair.to, block, &pair.coupling));
+                changed.secular_changes.push(load.change(pair.to, block, &pair.coupling));
             }
         }
         changed
@@ -292,7 +311,11 @@ impl Drive {
     pub(super) fn scaled_part(&self) -> Self {
         let orders = self.orders.iter().filter(|order| order.order > 0.0).cloned().collect();
         let secular = self.secular.iter().filter(|load| !load.is_constant()).cloned().collect();
-        Self { orders, secular, ..*self }
+        Self { orders, secular, ..self.without_loads() }
+    }
+
+    fn without_loads(&self) -> Self {
+        Self { orders: Vec::new(), secular: Vec::new(), secular_changes: Vec::new(), ..*self }
     }
 }
 

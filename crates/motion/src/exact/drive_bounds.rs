@@ -1,12 +1,12 @@
 //! Bounds on the particular solution (`drive.rs`) and on its derivatives: sums of the amplitudes of its
-//! orders, and what resonant loads can reach.
+//! orders, and what secular loads can reach.
 
 use faer::c64;
 
 use super::{
     drive::{Drive, Order},
+    majorant::Majorant,
     output::Output,
-    secular::SecularLoad,
 };
 
 impl Drive {
@@ -20,7 +20,7 @@ impl Drive {
             bounds.1 += amplitude * w * w * w;
         }
         for load in &self.secular {
-            let (second, third) = load.bounds(output, until);
+            let [_, _, second, third] = load.bounds(output, until);
             bounds.0 += second;
             bounds.1 += third;
         }
@@ -32,33 +32,42 @@ impl Drive {
         let of_order = |order: &Order| {
             magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(4)
         };
-        self.orders.iter().map(of_order).sum::<f64>()
-            + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
+        self.orders.iter().map(of_order).sum::<f64>() + self.secular_bound::<5>(output, until)
     }
 
-    /// Bound on the fifth derivative of the steady part of output `index`; infinite where a load is resonant.
-    pub fn fifth_bound(&self, index: usize) -> f64 {
-        if !self.secular.is_empty() {
-            return f64::INFINITY;
-        }
+    /// Bound on the fifth derivative of the particular part of output `index` until `until`.
+    pub fn fifth_bound(&self, index: usize, output: &Output, until: f64) -> f64 {
         let of_order = |order: &Order| {
             magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(5)
         };
-        self.orders.iter().map(of_order).sum()
+        self.orders.iter().map(of_order).sum::<f64>() + self.secular_bound::<6>(output, until)
     }
 
-    /// Amplitude and circular frequency of each order in the particular part of output `index`; `None` where
-    /// it is not made of these and of a parabola alone.
-    pub fn amplitudes(&self, index: usize) -> Option<impl Iterator<Item = (f64, f64)>> {
-        let of_order =
-            move |order: &Order| (magnitude(order.outputs[index].0), order.order * self.circular_frequency);
-        self.secular.iter().all(SecularLoad::is_parabola).then(|| self.orders.iter().map(of_order))
+    /// Bounds on all derivatives of each part of output `index` until `until`: of the orders, then of secular
+    /// loads.
+    pub fn majorants(&self, index: usize, output: &Output, until: f64) -> impl Iterator<Item = Majorant> {
+        let of_order = move |order: &Order| {
+            let rate = order.order * self.circular_frequency;
+            Majorant { speed: magnitude(order.outputs[index].0) * rate, rate, acceleration: 0.0 }
+        };
+        let secular = self.secular.iter().map(move |load| load.majorant(output, until));
+        self.orders.iter().map(of_order).chain(secular)
     }
 
-    /// Largest value that the part of resonant loads in an output can take until `until`, for rounding
+    /// Largest value that the part of secular loads in an output can take until `until`, for rounding
     /// margins.
     pub fn secular_magnitude(&self, output: &Output, until: f64) -> f64 {
-        self.secular.iter().map(|load| load.magnitude(output, until)).sum()
+        self.secular_bound::<1>(output, until)
+    }
+
+    /// Largest velocity that the part of secular loads in an output can take until `until`.
+    pub fn secular_speed(&self, output: &Output, until: f64) -> f64 {
+        self.secular_bound::<2>(output, until)
+    }
+
+    /// Bound on the derivative `N - 1` of the part of secular loads in an output until `until`.
+    fn secular_bound<const N: usize>(&self, output: &Output, until: f64) -> f64 {
+        self.secular.iter().map(|load| load.bounds::<N>(output, until)[N - 1]).sum()
     }
 
     /// Circular frequency of the highest order [rad/s].

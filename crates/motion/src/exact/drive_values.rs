@@ -11,12 +11,11 @@ use super::{
     elementary::{self, TURNING},
     lanes::vectorised,
     output::Output,
-    secular::SecularLoad,
 };
 
 impl Drive {
     /// Acceleration of the particular part of output `index` (with the row `output`) and its derivatives at
-    /// `time`: of resonant loads the latter by differences, which suffice to steer Newton's method.
+    /// `time`.
     pub fn acceleration_jet(&self, index: usize, output: &Output, time: f64) -> Jet {
         let mut jet = Jet::default();
         for order in &self.orders {
@@ -26,22 +25,18 @@ impl Drive {
             jet.slope += square * order.order * self.circular_frequency * value.im;
             jet.curvature += square * square * value.re;
         }
-        if !self.secular.is_empty() {
-            let n = output.row.len() / 2;
-            let at = |time: f64| {
-                let of_load = |load: &SecularLoad| {
-                    let [p, s] = load.response(time).curvature;
-                    output.row[load.block] * p + output.row[n + load.block] * s
-                };
-                self.secular.iter().map(of_load).sum::<f64>()
-            };
-            let step = 1e-3 / self.circular_frequency;
-            let [before, here, after] = [time - step, time, time + step].map(at);
-            jet.value += here;
-            jet.slope += (after - before) / (2.0 * step);
-            jet.curvature += (after - 2.0 * here + before) / (step * step);
+        for [value, slope, curvature] in self.secular_parts::<5>(output, time).map(|[.., a, b, c]| [a, b, c])
+        {
+            jet.value += value;
+            jet.slope += slope;
+            jet.curvature += curvature;
         }
         jet
+    }
+
+    /// What `output` reads of each secular load at `time`, and its derivatives by the time.
+    fn secular_parts<const N: usize>(&self, output: &Output, time: f64) -> impl Iterator<Item = [f64; N]> {
+        self.secular_states(time).map(|(block, states)| states.map(|state| read(output, block, state)))
     }
 
     /// Particular part of output `index` (with the row `output`) and its derivatives at `time`.
@@ -54,13 +49,10 @@ impl Drive {
             jet.slope -= w * value.im;
             jet.curvature -= w * w * value.re;
         }
-        let n = output.row.len() / 2;
-        for load in &self.secular {
-            let (b, response) = (load.block, load.response(time));
-            let [p, s] = [output.row[b], output.row[n + b]];
-            jet.value += p * response.state[0] + s * response.state[1];
-            jet.slope += p * response.rate[0] + s * response.rate[1];
-            jet.curvature += p * response.curvature[0] + s * response.curvature[1];
+        for [value, slope, curvature] in self.secular_parts(output, time) {
+            jet.value += value;
+            jet.slope += slope;
+            jet.curvature += curvature;
         }
         jet
     }
@@ -83,11 +75,9 @@ impl Drive {
                 values[k] += amplitude.re * cosines[k] - amplitude.im * sines[k];
             }
         }
-        let n = output.row.len() / 2;
-        for load in &self.secular {
-            for (value, c) in values.iter_mut().zip(c) {
-                let state = load.state(start + c * length);
-                *value += output.row[load.block] * state[0] + output.row[n + load.block] * state[1];
+        for (value, c) in values.iter_mut().zip(c) {
+            for [part] in self.secular_parts(output, start + c * length) {
+                *value += part;
             }
         }
     }
@@ -128,12 +118,10 @@ impl Drive {
                 values[k] += re * cosines[k] - im * sines[k];
             }
         }
-        let n = output.row.len() / 2;
         for load in &self.secular {
             for (value, c) in values.iter_mut().zip(c) {
-                let by_frequency = load.response(start + c * length).by_frequency;
-                *value +=
-                    output.row[load.block] * by_frequency[0] + output.row[n + load.block] * by_frequency[1];
+                let [by_frequency, _] = load.by_frequency(start + c * length);
+                *value += read(output, load.block, by_frequency);
             }
         }
         values
@@ -180,7 +168,6 @@ impl Drive {
         (start, length): (f64, f64),
         c: &[f64; NODES],
     ) -> [f64; NODES] {
-        let n = output.row.len() / 2;
         let at = |time: f64| {
             let mut rate = 0.0;
             for order in &self.orders {
@@ -190,14 +177,18 @@ impl Drive {
                 rate -= (sum * self.rotation(order, time)).im;
             }
             for load in &self.secular {
-                let by_frequency = load.rate_by_frequency(time);
-                rate +=
-                    output.row[load.block] * by_frequency[0] + output.row[n + load.block] * by_frequency[1];
+                let [_, by_frequency] = load.by_frequency(time);
+                rate += read(output, load.block, by_frequency);
             }
             rate
         };
         c.map(|c| at(start + c * length))
     }
+}
+
+/// What an output reads of the state of a block.
+fn read(output: &Output, block: usize, [p, s]: [f64; 2]) -> f64 {
+    output.row[block] * p + output.row[output.row.len() / 2 + block] * s
 }
 
 /// Cosines and sines of the angles of the nodes of a step.

@@ -48,31 +48,47 @@
 //! z + h^2 k) D + h^2 z sigma phi)`; since `h c z + h^2 k <= z^2`, that is z times the first.
 //!
 //! As `D_0` serves what the energy norm E of the block can be in the step, `E(0) + h sum_a |B_a| max |F_a|`,
-//! times the output's factors for first and second derivatives. A harmonic of the load with the amplitude A
-//! in the output and `z = w h` is such a block without forces, with `D_0 = A z`. As `C B` vanishes, `r' = c'
-//! sum d_1` by s for the whole output, hence `r_n = [gamma sum D]_(n-1)/n` for the displacement and `h r_n =
-//! [sum D]_n` for the velocity. In a smooth step with a mode of the amplitude A this is `A z^n/n!`; with
-//! `Omega = (NODES!)^2/(2 NODES)!`, 4e-7, some 1e-11 A at z = 2.
+//! times the output's factors for first and second derivatives. As `C B` vanishes, `r' = c' sum d_1` by s for
+//! the whole output, hence `r_n = [gamma sum D]_(n-1)/n` for the displacement and `h r_n = [sum D]_n` for the
+//! velocity. In a smooth step with a mode of the amplitude A this is `A z^n/n!`; with `Omega = (NODES!)^2/(2
+//! NODES)!`, 4e-7, some 1e-11 A at z = 2.
 //!
-//! **Theorem 3.** The series of one recurrence with the largest of all z, and with the sums of all `D_0` and
+//! # Loads
+//! The part of a load in the output is a known function of the time, q, with a bound on all its derivatives
+//! (`majorant.rs`): `|q'| <= v` and `|q^(j)| <= w^(j-2) (w v + g)` from the second on. For an order of the
+//! load, with the amplitude A in the output, `v = A w` and `g = 0`.
+//!
+//! **Theorem 3.** With `z = w h`, `D_0 = h v` and `D' = gamma (z D + h^2 g)`, `d_1 << D` for `d_1 = h q'`.
+//!
+//! *Proof.* Let `d_j` be the derivative j of q by tau; by s, that of `d_j` is `c' d_(j+1)`. Claim: `d_1 <<
+//! D` and, for `j >= 2`, `d_j << z^(j-2) (z D + h^2 g)`. The first coefficients are the bounds. If all hold
+//! up to the coefficient i, then `(i + 1) d_(1,i+1)` is at most `[gamma (z D + h^2 g)]_i = (i + 1)
+//! D_(i+1)`, and `(i + 1) d_(j,i+1)` at most `[gamma z^(j-1) (z D + h^2 g)]_i = z^(j-1) (i + 1) D_(i+1)`,
+//! which is `i + 1` times the coefficient of the claim. Coefficients up to `n + 1` are all that is used, so
+//! derivatives up to that suffice.
+//!
+//! So a part of a load enters like a block, with the constant `h^2 g` as driving series. A constant load on a
+//! free body without a damper makes a parabola: `z = 0`, and nothing of it is left in `r_n`.
+//!
+//! **Theorem 4.** The series of one recurrence with the largest of all z, and with the sums of all `D_0` and
 //! of all `sigma phi`, bounds the sum of all D.
 //!
 //! *Proof.* The recurrence has no negative factor, so a larger z makes no coefficient smaller; with one z for
 //! all it is linear, and the series of the sums is the sum of the series.
 //!
+//! The sums over the blocks are constants of the structure. This bound costs a tenth of the sum of all D; a
+//! few times as large, it shows nearly always what that would. Only where it does not the sum is taken.
+//!
 //! # Round holes
 //! The guard of a hole is its reading less the clearance, `(y^2 + z^2)/(2 c) - c/2` (`hole.rs`).
 //!
-//! **Theorem 4.** Let D be the sums of the series of theorem 2 for the outputs y and z, and Y and Z the
-//! series with `Y_0 = |y(0)| + D_0` and `Y_j = [gamma D]_(j-1)/j`. Then `r_n = [Y Y + Z Z]_n/(2 c)`.
+//! **Theorem 5.** Let D be the sums of the series of theorems 2 and 3 for the outputs y and z, and Y and Z
+//! the series with `Y_0 = |y(0)| + D_0` and `Y_j = [gamma D]_(j-1)/j`. Then `r_n = [Y Y + Z Z]_n/(2 c)`.
 //!
-//! *Proof.* By s the derivative of y is `c'` times `sum d_1`, so `y << Y` but for the first coefficient. That
-//! bounds y itself, which moves from y(0) by no more than `h max |y'| <= D_0`. Products keep the relation,
-//! and
-//! `n > 0` leaves the constant out.
-//!
-//! The sums over the blocks are constants of the structure. This bound costs a tenth of the sum of all D; a
-//! few times as large, it shows nearly always what that would. Only where it does not the sum is taken.
+//! *Proof.* By s the derivative of y is `c'` times `sum d_1`, so `y << Y` but for the first coefficient.
+//! That bounds y itself, which moves from y(0) by no more than `h max |y'| <= D_0`. Products keep the
+//! relation, and `n > 0` leaves the constant out. A parabola in y has no part in `r_n` for y alone; here it
+//! has, by its product with what else moves.
 
 mod remainder;
 

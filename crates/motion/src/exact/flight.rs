@@ -215,7 +215,7 @@ impl ExactIntegrator {
         else {
             return elastic;
         };
-        let rounding = 8.0 * f64::EPSILON * self.speed_bound(state, touch.element);
+        let rounding = self.velocity_rounding(state, touch.element);
         ClearanceBounds {
             second: pressure.displacement * elastic.second + pressure.velocity * elastic.third,
             third: 0.0,
@@ -223,6 +223,12 @@ impl ExactIntegrator {
                 + pressure.velocity * rounding
                 + 8.0 * f64::EPSILON * pressure.offset,
         }
+    }
+
+    /// Rounding margin of the velocity of an output, from the homogeneous state now.
+    pub(super) fn velocity_rounding(&self, state: &[f64], output: usize) -> f64 {
+        let secular = self.drive.secular_speed(&self.outputs[output], self.stretch.duration());
+        8.0 * f64::EPSILON * (self.speed_bound(state, output) + secular)
     }
 
     /// Bounds on a clearance of `element`, of a hole on its reading, over a time ahead from the homogeneous
@@ -240,8 +246,8 @@ impl ExactIntegrator {
         let jets = both.map(|output| self.output_jet(state, output, now));
         let bounds = both.map(|output| {
             let OutputReach { second, third, magnitude } = self.reach(state, output, until);
-            let resonant = !self.drive.secular.is_empty();
-            let first = if resonant { f64::INFINITY } else { self.speed_bound(state, output) };
+            let first =
+                self.speed_bound(state, output) + self.drive.secular_speed(&self.outputs[output], until);
             OutputBounds { value: magnitude, first, second, third, margin: 8.0 * f64::EPSILON * magnitude }
         });
         reading_bounds(hole, jets, bounds, until - now)

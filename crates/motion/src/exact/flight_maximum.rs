@@ -112,7 +112,7 @@ pub(super) struct FlightFunction<'a> {
     rows: [&'a [f64]; 3],
     /// Bound on the second derivative of the function.
     bound: f64,
-    /// Bound on the third derivative of the function; infinite where none is known.
+    /// Bound on the third derivative of the function.
     third: f64,
 }
 
@@ -133,7 +133,7 @@ impl<'a> FlightFunction<'a> {
             (rows, [&output.second_bound, &output.third_bound], drive.bounds(index, output, until))
         } else {
             let rows = [&output.acceleration_row, &output.jerk_row, &output.snap_row];
-            let driven = (drive.fourth_bound(index, output, until), drive.fifth_bound(index));
+            let driven = (drive.fourth_bound(index, output, until), drive.fifth_bound(index, output, until));
             (rows, [&output.fourth_bound, &output.fifth_bound], driven)
         };
         Self {

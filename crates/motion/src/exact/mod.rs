@@ -7,7 +7,9 @@
 //!   not.
 //! * `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs`: the structure as independent second-order
 //!   blocks.
-//! * `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs`: the particular solution of the load.
+//! * `drive.rs`, `drive_values.rs`, `drive_bounds.rs`: the particular solution of the load.
+//! * `secular.rs`, `matrix_exponential.rs`: loads without a steady response.
+//! * `majorant.rs`: what bounds all derivatives of the part of a load.
 //! * `output.rs`: rows that read displacements, and bounds on them.
 //! * `clearance.rs`, `flight.rs`: certified search for the next contact.
 //! * `collocation.rs`, `recurrence.rs`: the nodes of a step and its constants.
@@ -86,6 +88,8 @@ mod impact;
 mod kink;
 mod lanes;
 mod lu;
+mod majorant;
+mod matrix_exponential;
 mod maxima;
 mod memory;
 mod moments;

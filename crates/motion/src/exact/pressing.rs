@@ -138,7 +138,7 @@ impl ExactIntegrator {
                 let at = jet(e);
                 let force = self.laws[e].pressing_force(at.value, at.slope);
                 let displacement = self.bounds(&run.state, e, self.stretch.duration()).margin;
-                let velocity = 8.0 * f64::EPSILON * self.speed_bound(&run.state, e);
+                let velocity = self.velocity_rounding(&run.state, e);
                 let rounding = force.slope.abs() * displacement + force.damping.abs() * velocity;
                 margin += self.direct_part(j, e).abs() * (rounding + 8.0 * f64::EPSILON * force.value.abs());
             }

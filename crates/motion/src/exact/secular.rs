@@ -1,39 +1,59 @@
-//! A load at (or very near) resonance: the motion it drives from rest.
+//! Loads without a steady response, and the motion that they drive from rest.
 //!
-//! `p' = s + Re(beta e)`, `s' = -k p - c s + Re(phi e)`, `e = exp(i (w t + angle))`, from `p = s = 0`. With
-//! `C = Re e`, `S = Im e` and `t C`, `t S` as further states, the motion and its derivative by the frequency
-//! solve one constant linear system of eight equations, whose exponential is finite whatever the distance
-//! from resonance. The constant load on a free block (gravity on a rigid mode) is the parabola.
+//! A load `Re(u exp(i w t))`, `u = [beta; phi]`, on a block `p' = s + beta`, `s' = -k p - c s + phi` has no
+//! steady response where `i w` is an eigenvalue of the block, and one that loses its digits nearby. There are
+//! two kinds of such *secular* loads, by what `drive.rs` takes for near:
+//!
+//! - *free* (`free.rs`): a constant load on a block without stiffness, as gravity or a torque on a rigid
+//!   mode, damped or not;
+//! - *resonant* (`resonance.rs`): a harmonic load on a block of nearly that eigenfrequency and with hardly
+//!   any damping.
+//!
+//! For both the particular solution is the motion from rest at the start of the stretch. Of it this module
+//! tells, in closed form and without cancellation,
+//!
+//! - the state with its derivatives by the time, [`SecularLoad::derivatives`];
+//! - the derivative of state and rate by the frequency, [`SecularLoad::by_frequency`];
+//! - bounds on each derivative of what an output reads, [`SecularLoad::bounds`], and one on all of them,
+//!   [`SecularLoad::majorant`] (`majorant.rs`);
+//! - what it does to another block where the damping changes, [`SecularLoad::change`] (`secular/change.rs`).
+//!
+//! A free load is constant: its motion from rest is the same whatever the phase at which a stretch begins.
+
+mod change;
+mod divided;
+mod free;
+mod resonance;
+
+#[cfg(test)]
+mod tests;
 
 use faer::c64;
 
-use super::output::Output;
+use super::{majorant::Majorant, output::Output};
+pub(crate) use change::SecularChange;
+use change::Source;
+use free::Free;
+use resonance::Resonant;
 
-const SIZE: usize = 8;
-type Matrix<const N: usize> = [[f64; N]; N];
-
-/// A resonant load on one block.
+/// A load on one block without a steady response.
 #[derive(Debug, Clone)]
 pub(crate) struct SecularLoad {
     pub block: usize,
-    stiffness: f64,
-    damping: f64,
-    frequency: f64,
-    input: [c64; 2],
-    is_change: bool,
-    system: Matrix<SIZE>,
+    source: Source,
+    kind: Kind,
 }
 
-/// Motion of the block, from rest at the start of the stretch.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SecularResponse {
-    pub state: [f64; 2],
-    pub rate: [f64; 2],
-    pub curvature: [f64; 2],
-    pub by_frequency: [f64; 2],
+enum Kind {
+    Free(Free),
+    Resonant(Resonant),
 }
 
 impl SecularLoad {
+    /// A load of order 0 acts on a block without stiffness, any other near the resonance of one with hardly
+    /// any damping.
+    ///
     /// * `(k, c)`: the block; `input`: `[beta, phi]`; `input_by_frequency` [1/Hz].
     /// * `(w, rate)`: circular frequency and its derivative by the excitation frequency.
     /// * `angle`: phase of the load at the start of the stretch.
@@ -46,177 +66,56 @@ impl SecularLoad {
         angle: f64,
     ) -> Self {
         let turned = c64::new(angle.cos(), angle.sin());
-        let input = input.map(|value| value * turned);
-        let input_by_frequency = input_by_frequency.map(|value| value * turned);
-        let mut system = [[0.0; SIZE]; SIZE];
-        for offset in [0, 2] {
-            system[offset][offset + 1] = 1.0;
-            system[offset + 1][offset] = -stiffness;
-            system[offset + 1][offset + 1] = -damping;
-        }
-        for row in 0..2 {
-            system[row][4] = input[row].re;
-            system[row][5] = -input[row].im;
-            system[2 + row][4] = input_by_frequency[row].re;
-            system[2 + row][5] = -input_by_frequency[row].im;
-            system[2 + row][6] = -rate * input[row].im;
-            system[2 + row][7] = -rate * input[row].re;
-        }
-        system[4][5] = -frequency;
-        system[5][4] = frequency;
-        system[6][7] = -frequency;
-        system[7][6] = frequency;
-        system[6][4] = 1.0;
-        system[7][5] = 1.0;
-        Self { block, stiffness, damping, frequency, input, is_change: false, system }
-    }
-
-    /// The change of another block (or of the same) by what this load does, `s' = A s + K x` from rest; of it
-    /// only [`SecularLoad::state`] is told.
-    ///
-    /// * `block`, `(k, c)`: the block that changes; `coupling`: `K`.
-    pub fn change(&self, block: usize, (stiffness, damping): (f64, f64), coupling: &[[f64; 2]; 2]) -> Self {
-        let mut system = [[0.0; SIZE]; SIZE];
-        for (offset, k, c) in [(0, stiffness, damping), (2, self.stiffness, self.damping)] {
-            system[offset][offset + 1] = 1.0;
-            system[offset + 1][offset] = -k;
-            system[offset + 1][offset + 1] = -c;
-        }
-        for row in 0..2 {
-            system[row][2..4].copy_from_slice(&coupling[row]);
-            system[2 + row][4..6].copy_from_slice(&self.system[row][4..6]);
-        }
-        system[4][5] = -self.frequency;
-        system[5][4] = self.frequency;
-        Self { block, stiffness, damping, system, is_change: true, ..*self }
+        let [input, by_frequency] = [input, input_by_frequency].map(|input| input.map(|u| u * turned));
+        let kind = if frequency == 0.0 {
+            Kind::Free(Free::new(damping, input.map(|u| u.re), by_frequency.map(|u| u.re)))
+        } else {
+            Kind::Resonant(Resonant::new((stiffness, damping), input, by_frequency, (frequency, rate)))
+        };
+        Self { block, source: Source { block: (stiffness, damping), input, frequency }, kind }
     }
 
     /// Whether the load is of order 0.
     pub fn is_constant(&self) -> bool {
-        self.frequency == 0.0
+        matches!(self.kind, Kind::Free(_))
     }
 
-    /// Whether it is a constant load on a block without stiffness and damping.
-    pub fn is_parabola(&self) -> bool {
-        self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0 && !self.is_change
-    }
-
-    /// The motion at `time` after the start.
-    pub fn response(&self, time: f64) -> SecularResponse {
-        let (state, by_frequency) = self.motion(time);
-        let (sin, cos) = (self.frequency * time).sin_cos();
-        let rotation = c64::new(cos, sin);
-        let load = self.input.map(|value| (value * rotation).re);
-        let load_rate = self.input.map(|value| (value * rotation * c64::new(0.0, self.frequency)).re);
-        let rate = [state[1] + load[0], -self.stiffness * state[0] - self.damping * state[1] + load[1]];
-        let curvature =
-            [rate[1] + load_rate[0], -self.stiffness * rate[0] - self.damping * rate[1] + load_rate[1]];
-        SecularResponse { state, rate, curvature, by_frequency }
-    }
-
-    /// `[p, s]` at `time` after the start.
-    pub fn state(&self, time: f64) -> [f64; 2] {
-        self.motion(time).0
-    }
-
-    fn motion(&self, time: f64) -> ([f64; 2], [f64; 2]) {
-        if self.is_parabola() { self.parabola(time) } else { self.exponential(time) }
-    }
-
-    /// Derivative of the rate by the frequency at `time` after the start.
-    pub fn rate_by_frequency(&self, time: f64) -> [f64; 2] {
-        let [p, s] = self.response(time).by_frequency;
-        let (sin, cos) = (self.frequency * time).sin_cos();
-        let load = |row: usize| {
-            let input = &self.system[2 + row];
-            input[4] * cos + input[5] * sin + time * (input[6] * cos + input[7] * sin)
-        };
-        [s + load(0), -self.stiffness * p - self.damping * s + load(1)]
-    }
-
-    fn parabola(&self, time: f64) -> ([f64; 2], [f64; 2]) {
-        let [beta, phi] = [self.system[0][4], self.system[1][4]];
-        let [beta_f, phi_f] = [self.system[2][4], self.system[3][4]];
-        let half = 0.5 * time * time;
-        ([beta * time + phi * half, phi * time], [beta_f * time + phi_f * half, phi_f * time])
-    }
-
-    fn exponential(&self, time: f64) -> ([f64; 2], [f64; 2]) {
-        let exponential = exponential(&self.system, time);
-        let column = |row: usize| exponential[row][4];
-        ([column(0), column(1)], [column(2), column(3)])
-    }
-
-    /// Bound on the part that `output` reads, until `until`.
-    pub fn magnitude(&self, output: &Output, until: f64) -> f64 {
-        let n = output.row.len() / 2;
-        let [beta, phi] = self.input.map(c64::norm);
-        let root = self.stiffness.sqrt();
-        let speed = (root * beta + phi) * until;
-        let displacement = (beta * until + 0.5 * phi * until * until).min(speed / root);
-        output.row[self.block].abs() * displacement + output.row[n + self.block].abs() * speed
-    }
-
-    /// Bounds on the second and third derivative of the part that `output` reads, until `until`.
-    pub fn bounds(&self, output: &Output, until: f64) -> (f64, f64) {
-        let [second, third, _] = self.derivative_bounds(output, until);
-        (second, third)
-    }
-
-    /// Bound on the fourth derivative of the part that `output` reads, until `until`.
-    pub fn fourth_bound(&self, output: &Output, until: f64) -> f64 {
-        self.derivative_bounds(output, until)[2]
-    }
-
-    /// Bounds on the second to fourth derivative.
-    ///
-    /// The energy norm grows at most like `g t`, `g = sqrt(k) |beta| + |phi|`, since damping only takes.
-    fn derivative_bounds(&self, output: &Output, until: f64) -> [f64; 3] {
-        let n = output.row.len() / 2;
-        let [beta, phi] = self.input.map(c64::norm);
-        let root = self.stiffness.sqrt();
-        let norm = (root * beta + phi) * until;
-        let (p, s) = (output.row[self.block].abs(), output.row[n + self.block].abs());
-        let (c, w, k) = (self.damping, self.frequency, self.stiffness);
-        let s_1 = (root + c) * norm + phi;
-        let s_2 = k * (norm + beta) + c * s_1 + w * phi;
-        let s_3 = k * (s_1 + w * beta) + c * s_2 + w * w * phi;
-        let s_4 = k * (s_2 + w * w * beta) + c * s_3 + w * w * w * phi;
-        [
-            p * (s_1 + w * beta) + s * s_2,
-            p * (s_2 + w * w * beta) + s * s_3,
-            p * (s_3 + w * w * w * beta) + s * s_4,
-        ]
-    }
-}
-
-fn multiply<const N: usize>(x: &Matrix<N>, y: &Matrix<N>) -> Matrix<N> {
-    let mut product = [[0.0; N]; N];
-    for i in 0..N {
-        for k in 0..N {
-            for j in 0..N {
-                product[i][j] += x[i][k] * y[k][j];
-            }
+    /// `[p, s]` at `time` after the start, and its derivatives by the time.
+    pub fn derivatives<const N: usize>(&self, time: f64) -> [[f64; 2]; N] {
+        match &self.kind {
+            Kind::Free(free) => free.derivatives(time),
+            Kind::Resonant(resonant) => resonant.derivatives(time),
         }
     }
-    product
-}
 
-/// `exp(A t)` by Taylor's series of `A t / 2^j` and j squarings.
-pub(super) fn exponential<const N: usize>(system: &Matrix<N>, time: f64) -> Matrix<N> {
-    let norm =
-        system.iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max) * time.abs();
-    let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
-    let scaled = system.map(|row| row.map(|value| value * time / 2f64.powi(squarings)));
-    let mut sum = [[0.0; N]; N];
-    (0..N).for_each(|i| sum[i][i] = 1.0);
-    let mut term = sum;
-    for m in 1..=18 {
-        term = multiply(&term, &scaled).map(|row| row.map(|value| value / f64::from(m)));
-        (0..N).for_each(|i| (0..N).for_each(|j| sum[i][j] += term[i][j]));
+    /// Derivatives of `[p, s]` and of its rate by the frequency at `time` after the start.
+    pub fn by_frequency(&self, time: f64) -> [[f64; 2]; 2] {
+        match &self.kind {
+            Kind::Free(free) => free.by_frequency(time),
+            Kind::Resonant(resonant) => resonant.by_frequency(time),
+        }
     }
-    for _ in 0..squarings {
-        sum = multiply(&sum, &sum);
+
+    /// Bounds on the part that `output` reads and on its derivatives by the time, until `until`.
+    pub fn bounds<const N: usize>(&self, output: &Output, until: f64) -> [f64; N] {
+        match &self.kind {
+            Kind::Free(free) => free.bounds(self.block, output, until),
+            Kind::Resonant(resonant) => resonant.bounds(self.block, output, until),
+        }
     }
-    sum
+
+    /// Bound on all derivatives of the part that `output` reads, until `until`.
+    pub fn majorant(&self, output: &Output, until: f64) -> Majorant {
+        match &self.kind {
+            Kind::Free(free) => free.majorant(self.block, output, until),
+            Kind::Resonant(resonant) => resonant.majorant(self.block, output, until),
+        }
+    }
+
+    /// The change `y' = A y + K x` from rest of another block, or of the same, by what this load does, x.
+    ///
+    /// * `block`, `(k, c)`: the block that changes; `coupling`: `K`.
+    pub fn change(&self, block: usize, of: (f64, f64), coupling: &[[f64; 2]; 2]) -> SecularChange {
+        SecularChange::new(block, of, coupling, &self.source)
+    }
 }

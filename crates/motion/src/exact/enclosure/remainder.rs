@@ -1,4 +1,4 @@
-//! The bound on the derivatives of a guard over a step with forces: theorems 2 and 3 of `enclosure.rs`.
+//! The bound on the derivatives of a guard over a step with forces: theorems 2 to 5 of `enclosure.rs`.
 
 use super::{
     super::{
@@ -6,6 +6,7 @@ use super::{
         block::Blocks,
         collocation::{Grading, NODES},
         lanes::{raise, vectorised},
+        majorant::Majorant,
         output::Output,
         run::Run,
     },
@@ -15,6 +16,8 @@ use crate::law::RoundHole;
 
 /// Binomial coefficients of `NODES - 1`.
 pub(super) const BINOMIALS: [f64; NODES] = binomials();
+
+const _: () = assert!(MOST < Majorant::DERIVATIVES as usize, "every coefficient in use is bounded");
 
 /// What the blocks of a structure have in common in the bound on the derivatives of an output.
 #[derive(Debug, Clone, Default)]
@@ -67,7 +70,6 @@ fn sigma(output: &Output, input: &[f64], (i, rate): (usize, f64)) -> f64 {
 impl ExactIntegrator {
     /// A bound on `r_n` from what all blocks have in common: never below [`remainder`](Self::remainder).
     pub(super) fn common_remainder(&self, run: &Run, element: usize, [alpha, beta]: [f64; 2]) -> f64 {
-        let Some(orders) = self.drive.amplitudes(element) else { return f64::INFINITY };
         let (step, common) = (&self.step, &self.in_common[element]);
         let (length, rule) = (step.length, step.grading().rule());
         let norms = common.of_norms.iter().enumerate();
@@ -79,19 +81,18 @@ impl ExactIntegrator {
             start += length * factors[0] * majorant[0];
             (0..NODES).for_each(|j| driven[j] += length * length * factors[1] * majorant[j]);
         }
-        for (amplitude, frequency) in orders {
-            start += amplitude * frequency;
-            rate = rate.max(frequency);
+        for of_load in self.of_loads(element) {
+            start += of_load.speed;
+            rate = rate.max(of_load.rate);
+            driven[0] += length * length * of_load.acceleration;
         }
         let series = DerivativeSeries::of(step.grading());
         let [displacement, velocity] = series.last(rate * length, start * length, &driven);
         alpha * displacement + beta * velocity / length
     }
 
-    /// `r_n` of the guard with these parts of an element's displacement and velocity in the solved step;
-    /// infinite where a load is resonant.
+    /// `r_n` of the guard with these parts of an element's displacement and velocity in the solved step.
     pub(super) fn remainder(&self, run: &Run, element: usize, [alpha, beta]: [f64; 2]) -> f64 {
-        let Some(orders) = self.drive.amplitudes(element) else { return f64::INFINITY };
         let (n, step, output) = (self.blocks.count(), &self.step, &self.outputs[element]);
         let (length, rule) = (step.length, step.grading().rule());
         let of_force = |force: &[f64; NODES]| force_majorant(rule.bernstein_of_whole(force));
@@ -120,14 +121,13 @@ impl ExactIntegrator {
             }
             add((rate * length, length * start_factor(output, i, rate) * norm), &driven);
         }
-        for (amplitude, frequency) in orders {
-            let z = frequency * length;
-            add((z, amplitude * z), &[0.0; NODES]);
+        for of_load in self.of_loads(element) {
+            add((of_load.rate * length, of_load.speed * length), &driven_by(&of_load, length));
         }
         alpha * sum[0] + beta * sum[1] / length
     }
 
-    /// `r_n` of the reading of a hole in the solved step (theorem 4); infinite where a load is resonant.
+    /// `r_n` of the reading of a hole in the solved step (theorem 5).
     pub(super) fn reading_remainder(&self, run: &Run, element: usize, hole: &RoundHole) -> f64 {
         let count = Hermite::of(self.step.grading()).count;
         let of_output = |output: usize| {
@@ -138,8 +138,7 @@ impl ExactIntegrator {
     }
 
     /// The series Y with `y << Y` over the solved step for an output y.
-    fn displacement_series(&self, run: &Run, output: usize) -> [f64; MOST] {
-        let Some(orders) = self.drive.amplitudes(output) else { return [f64::INFINITY; MOST] };
+    pub(super) fn displacement_series(&self, run: &Run, output: usize) -> [f64; MOST] {
         let (step, read) = (&self.step, &self.outputs[output]);
         let (length, rule) = (step.length, step.grading().rule());
         let forces: Vec<([f64; NODES], &[f64])> = (step.force.as_chunks::<NODES>().0.iter())
@@ -164,11 +163,15 @@ impl ExactIntegrator {
             }
             add((rate * length, length * start_factor(read, i, rate) * norm), &driven);
         }
-        for (amplitude, frequency) in orders {
-            let z = frequency * length;
-            add((z, amplitude * z), &[0.0; NODES]);
+        for of_load in self.of_loads(output) {
+            add((of_load.rate * length, of_load.speed * length), &driven_by(&of_load, length));
         }
         series
+    }
+
+    /// Bounds on the parts of the loads in an output over the solved step.
+    fn of_loads(&self, output: usize) -> impl Iterator<Item = Majorant> {
+        self.drive.majorants(output, &self.outputs[output], self.step.start + self.step.length)
     }
 }
 
@@ -213,6 +216,13 @@ impl DerivativeSeries {
         }
         [displacement, current]
     }
+}
+
+/// The driving series of the part of a load.
+fn driven_by(of_load: &Majorant, length: f64) -> [f64; NODES] {
+    let mut driven = [0.0; NODES];
+    driven[0] = length * length * of_load.acceleration;
+    driven
 }
 
 /// `phi_j` of a force, from its Bernstein coefficients.
