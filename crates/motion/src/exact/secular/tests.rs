@@ -147,8 +147,8 @@ fn motions_are_those_of_the_exponential_of_the_joined_system() {
     }
 }
 
-/// A force `cos(w t)` on a block at rest: `p = t^2/2`, `s = t` and, since its slope by w is `-w t^2`, `p_f = -w
-/// w' t^4/12`, `s_f = -w w' t^3/3`, all but for terms of `(w t)^2`.
+/// A force `cos(w t)` on a block at rest: `p = t^2/2`, `s = t` and, since its slope by w is `-w t^2`, `p_f
+/// = -w w' t^4/12`, `s_f = -w w' t^3/3`, all but for terms of `(w t)^2`.
 #[test]
 fn shortly_after_the_start_all_digits_are_kept() {
     let w = TAU * 1.3;
