@@ -13,7 +13,7 @@ impl<P: PathProblem> PathProblem for Leaving<P> {
 }
 
 impl<P: PathProblem> Judge for Leaving<P> {
-    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+    fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         point[0].abs()
     }
 }
