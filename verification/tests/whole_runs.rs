@@ -151,9 +151,9 @@ fn is_one_closed_branch(results: &Results) {
     assert!(off < 1e-7, "{off:.1e}");
 }
 
-/// A flip 2.5e-10 Hz beside a grazing, with a law for which orbits are not cut into segments. The branch of two
-/// periods comes to within 7e-8 of the orbit that flips: it went on as that one, and its flip began the same
-/// branch once more.
+/// A flip 2.5e-10 Hz beside a grazing, with a law for which orbits are not cut into segments. The branch of
+/// two periods comes to within 7e-8 of the orbit that flips: it went on as that one, and its flip began the
+/// same branch once more.
 #[test]
 fn a_branch_of_two_periods_ends_at_a_flip_beside_a_grazing_and_is_found_once() {
     let results = run(&random_study(20_091));

@@ -132,8 +132,9 @@ impl TableColumn {
             }
             Self::Stable => (
                 "stable",
-                "`true`: all multipliers inside the unit circle; `false`: one outside; `marginal`: one on \
-                 it, as closely as it is known, and none outside",
+                "`true`: all multipliers are known to lie inside the unit circle; `false`: one is known to \
+                 lie outside; `marginal`: neither is known, as at a bifurcation, or where errors grow very \
+                 much within a period",
             ),
             Self::Event => (
                 "event",

@@ -36,8 +36,8 @@ pub struct Maxima {
     pub energy_lost: f64,
     /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
     pub touches: u32,
-    /// Elements that were closed all the time, with or without pressure, one bit each (the first 64). One that
-    /// goes over from one of its two contacts to the other is not among them.
+    /// Elements that were closed all the time, with or without pressure, one bit each (the first 64). One
+    /// that goes over from one of its two contacts to the other is not among them.
     pub closed_throughout: u64,
 }
 

@@ -3,7 +3,10 @@
 
 use hammerbeam_path::{Judge, Outside, PathEvents, PathProblem, RootCorner};
 
-use super::ShootingProblem;
+use super::{
+    ShootingProblem,
+    beside::{Beginning, Beside},
+};
 use crate::{corner, stability};
 
 impl Judge for ShootingProblem {
@@ -90,5 +93,24 @@ impl Judge for ShootingProblem {
         let closed = if still { self.integrator.closed_throughout() } else { 0 };
         let words = self.touches().iter().map(|&t| u64::from(t)).chain([closed]);
         words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
+    }
+}
+
+impl ShootingProblem {
+    /// Distance of a point from the orbits of shorter period by its motion; infinite where that cannot be
+    /// computed.
+    fn distance_by_motion(&mut self, point: &[f64]) -> f64 {
+        if self.beside.is_none() {
+            self.beside = Beside::new(self.system(), self.integrator.settings()).ok().map(Box::new);
+        }
+        let begin = Beginning {
+            scaled: &point[..self.scale.values().len()],
+            scales: self.scale.values(),
+            phase: self.phase,
+            frequency_hz: self.frequency(point),
+            period_multiple: self.period_multiple,
+            parameter: self.varied.parameter().map(|parameter| (parameter, point[point.len() - 1])),
+        };
+        self.hertz_per_norm * self.beside.as_mut().map_or(f64::INFINITY, |beside| beside.distance(begin))
     }
 }

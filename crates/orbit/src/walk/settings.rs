@@ -15,9 +15,9 @@ const SHORTEST_AT_IMPACTS: f64 = 100.0;
 /// much of what is left of the state, so a small correction tells nothing there.
 const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
 
-/// Residual to which other orbits are corrected. Where hard contacts make the monodromy matrix large, though its
-/// multipliers are not, a correction within the tolerance leaves a residual of 1e-7 and multipliers that are
-/// known to nothing: such solutions were called marginal, one by one between unstable ones.
+/// Residual to which other orbits are corrected. Where hard contacts make the monodromy matrix large, though
+/// its multipliers are not, a correction within the tolerance leaves a residual of 1e-7 and multipliers that
+/// are known to nothing: such solutions were called marginal, one by one between unstable ones.
 const RESIDUAL: f64 = 1e-8;
 
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
@@ -35,11 +35,8 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
     let crawl = if begins_with_care(system) { CRAWL_BESIDE_IMPACTS } else { 1.0 };
-    let (shortest, wanted) = if system.has_rigid_stops() {
-        (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS)
-    } else {
-        (1.0, RESIDUAL)
-    };
+    let (shortest, wanted) =
+        if system.has_rigid_stops() { (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS) } else { (1.0, RESIDUAL) };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,
         max_parameter_step: settings.max_step_hz,
