@@ -43,7 +43,8 @@
 //! side on which the nodes lie.
 //!
 //! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in
-//! `shooting/equations.rs`, and of what only orbits know in `shooting/judge.rs`.
+//! `shooting/equations.rs`, and of what only orbits know in `shooting/judge.rs`; motions beside the one that
+//! was evaluated are in `shooting/beside.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
