@@ -102,7 +102,7 @@ impl From<DrawingError> for Failure {
             DrawingError::Signal(error) => error.into(),
             DrawingError::Write(error) => error.into(),
             DrawingError::Motion(error) => Self::NoResult(error.to_string()),
-            DrawingError::NotAlike { .. } => Self::BadInput(error.to_string()),
+            DrawingError::NotAlike { .. } | DrawingError::Detail { .. } => Self::BadInput(error.to_string()),
             DrawingError::Interrupted { .. } => Self::Interrupted(error.to_string()),
             other => Self::Other(other.into()),
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hammerbeam_drawing::{FigureFormat, FigureKind, FigureScale, RESOLUTION};
+use hammerbeam_drawing::{FigureDetail, FigureFormat, FigureKind, FigureScale, RESOLUTION};
 use hammerbeam_study::file::DrawnOrbit;
 
 use crate::input_args::{hertz, positive};
@@ -29,9 +29,10 @@ pub struct FigureOptions {
     #[arg(long, value_enum, default_value_t = ScaleName::Automatic)]
     pub scale: ScaleName,
 
-    /// Draw a crowded part of the frequency axis of response diagrams again below, larger: 84:93
-    #[arg(long, value_name = "FROM:TO", value_parser = detail)]
-    pub detail: Option<(f64, f64)>,
+    /// Draw a crowded part of response diagrams again below, larger: 84:93 of the frequency in hertz,
+    /// excitation.amplitude_n=0.2:0.3 of a `[[vary]]`; may be given once for each
+    #[arg(long, value_name = "[PARAMETER=]FROM:TO", value_parser = detail)]
+    pub detail: Vec<FigureDetail>,
 
     /// Lay the response diagrams of a further results folder over these, as thin lines; may be given several
     /// times
@@ -152,12 +153,22 @@ fn resolution(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `FROM:TO` in hertz, in order.
-fn detail(text: &str) -> Result<(f64, f64), String> {
-    let ends = text.split_once(':').and_then(|(from, to)| Some((hertz(from)?, hertz(to)?)));
-    match ends {
-        Some((from, to)) if 0.0 < from && from < to && to.is_finite() => Ok((from, to)),
-        _ => Err("must be two frequencies in hertz, the lower one first: 84:93".to_owned()),
+/// `FROM:TO` in hertz, or `PARAMETER=FROM:TO`.
+fn detail(text: &str) -> Result<FigureDetail, String> {
+    let (parameter, ends) = text
+        .rsplit_once('=')
+        .map_or((None, text), |(parameter, ends)| (Some(parameter.trim().to_owned()), ends));
+    let number = |end: &str| match parameter {
+        Some(_) => end.trim().parse().ok(),
+        None => hertz(end).filter(|&end| end > 0.0),
+    };
+    match ends.split_once(':').and_then(|(from, to)| Some((number(from)?, number(to)?))) {
+        Some((from, to)) if from < to && from.is_finite() && to.is_finite() => {
+            Ok(FigureDetail { parameter, range: (from, to) })
+        }
+        _ => Err("must be two frequencies in hertz, the lower one first, 84:93, or two values of a varied \
+            parameter, excitation.amplitude_n=0.2:0.3"
+            .to_owned()),
     }
 }
 

@@ -16,6 +16,7 @@ mod events;
 mod every_law;
 mod failing_writes;
 mod figure;
+mod figure_detail;
 mod figure_refused;
 mod figure_with;
 mod formats;

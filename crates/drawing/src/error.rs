@@ -33,6 +33,9 @@ pub enum DrawingError {
     /// Results that do not belong into one diagram.
     #[error("the response diagrams of {folder} cannot be laid over these: {difference}")]
     NotAlike { folder: String, difference: String },
+    /// A part of a diagram that would not be drawn again.
+    #[error("--detail {detail}: {reason}")]
+    Detail { detail: String, reason: String },
     /// The observer said stop.
     #[error(
         "interrupted while drawing; {written} files are drawn anew in {folder}, the others are as they were"

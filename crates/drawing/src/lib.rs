@@ -37,6 +37,7 @@
 mod branches;
 mod compare;
 mod curves;
+mod detail;
 mod drawn;
 mod error;
 mod linear;
@@ -56,11 +57,12 @@ use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
 
 pub use compare::draw_compared;
+pub use detail::ensure_details;
 pub use drawn::{Album, DrawSettings, Drawn, DrawnFiles, RESOLUTION, draw_into};
 pub use error::DrawingError;
 pub use linear::draw_linear;
 pub use overlaid::ensure_alike;
-pub use selection::{FigureFormat, FigureKind, FigureScale, FigureSelection};
+pub use selection::{FigureDetail, FigureFormat, FigureKind, FigureScale, FigureSelection};
 
 /// Draws what is selected of a results folder, or some of it when the observer says stop.
 ///
@@ -97,7 +99,7 @@ fn draw_kind(
     match kind {
         FigureKind::Structure => draw_linear(drawn, file, model),
         FigureKind::Response => response::draw(store, file, selection, drawn)?,
-        FigureKind::Vary => varied::draw(store, file, selection.scale, drawn)?,
+        FigureKind::Vary => varied::draw(store, file, selection, drawn)?,
         FigureKind::Curves => curves::draw(store, drawn)?,
         FigureKind::Multipliers => multipliers::draw(store, drawn)?,
         FigureKind::Orbits => {

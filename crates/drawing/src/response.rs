@@ -39,15 +39,13 @@ pub fn draw(
     if !overlaid.is_empty() {
         diagram.name = names_of(store, selection).remove(0);
     }
+    let settings = settings(selection.scale, selection.detail_over(None), drawn);
     let others = diagram.overlaid.iter().flat_map(|other| &other.curves);
     let all: Vec<ResponseCurve> = diagram.curves.iter().chain(others).cloned().collect();
     for (word, quantity) in quantities(&all) {
-        let settings =
-            ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
         drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings));
     }
     let branches = store.branches()?;
-    let settings = ResponseSettings { detail_hz: selection.detail_hz, ..settings(selection.scale, drawn) };
     for shown in shown_outputs(store, file)? {
         let name = format!("response_output_{}", shown.file_name());
         let with_output = overlaid.iter().filter_map(|other| other.with_output(&shown).transpose());
@@ -73,7 +71,7 @@ pub fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static st
     })
 }
 
-pub fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
+pub fn settings(scale: FigureScale, detail: Option<(f64, f64)>, album: &impl Album) -> ResponseSettings {
     let choice = match scale {
         FigureScale::Automatic => ScaleChoice::Automatic,
         FigureScale::Linear => ScaleChoice::Linear,
@@ -84,7 +82,7 @@ pub fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
         displacement_scale: choice,
         acceleration_scale: choice,
         contact_scale: choice,
-        detail_hz: None,
+        detail,
     }
 }
 

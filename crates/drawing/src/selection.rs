@@ -1,6 +1,6 @@
 //! What of a results folder is drawn, and how.
 
-use std::path::PathBuf;
+use std::{fmt, path::PathBuf};
 
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 
@@ -84,6 +84,31 @@ impl FigureKind {
     ];
 }
 
+/// Part of the horizontal axis of response diagrams that is drawn again below, larger.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FigureDetail {
+    /// Key path of the parameter of a `[[vary]]`; none where the axis is the frequency.
+    pub parameter: Option<String>,
+    /// Lower and upper end, in Hz or in the unit of the parameter's key.
+    pub range: (f64, f64),
+}
+
+impl FigureDetail {
+    /// The diagrams that show it.
+    pub(crate) fn kind(&self) -> FigureKind {
+        if self.parameter.is_some() { FigureKind::Vary } else { FigureKind::Response }
+    }
+}
+
+impl fmt::Display for FigureDetail {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(parameter) = &self.parameter {
+            write!(f, "{parameter}=")?;
+        }
+        write!(f, "{}:{}", self.range.0, self.range.1)
+    }
+}
+
 /// What of a results folder is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigureSelection {
@@ -91,8 +116,8 @@ pub struct FigureSelection {
     pub kinds: Vec<FigureKind>,
     /// Scale of the vertical axis of response diagrams.
     pub scale: FigureScale,
-    /// Part of the frequency axis of response diagrams that is drawn again below, larger [Hz].
-    pub detail_hz: Option<(f64, f64)>,
+    /// Parts of response diagrams that are drawn again below, larger; one for each horizontal axis at most.
+    pub details: Vec<FigureDetail>,
     /// Further results folders, whose branches lie behind those of response diagrams.
     pub with: Vec<PathBuf>,
     /// Orbits at frequencies.
@@ -109,11 +134,17 @@ impl FigureSelection {
         Self {
             kinds: FigureKind::ALL.to_vec(),
             scale: FigureScale::Automatic,
-            detail_hz: None,
+            details: Vec::new(),
             with: Vec::new(),
             orbits: figures.orbits.clone(),
             low_pass_hz: figures.low_pass_hz,
         }
+    }
+
+    /// The part of diagrams over a parameter, or over the frequency, that is drawn again.
+    pub(crate) fn detail_over(&self, parameter: Option<&str>) -> Option<(f64, f64)> {
+        let over = |detail: &&FigureDetail| detail.parameter.as_deref() == parameter;
+        self.details.iter().find(over).map(|detail| detail.range)
     }
 
     /// What a run draws at its end: all but the multipliers, two figures for each branch, which take longer

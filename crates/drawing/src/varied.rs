@@ -5,7 +5,7 @@ use hammerbeam_results::{Store, StoreError, store::PieceRecord};
 use hammerbeam_study::StudyFile;
 
 use crate::{
-    Album, DrawingError, FigureScale,
+    Album, DrawingError, FigureSelection,
     branches::point,
     outputs::shown_outputs,
     parameter::{file_name, parameter_axis},
@@ -16,7 +16,7 @@ use crate::{
 pub fn draw(
     store: &Store,
     file: &StudyFile,
-    scale: FigureScale,
+    selection: &FigureSelection,
     drawn: &mut impl Album,
 ) -> Result<(), DrawingError> {
     let shown = shown_outputs(store, file)?;
@@ -33,14 +33,16 @@ pub fn draw(
             curves,
             ..ResponseDiagram::default()
         };
+        let detail = selection.detail_over(Some(&piece.parameter));
+        let settings = settings(selection.scale, detail, drawn);
         for (word, quantity) in quantities(&diagram.curves) {
             let name = format!("vary_{}_{}_{word}", piece.place, file_name(&piece.parameter));
-            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale, drawn)));
+            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings));
         }
         for shown in &shown {
             let place = format!("vary_{}_{}", piece.place, file_name(&piece.parameter));
             let name = format!("{place}_output_{}", shown.file_name());
-            let figure = shown.draw(store, &piece.branches, &diagram, &settings(scale, drawn))?;
+            let figure = shown.draw(store, &piece.branches, &diagram, &settings)?;
             drawn.add_unless_empty(&name, figure);
         }
     }

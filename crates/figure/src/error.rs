@@ -10,6 +10,9 @@ pub enum FigureError {
         "nothing to draw: no finite {quantity} inside the axes (points given: {points}, branches: {curves})"
     )]
     Empty { quantity: &'static str, curves: usize, points: usize },
+    /// Nothing to draw in the part that is to be larger.
+    #[error("no finite {quantity} lies in the detail from {from} to {to}")]
+    EmptyDetail { quantity: &'static str, from: f64, to: f64 },
     /// A figure needs at least one panel.
     #[error("nothing to draw: no quantity was asked for")]
     NoQuantity,

@@ -41,7 +41,8 @@ impl ResponseDiagram {
     /// One panel for each of `quantities`, from top to bottom, with one frequency axis.
     ///
     /// # Errors
-    /// [`FigureError::Empty`] where no solution has a place in a panel; [`FigureError::NoQuantity`] where
+    /// [`FigureError::Empty`] where no solution has a place in a panel, [`FigureError::EmptyDetail`]
+    /// where none has in the detail; [`FigureError::NoQuantity`] where
     /// there is no panel; [`FigureError::FrequencyRange`] where the ends of the frequency axis are not in
     /// order.
     pub fn draw_with(

@@ -301,17 +301,20 @@ fn marks_keep_a_distance_and_those_of_stable_solutions_come_first() {
 #[test]
 fn a_detail_is_drawn_again_below_with_its_own_axis() {
     let whole = diagram(&[(1, &folded_branch())]);
-    let settings = ResponseSettings { detail_hz: Some((35.0, 41.0)), ..ResponseSettings::default() };
+    let settings = ResponseSettings { detail: Some((35.0, 41.0)), ..ResponseSettings::default() };
     let figure = whole.draw_with(&[ResponseQuantity::Displacement], &settings).unwrap();
     assert_eq!(figure.svg().matches(">Excitation frequency (Hz)<").count(), 2);
     assert!(figure.svg().contains(">36<") && figure.svg().contains(">40<"));
     let alone = displacement(&whole);
     assert!(figure.height_mm() > 1.5 * alone.height_mm());
-    for detail_hz in [(41.0, 35.0), (f64::NAN, 40.0)] {
-        let settings = ResponseSettings { detail_hz: Some(detail_hz), ..ResponseSettings::default() };
+    for detail in [(41.0, 35.0), (f64::NAN, 40.0)] {
+        let settings = ResponseSettings { detail: Some(detail), ..ResponseSettings::default() };
         let error = whole.draw_with(&[ResponseQuantity::Displacement], &settings);
         assert!(matches!(error, Err(FigureError::FrequencyRange { .. })));
     }
+    let beyond = ResponseSettings { detail: Some((1e6, 2e6)), ..ResponseSettings::default() };
+    let error = whole.draw_with(&[ResponseQuantity::Displacement], &beyond);
+    assert!(matches!(error, Err(FigureError::EmptyDetail { .. })));
 }
 
 #[test]

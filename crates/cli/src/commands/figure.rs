@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hammerbeam_drawing::{
     DrawSettings, DrawnFiles, FigureFormat, FigureKind, FigureSelection, draw, draw_into, ensure_alike,
+    ensure_details,
 };
 use hammerbeam_figure::plain_number;
 use hammerbeam_jobs::{PreparedStudy, StoredBranches, pool::threads};
@@ -27,6 +28,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         ));
     }
     ensure_alike(&selection, &file)?;
+    ensure_details(&store, &selection)?;
     if selection.kinds.contains(&FigureKind::Orbits) {
         refuse_unknown(store.folder(), &file, &options.orbit)?;
     }
@@ -87,7 +89,7 @@ fn selection(options: &FigureOptions, file: &StudyFile) -> FigureSelection {
     FigureSelection {
         kinds: if kinds.is_empty() { all.kinds } else { kinds },
         scale: options.scale.into(),
-        detail_hz: options.detail,
+        details: options.detail.clone(),
         with: options.with.clone(),
         orbits: if options.orbit.is_empty() { all.orbits } else { options.orbit.clone() },
         low_pass_hz: options.low_pass.or(all.low_pass_hz),

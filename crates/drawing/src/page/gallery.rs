@@ -4,7 +4,7 @@ use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, PageFigure, PageFigu
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
 
-use crate::{Album, DrawingError, Drawn, FigureScale, curves, linear::draw_linear, motions, varied};
+use crate::{Album, DrawingError, Drawn, FigureSelection, curves, linear::draw_linear, motions, varied};
 
 /// The figures of a results folder. Those that say most come first, since there is not room for any number.
 pub fn figures(
@@ -16,7 +16,7 @@ pub fn figures(
     gallery.heading = "Structure and excitation";
     draw_linear(&mut gallery, file, model);
     gallery.heading = "Branches over another parameter";
-    varied::draw(store, file, FigureScale::Automatic, &mut gallery)?;
+    varied::draw(store, file, &FigureSelection::of(file), &mut gallery)?;
     gallery.heading = "Curves of bifurcations in two parameters";
     curves::draw(store, &mut gallery)?;
     gallery.heading = "Sweeps";

@@ -169,8 +169,8 @@ pub struct ResponseSettings {
     pub acceleration_scale: ScaleChoice,
     /// Scale of the axes of contact forces and impact velocities.
     pub contact_scale: ScaleChoice,
-    /// Ends of a part of the frequency axis (Hz) that is drawn again below, larger; none by default.
-    pub detail_hz: Option<(f64, f64)>,
+    /// Ends of a part of the horizontal axis that is drawn again below, larger, in its unit.
+    pub detail: Option<(f64, f64)>,
 }
 
 impl ResponseQuantity {

@@ -36,12 +36,17 @@ pub(super) fn draw(
     settings: &ResponseSettings,
 ) -> Result<Figure, FigureError> {
     let range_hz = frequency_range(diagram)?;
-    let mut ranges = vec![range_hz];
-    ranges.extend(settings.detail_hz.map(in_order).transpose()?);
-    let of_range = |&range_hz: &(f64, f64)| {
+    let panels_of = |range_hz| {
         quantities.iter().map(move |&quantity| ResponsePanel::new(diagram, quantity, range_hz, settings))
     };
-    let panels = ranges.iter().flat_map(of_range).collect::<Result<Vec<_>, _>>()?;
+    let mut panels = panels_of(range_hz).collect::<Result<Vec<_>, _>>()?;
+    if let Some((from, to)) = settings.detail.map(in_order).transpose()? {
+        let of_detail = |error| match error {
+            FigureError::Empty { quantity, .. } => FigureError::EmptyDetail { quantity, from, to },
+            error => error,
+        };
+        panels.extend(panels_of((from, to)).collect::<Result<Vec<_>, _>>().map_err(of_detail)?);
+    }
     if panels.is_empty() {
         return Err(FigureError::NoQuantity);
     }
@@ -80,7 +85,7 @@ fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError>
 struct ResponseLayout<'a> {
     diagram: &'a ResponseDiagram,
     style: &'a Style,
-    detail_hz: Option<(f64, f64)>,
+    detail: Option<(f64, f64)>,
     panels: &'a [ResponsePanel],
     title: Vec<Text>,
     legend: Legend,
@@ -125,7 +130,7 @@ impl<'a> ResponseLayout<'a> {
             top = area.bottom + 2.0 * GAP + if labelled_below { room_below(style) } else { 0.0 };
         }
         let height = plots[plots.len() - 1].area.bottom + room_below(style);
-        Self { diagram, style, detail_hz: settings.detail_hz, panels, title, legend, plots, left, height }
+        Self { diagram, style, detail: settings.detail, panels, title, legend, plots, left, height }
     }
 
     /// The kinds of marks of which at least one has room.
@@ -156,7 +161,7 @@ impl<'a> ResponseLayout<'a> {
 
     /// Lines at the ends of the part that is drawn again, larger, in the panels of the whole.
     fn frame_detail(&self, svg: &mut SvgWriter, panel: &ResponsePanel, plot: &Plot) {
-        let Some((from, to)) = self.detail_hz.filter(|detail| *detail != panel.range_hz) else { return };
+        let Some((from, to)) = self.detail.filter(|detail| *detail != panel.range_hz) else { return };
         let stroke = Stroke { colour: PALE_INK, width: self.style.frame_width };
         let dashes = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
         let value = plot.y.scale.from;
