@@ -6,8 +6,9 @@ import re
 from docutils.nodes import SkipNode
 from sphinx.writers.html5 import HTML5Translator
 
-UNITS = r"(?:%|(?:[kM]?Hz|[nµm]?m|[mkM]?N|m?s|[kMG]?Pa|k?g|rad|[kMG]i?B|pixels)(?![\w/]))"
-UNIT = re.compile(rf"(?<=\d) (?={UNITS}|\d{{3}}(?!\d))")
+UNITS = r"(?:%|(?:[kM]?Hz|[nµm]?m|[mkM]?N|m?s|[kMG]?Pa|k?g|rad|[kMG]i?B|1/s|pixels)(?!\w))"
+UNIT = re.compile(rf"(?<=\d) (?={UNITS}|\d{{3}}(?!\d)|±)|(?<=±) (?=\d)")
+UNIT_OF_FORMULA = re.compile(rf"^ (?={UNITS})")
 NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?e-\d+")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 NAME = re.compile(r"(?<![\w/.-])-{0,2}\w[\w.]*(?:-[\w.]+)*(?![\w/-])")
@@ -37,6 +38,10 @@ def prose(text):
     return NUMBER.sub(whole, UNIT.sub("\N{NO-BREAK SPACE}", text))
 
 
+def behind_formula(text):
+    return UNIT_OF_FORMULA.sub("\N{NO-BREAK SPACE}", prose(text))
+
+
 def texts(html, change):
     """Applies a change to the texts between the tags."""
     parts = re.split(r"(<[^>]*>)", html)
@@ -48,7 +53,9 @@ class Translator(HTML5Translator):
 
     def visit_Text(self, node):
         start = len(self.body)
-        change = inline_code if self.protect_literal_text else prose
+        is_behind_formula = start > 0 and self.body[-1].endswith(r"\)</span>")
+        change = behind_formula if is_behind_formula else prose
+        change = inline_code if self.protect_literal_text else change
         super().visit_Text(node)
         self.body[start:] = [texts(part, change) for part in self.body[start:]]
 
