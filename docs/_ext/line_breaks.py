@@ -1,5 +1,5 @@
-"""Where a line may end. Browsers part `--step` behind its hyphens, `1e-9` before the 9 and "5 %" before the sign;
-and a test with a long name, which has no hyphen, they part at any letter or not at all."""
+"""Where a line may end. Browsers part `--step` behind its hyphens, `1e-9` before the 9, and "5 %" before the
+sign. The long name of a test, which has no hyphen, they part at any letter or not at all."""
 
 import re
 
@@ -49,7 +49,7 @@ def texts(html, change):
 
 
 class Translator(HTML5Translator):
-    """The pages of Sphinx, with better places for the ends of lines. What is copied from them is the same."""
+    """The pages of Sphinx with better places for the ends of lines. Code that is copied from them stays the same."""
 
     def visit_Text(self, node):
         start = len(self.body)
