@@ -14,6 +14,8 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 NAME = re.compile(r"(?<![\w/.-])-{0,2}\w[\w.]*(?:-[\w.]+)*(?![\w/-])")
 #: Longer names may be parted: at their hyphens, and behind underscores and strokes.
 LONGEST_WHOLE = 20
+#: Code of so many lines is not parted by the end of a page.
+SHORT = 15
 
 
 def whole(match):
@@ -49,7 +51,7 @@ def texts(html, change):
 
 
 class Translator(HTML5Translator):
-    """The pages of Sphinx with better places for the ends of lines. Code that is copied from them stays the same."""
+    """The pages of Sphinx with better places for the ends of lines. What is copied of code stays the same."""
 
     def visit_Text(self, node):
         start = len(self.body)
@@ -64,7 +66,10 @@ class Translator(HTML5Translator):
         try:
             super().visit_literal_block(node)
         except SkipNode:
-            self.body[start:] = [texts(part, code_block) for part in self.body[start:]]
+            html = texts("".join(self.body[start:]), code_block)
+            if html.count("\n") <= SHORT:
+                html = html.replace(' notranslate"', ' notranslate short"', 1)
+            self.body[start:] = [html]
             raise
 
 
