@@ -15,7 +15,7 @@ html_title = "Hammerbeam"
 
 # Equations are numbered by their labels, as (F3), which comments in the code cite.
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
-extensions = ["myst_parser", "equation_labels", "offline_formulas"]
+extensions = ["myst_parser", "equation_labels", "line_breaks", "offline_formulas"]
 myst_enable_extensions = ["dollarmath", "deflist", "attrs_block"]
 myst_dmath_double_inline = True
 # Headings down to this level can be linked to, as page.md#heading; a link to a missing one is an error.
@@ -31,6 +31,8 @@ html_theme = "furo"
 html_theme_options = {"top_of_page_buttons": []}
 html_copy_source = False
 html_show_sphinx = False
+# The search finds everything; an index of Python or C names would be empty.
+html_use_index = False
 # Summaries of what is found are fetched, which browsers refuse for files.
 html_show_search_summary = False
 

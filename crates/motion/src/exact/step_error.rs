@@ -1,4 +1,4 @@
-//! The error of a solved step. Equations (S9) to (S11) of the book, `docs/theory`.
+//! The error of a solved step. Equations (S9) to (S12) of the book, `docs/theory`.
 //!
 //! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF`
 //! are expanded in the orthonormal polynomials of the step, up to the degree `m = NODES - 1`; the tail of a
