@@ -98,7 +98,7 @@ pub fn draw_loops() -> Outcome<Figure> {
     }
     for (number, (model, name)) in [
         (RestitutionModel::LeeWang, "Lee–Wang"),
-        (RestitutionModel::LankaraniNikravesh, "Lankarani–Nikravesh"),
+        (RestitutionModel::LankaraniNikravesh, "Lankarani"),
         (RestitutionModel::HuntCrossley, "Hunt–Crossley"),
         (RestitutionModel::Flores, "Flores"),
     ]
