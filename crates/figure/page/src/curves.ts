@@ -55,6 +55,24 @@ export function scalesOf(range: Range, box: Box): Scales {
     };
 }
 
+/** A column times a factor. A loop: with a function for each number it takes several times as long. */
+function scaledBy(factor: number, column: ArrayLike<number>): Float64Array {
+    const values = new Float64Array(column.length);
+    for (let k = 0; k < values.length; k++) {
+        values[k] = factor * (column[k] ?? NaN);
+    }
+    return values;
+}
+
+/** The magnitudes of complex numbers. */
+function magnitudes(re: ArrayLike<number>, im: ArrayLike<number>): Float64Array {
+    const values = new Float64Array(re.length);
+    for (let k = 0; k < values.length; k++) {
+        values[k] = Math.hypot(re[k] ?? NaN, im[k] ?? NaN);
+    }
+    return values;
+}
+
 export class Curves {
     private readonly kept = new Map<string, Float64Array>();
 
@@ -68,14 +86,12 @@ export class Curves {
         const { frequency, parameter, maxima, multiplierRe, multiplierIm, contacts, energy } = this.solutions;
         const { factor } = measureOf(this.meta, axis, over);
         const scaled = (column: ArrayLike<number>): Float64Array =>
-            this.keep(`${axis} ${factor}`, () => Float64Array.from(column, (value) => factor * value));
+            this.keep(`${axis} ${factor}`, () => scaledBy(factor, column));
         switch (axis) {
             case "parameter":
                 return scaled(over === 0 ? frequency : parameter);
             case "multiplier":
-                return this.keep(axis, () =>
-                    Float64Array.from(multiplierRe, (re, k) => Math.hypot(re, multiplierIm[k] ?? NaN)),
-                );
+                return this.keep(axis, () => magnitudes(multiplierRe, multiplierIm));
             case "contacts":
                 return scaled(contacts);
             case "energy":

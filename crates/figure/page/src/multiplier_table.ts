@@ -19,8 +19,13 @@ export class MultiplierTable {
     constructor(bytes: Uint8Array<ArrayBuffer>, solutions: number) {
         const columns = new Unpacker(bytes);
         this.heads = columns.whole(solutions, 2);
-        const lengths = Uint8Array.from(this.heads, lengthOf);
-        const most = lengths.reduce((largest, length) => Math.max(largest, length), 0);
+        const lengths = new Uint8Array(solutions);
+        let most = 0;
+        for (let solution = 0; solution < solutions; solution++) {
+            const length = lengthOf(this.heads[solution] ?? 0);
+            lengths[solution] = length;
+            most = Math.max(most, length);
+        }
         for (let k = 0; k < most; k++) {
             const places = new Uint32Array(solutions);
             let count = 0;
