@@ -128,7 +128,7 @@ impl BranchEnd {
             Self::Joins { branch, frequency_hz } => {
                 StoredEnd::at("joins", *frequency_hz).with([f64::from(*branch)])
             }
-            Self::NotStarted { message } => StoredEnd::plain("not-begun").saying(message),
+            Self::NotStarted { message } => StoredEnd::plain("not-started").saying(message),
             Self::Failed { message } => StoredEnd::plain("failed").saying(message),
         }
     }
@@ -139,7 +139,7 @@ impl BranchEnd {
         let end = match (stored.kind, stored.place, stored.numbers.as_slice()) {
             ("crossing", Some(frequency_hz), []) => Self::Crossing { frequency_hz },
             ("joins", Some(frequency_hz), [branch]) => Self::Joins { branch: *branch as u32, frequency_hz },
-            ("not-begun", None, []) => Self::NotStarted { message: text()? },
+            ("not-started", None, []) => Self::NotStarted { message: text()? },
             ("failed", None, []) => Self::Failed { message: text()? },
             _ => return walk_of(stored).map(Self::Walk).or_else(|| curve_of(stored).map(Self::Curve)),
         };
@@ -162,10 +162,10 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             StoredEnd::at("runs-back", *frequency_hz).with([*met_arc_length])
         }
         StopReason::ContactSplits { frequency_hz, element, phase } => {
-            StoredEnd::at("contact-splits", *frequency_hz).with([*phase]).saying(element)
+            StoredEnd::at("contact-reopens", *frequency_hz).with([*phase]).saying(element)
         }
         StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
-            StoredEnd::at("crawls", *frequency_hz).with([*solutions as f64, *largest_multiplier])
+            StoredEnd::at("no-progress", *frequency_hz).with([*solutions as f64, *largest_multiplier])
         }
         StopReason::Unbounded { frequency_hz, mode } => {
             let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
@@ -173,7 +173,7 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         }
         StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
-            StoredEnd::at("too-laborious", *frequency_hz).with(numbers)
+            StoredEnd::at("too-much-work", *frequency_hz).with(numbers)
         }
         StopReason::Motion { frequency_hz, message } => {
             StoredEnd::at("motion", *frequency_hz).saying(message)
@@ -197,10 +197,10 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
             StopReason::StepTooShort { frequency_hz, step: *step, residual: *residual, doubt: text()? }
         }
         ("runs-back", [met], frequency_hz) => StopReason::RunsBack { frequency_hz, met_arc_length: *met },
-        ("contact-splits", [phase], frequency_hz) => {
+        ("contact-reopens", [phase], frequency_hz) => {
             StopReason::ContactSplits { frequency_hz, element: text()?, phase: *phase }
         }
-        ("crawls", [solutions, largest], frequency_hz) => {
+        ("no-progress", [solutions, largest], frequency_hz) => {
             let solutions = *solutions as u64;
             StopReason::Crawls { frequency_hz, solutions, largest_multiplier: *largest }
         }
@@ -209,7 +209,7 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
             let mode = ResonantMode { number: *number as usize, frequency_hz: *at_hz, damping_ratio: *ratio };
             StopReason::Unbounded { frequency_hz, mode: Some(mode) }
         }
-        ("too-laborious", [solutions, gets_on], frequency_hz) => {
+        ("too-much-work", [solutions, gets_on], frequency_hz) => {
             let solutions = *solutions as u64;
             StopReason::TooLaborious { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
         }
@@ -235,10 +235,10 @@ fn of_curve(end: &CurveEnd) -> StoredEnd<'static, '_> {
             StoredEnd::at("curve-grazed-as-well", *parameter).saying(element)
         }
         CurveEnd::ContactSplits { parameter, element, phase } => {
-            StoredEnd::at("curve-contact-splits", *parameter).with([*phase]).saying(element)
+            StoredEnd::at("curve-contact-reopens", *parameter).with([*phase]).saying(element)
         }
         CurveEnd::Crawls { parameter, rows } => {
-            StoredEnd::at("curve-crawls", *parameter).with([f64::from(*rows)])
+            StoredEnd::at("curve-no-progress", *parameter).with([f64::from(*rows)])
         }
         CurveEnd::Stopped { parameter, message } => {
             StoredEnd::at("curve-stopped", *parameter).saying(message)
@@ -261,10 +261,10 @@ fn curve_of(stored: &StoredEnd<'_, '_>) -> Option<CurveEnd> {
         ("curve-grazed-as-well", Some(parameter), []) => {
             CurveEnd::GrazedAsWell { parameter, element: text()? }
         }
-        ("curve-contact-splits", Some(parameter), [phase]) => {
+        ("curve-contact-reopens", Some(parameter), [phase]) => {
             CurveEnd::ContactSplits { parameter, element: text()?, phase: *phase }
         }
-        ("curve-crawls", Some(parameter), [rows]) => CurveEnd::Crawls { parameter, rows: *rows as u32 },
+        ("curve-no-progress", Some(parameter), [rows]) => CurveEnd::Crawls { parameter, rows: *rows as u32 },
         ("curve-stopped", Some(parameter), []) => CurveEnd::Stopped { parameter, message: text()? },
         _ => return None,
     })
