@@ -12,7 +12,7 @@ UNIT_OF_FORMULA = re.compile(rf"^ (?={UNITS})")
 NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?e-\d+")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 NAME = re.compile(r"(?<![\w/.-])-{0,2}\w[\w.]*(?:-[\w.]+)*(?![\w/-])")
-#: Longer names may be parted: at their hyphens, and behind underscores and strokes.
+#: Longer names may be parted: at their hyphens, and behind underscores and slashes.
 LONGEST_WHOLE = 20
 #: Code of so many lines is not parted by the end of a page.
 SHORT = 15

@@ -26,8 +26,8 @@ hammerbeam run studies/impact-oscillator.toml --out "$results/impact" \
     --set 'curve=[{ of = "grazing", near_hz = 0.13, parameter = "excitation.amplitude_n", range = [0.05, 1.0] }]'
 detail=excitation.amplitude_n=0.0999:0.10005
 keep impact vary_1_excitation_amplitude_n_displacement curves_excitation_amplitude_n
-
 detail=
+
 # Beside the period doubling of BifurcationKit.
 two_wells() {
     hammerbeam "$1" studies/two-wells.toml --out "$results/two-wells" --set response.period_doubling_depth=3 \

@@ -30,7 +30,7 @@ pub struct FigureOptions {
     pub scale: ScaleName,
 
     /// Draw a crowded part of response diagrams again below, larger: 84:93 of the frequency in hertz,
-    /// excitation.amplitude_n=0.2:0.3 of a `[[vary]]`; may be given once for each
+    /// excitation.amplitude_n=0.2:0.3 of a `[[vary]]`, in the unit of its key; once for each axis
     #[arg(long, value_name = "[PARAMETER=]FROM:TO", value_parser = detail)]
     pub detail: Vec<FigureDetail>,
 
@@ -155,15 +155,14 @@ fn resolution(text: &str) -> Result<f64, String> {
 
 /// `FROM:TO` in hertz, or `PARAMETER=FROM:TO`.
 fn detail(text: &str) -> Result<FigureDetail, String> {
-    let (parameter, ends) = text
-        .rsplit_once('=')
-        .map_or((None, text), |(parameter, ends)| (Some(parameter.trim().to_owned()), ends));
+    let (name, ends) = text.rsplit_once('=').map_or((None, text), |(name, ends)| (Some(name.trim()), ends));
+    let parameter = name.filter(|name| *name != "excitation.frequency_hz").map(str::to_owned);
     let number = |end: &str| match parameter {
         Some(_) => end.trim().parse().ok(),
         None => hertz(end).filter(|&end| end > 0.0),
     };
     match ends.split_once(':').and_then(|(from, to)| Some((number(from)?, number(to)?))) {
-        Some((from, to)) if from < to && from.is_finite() && to.is_finite() => {
+        Some((from, to)) if name != Some("") && from < to && from.is_finite() && to.is_finite() => {
             Ok(FigureDetail { parameter, range: (from, to) })
         }
         _ => Err("must be two frequencies in hertz, the lower one first, 84:93, or two values of a varied \

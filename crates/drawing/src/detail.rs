@@ -5,7 +5,9 @@ use hammerbeam_results::{Store, StoreError, store::BranchRecord};
 
 use crate::{DrawingError, FigureDetail, FigureSelection};
 
-/// Refuses a detail that no diagram would show.
+/// Refuses a detail that no diagram would show, or that shows no less than all of one.
+///
+/// Stored solutions that are missing or damaged are none: what needs them is named when it is drawn.
 ///
 /// # Errors
 /// [`DrawingError::Detail`], or the results cannot be read.
@@ -14,10 +16,11 @@ pub fn ensure_details(store: &Store, selection: &FigureSelection) -> Result<(), 
         let before = &selection.details[..place];
         let reason = if before.iter().any(|other| other.parameter == detail.parameter) {
             Some("the same axis has another detail already".to_owned())
-        } else if !selection.kinds.contains(&detail.kind()) {
-            Some("--kind leaves its diagrams out".to_owned())
         } else {
-            emptiness(store, detail)?
+            match reason_against(store, selection, detail) {
+                Err(error) if error.is_of_solutions() => None,
+                found => found?,
+            }
         };
         if let Some(reason) = reason {
             return Err(DrawingError::Detail { detail: detail.to_string(), reason });
@@ -26,11 +29,19 @@ pub fn ensure_details(store: &Store, selection: &FigureSelection) -> Result<(), 
     Ok(())
 }
 
-/// Why nothing stored would be in a detail.
-fn emptiness(store: &Store, detail: &FigureDetail) -> Result<Option<String>, StoreError> {
+fn reason_against(
+    store: &Store,
+    selection: &FigureSelection,
+    detail: &FigureDetail,
+) -> Result<Option<String>, StoreError> {
+    let mut reach = Reach::default();
     let Some(parameter) = &detail.parameter else {
-        let reason = emptiness_among(store, &store.branches()?, detail)?;
-        return Ok(reason.map(|reason| format!("{reason} over the frequency")));
+        reach.extend(store, &store.branches()?, detail)?;
+        for folder in &selection.with {
+            let other = Store::open(folder)?;
+            reach.extend(&other, &other.branches()?, detail)?;
+        }
+        return Ok(reach.reason_against(detail, "the frequency"));
     };
     let varied = store.pieces()?.into_iter().filter(|piece| !piece.kind.is_curve());
     let (of, others): (Vec<_>, Vec<_>) = varied.partition(|piece| piece.parameter == *parameter);
@@ -42,32 +53,56 @@ fn emptiness(store: &Store, detail: &FigureDetail) -> Result<Option<String>, Sto
         };
         return Ok(Some(format!("there is no branch over {parameter}; {there}")));
     }
-    let branches: Vec<BranchRecord> = of.into_iter().flat_map(|piece| piece.branches).collect();
-    let reason = emptiness_among(store, &branches, detail)?;
-    Ok(reason.map(|reason| format!("{reason} over {parameter}")))
+    for piece in of {
+        reach.extend(store, &piece.branches, detail)?;
+    }
+    Ok(reach.reason_against(detail, parameter))
 }
 
-fn emptiness_among(
-    store: &Store,
-    branches: &[BranchRecord],
-    detail: &FigureDetail,
-) -> Result<Option<String>, StoreError> {
-    let (from, to) = detail.range;
-    let (mut low, mut high, mut is_inside) = (f64::INFINITY, f64::NEG_INFINITY, false);
-    for branch in branches {
-        store.each_row::<StoreError>(branch, |row| {
-            (low, high) = (low.min(row.parameter), high.max(row.parameter));
-            is_inside |= (from..=to).contains(&row.parameter);
-            Ok(())
-        })?;
+/// Where the solutions of branches are along a horizontal axis.
+struct Reach {
+    low: f64,
+    high: f64,
+    /// Whether one is in the detail.
+    is_inside: bool,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { low: f64::INFINITY, high: f64::NEG_INFINITY, is_inside: false }
     }
-    Ok(match (is_inside, low <= high) {
-        (true, _) => None,
-        (false, true) => Some(format!(
-            "no solution is inside; there are some from {} to {}",
-            plain_number(low),
-            plain_number(high)
-        )),
-        (false, false) => Some("there is no solution".to_owned()),
-    })
+}
+
+impl Reach {
+    fn extend(
+        &mut self,
+        store: &Store,
+        branches: &[BranchRecord],
+        detail: &FigureDetail,
+    ) -> Result<(), StoreError> {
+        let (from, to) = detail.range;
+        for branch in branches {
+            store.each_row::<StoreError>(branch, |row| {
+                (self.low, self.high) = (self.low.min(row.parameter), self.high.max(row.parameter));
+                self.is_inside |= (from..=to).contains(&row.parameter);
+                Ok(())
+            })?;
+        }
+        Ok(())
+    }
+
+    fn reason_against(&self, detail: &FigureDetail, axis: &str) -> Option<String> {
+        let (from, to) = detail.range;
+        if self.low > self.high {
+            return Some(format!("there is no solution over {axis}"));
+        }
+        let [low, high] = [self.low, self.high].map(plain_number);
+        if !self.is_inside {
+            return Some(format!(
+                "no stored solution is inside; over {axis} there are some from {low} to {high}"
+            ));
+        }
+        let is_all = from <= self.low && self.high <= to;
+        is_all.then(|| format!("these are all solutions: over {axis} they go from {low} to {high}"))
+    }
 }

@@ -34,7 +34,7 @@ pub enum DrawingError {
     #[error("the response diagrams of {folder} cannot be laid over these: {difference}")]
     NotAlike { folder: String, difference: String },
     /// A part of a diagram that would not be drawn again.
-    #[error("--detail {detail}: {reason}")]
+    #[error("the detail {detail} cannot be drawn: {reason}")]
     Detail { detail: String, reason: String },
     /// The observer said stop.
     #[error(

@@ -95,7 +95,8 @@ pub struct FigureDetail {
 
 impl FigureDetail {
     /// The diagrams that show it.
-    pub(crate) fn kind(&self) -> FigureKind {
+    #[must_use]
+    pub fn kind(&self) -> FigureKind {
         if self.parameter.is_some() { FigureKind::Vary } else { FigureKind::Response }
     }
 }
@@ -116,7 +117,8 @@ pub struct FigureSelection {
     pub kinds: Vec<FigureKind>,
     /// Scale of the vertical axis of response diagrams.
     pub scale: FigureScale,
-    /// Parts of response diagrams that are drawn again below, larger; one for each horizontal axis at most.
+    /// Parts of response diagrams that are drawn again below, larger; one for each horizontal axis:
+    /// [`ensure_details`](crate::ensure_details) refuses others.
     pub details: Vec<FigureDetail>,
     /// Further results folders, whose branches lie behind those of response diagrams.
     pub with: Vec<PathBuf>,

@@ -10,18 +10,12 @@ pub enum FigureError {
         "nothing to draw: no finite {quantity} inside the axes (points given: {points}, branches: {curves})"
     )]
     Empty { quantity: &'static str, curves: usize, points: usize },
-    /// Nothing to draw in the part that is to be larger.
-    #[error("no finite {quantity} lies in the detail from {from} to {to}")]
-    EmptyDetail { quantity: &'static str, from: f64, to: f64 },
     /// A figure needs at least one panel.
     #[error("nothing to draw: no quantity was asked for")]
     NoQuantity,
-    /// The ends of the frequency axis are not finite numbers in rising order.
-    #[error(
-        "the frequency axis must run from a lower to a higher finite frequency, not from {from_hz} to \
-         {to_hz} Hz"
-    )]
-    FrequencyRange { from_hz: f64, to_hz: f64 },
+    /// The ends of the horizontal axis, or of its detail, are not finite numbers in rising order.
+    #[error("the horizontal axis must run from a lower to a higher finite number, not from {from} to {to}")]
+    AxisRange { from: f64, to: f64 },
     /// More masses than a sketch can show.
     #[error("a sketch has room for {most} masses, the structure has {masses}")]
     Crowded { masses: usize, most: usize },

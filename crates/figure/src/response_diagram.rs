@@ -38,13 +38,13 @@ impl ResponseDiagram {
         )
     }
 
-    /// One panel for each of `quantities`, from top to bottom, with one frequency axis.
+    /// One panel for each of `quantities`, from top to bottom, with one horizontal axis, and below them one for
+    /// each that has values in the detail.
     ///
     /// # Errors
-    /// [`FigureError::Empty`] where no solution has a place in a panel, [`FigureError::EmptyDetail`]
-    /// where none has in the detail; [`FigureError::NoQuantity`] where
-    /// there is no panel; [`FigureError::FrequencyRange`] where the ends of the frequency axis are not in
-    /// order.
+    /// [`FigureError::Empty`] where no solution has a place in a panel of the whole;
+    /// [`FigureError::NoQuantity`] where there is no panel; [`FigureError::AxisRange`] where the ends of the
+    /// horizontal axis, or of the detail, are not in order.
     pub fn draw_with(
         &self,
         quantities: &[ResponseQuantity],

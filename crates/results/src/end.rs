@@ -319,6 +319,16 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn every_word_stands_in_the_book() {
+        let page = include_str!("../../../docs/reference/ends.md");
+        let of_curves = |end: &BranchEnd| matches!(end, BranchEnd::Curve(_));
+        for end in every_end().into_iter().filter(|end| !of_curves(end)) {
+            let word = end.word();
+            assert!(page.contains(&format!("\n| `{word}` |")), "{word} is not in ends.md");
+        }
+    }
+
+    #[test]
     fn every_end_comes_back_from_its_columns() {
         for end in every_end() {
             assert_eq!(BranchEnd::of_stored(&end.stored()), Some(end.clone()), "{end:?}");

@@ -188,7 +188,7 @@ pub fn of_drawing(error: &DrawingError) -> Value {
         DrawingError::Figure(FigureError::Empty { quantity, curves, points }) => {
             fields!(quantity, curves, points)
         }
-        DrawingError::Figure(FigureError::FrequencyRange { from_hz, to_hz }) => fields!(from_hz, to_hz),
+        DrawingError::Figure(FigureError::AxisRange { from, to }) => fields!(from, to),
         DrawingError::Figure(FigureError::Resolution { pixels_per_inch }) => fields!(pixels_per_inch),
         DrawingError::Interrupted { written, .. } => fields!(written),
         _ => json!({}),

@@ -27,6 +27,11 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
             "--with lays response diagrams over one another, and --kind leaves them out".to_owned(),
         ));
     }
+    if let Some(detail) = selection.details.iter().find(|detail| !selection.kinds.contains(&detail.kind())) {
+        return Err(Failure::BadInput(format!(
+            "--detail {detail} is a part of diagrams that --kind leaves out"
+        )));
+    }
     ensure_alike(&selection, &file)?;
     ensure_details(&store, &selection)?;
     if selection.kinds.contains(&FigureKind::Orbits) {

@@ -187,10 +187,14 @@ function paintNumbers(
             y > frame.plot.bbox.top + 6 * density &&
             y < frame.plot.bbox.top + frame.plot.bbox.height - 6 * density;
         const text = isSeen ? String(numbers.get(solution) ?? "") : "";
+        const width = 7 * density * text.length + 2 * density;
+        const right = x + mark.room * density;
+        // Beside the right edge it stands on the left.
+        const fits = right + width <= frame.plot.bbox.left + frame.plot.bbox.width;
         const box: [number, number, number] = [
-            x + mark.room * density,
+            fits ? right : x - mark.room * density - width,
             y - 7 * density,
-            7 * density * text.length + 2 * density,
+            width,
         ];
         const isFree = boxes.every(
             ([left, top, width]) =>

@@ -40,30 +40,29 @@ pub(super) fn draw(
         quantities.iter().map(move |&quantity| ResponsePanel::new(diagram, quantity, range_hz, settings))
     };
     let mut panels = panels_of(range_hz).collect::<Result<Vec<_>, _>>()?;
-    if let Some((from, to)) = settings.detail.map(in_order).transpose()? {
-        let of_detail = |error| match error {
-            FigureError::Empty { quantity, .. } => FigureError::EmptyDetail { quantity, from, to },
-            error => error,
-        };
-        panels.extend(panels_of((from, to)).collect::<Result<Vec<_>, _>>().map_err(of_detail)?);
+    let detail = settings.detail.map(in_order).transpose()?;
+    let wholes = panels.len();
+    for panel in detail.into_iter().flat_map(panels_of) {
+        match panel {
+            // A branch that is elsewhere, or a quantity that has no values there.
+            Err(FigureError::Empty { .. }) => {}
+            panel => panels.push(panel?),
+        }
     }
+    let detail = detail.filter(|_| panels.len() > wholes);
     if panels.is_empty() {
         return Err(FigureError::NoQuantity);
     }
     // Only marks that have room have an entry in the legend, above the plots where that shows.
-    let all = ResponseLayout::new(diagram, &panels, settings, &Mark::ALL);
+    let all = ResponseLayout::new(diagram, (&panels, detail), settings, &Mark::ALL);
     let drawn = all.drawn_marks();
-    Ok(ResponseLayout::new(diagram, &panels, settings, &drawn).draw())
+    Ok(ResponseLayout::new(diagram, (&panels, detail), settings, &drawn).draw())
 }
 
 /// Ends of an axis that are in order.
-fn in_order((from_hz, to_hz): (f64, f64)) -> Result<(f64, f64), FigureError> {
-    let shown = [from_hz, to_hz].into_iter().all(|end| ScaleKind::Linear.shows(end));
-    if shown && from_hz < to_hz {
-        Ok((from_hz, to_hz))
-    } else {
-        Err(FigureError::FrequencyRange { from_hz, to_hz })
-    }
+fn in_order((from, to): (f64, f64)) -> Result<(f64, f64), FigureError> {
+    let shown = [from, to].into_iter().all(|end| ScaleKind::Linear.shows(end));
+    if shown && from < to { Ok((from, to)) } else { Err(FigureError::AxisRange { from, to }) }
 }
 
 /// Ends of the frequency axis: the given ones, else the range of the finite frequencies with a small margin.
@@ -95,10 +94,11 @@ struct ResponseLayout<'a> {
 }
 
 impl<'a> ResponseLayout<'a> {
+    /// * `panels`: of the whole, and then of the detail, if there is one.
     /// * `marks`: those that are in the legend if there are such events.
     fn new(
         diagram: &'a ResponseDiagram,
-        panels: &'a [ResponsePanel],
+        (panels, detail): (&'a [ResponsePanel], Option<(f64, f64)>),
         settings: &'a ResponseSettings,
         marks: &[Mark],
     ) -> Self {
@@ -130,7 +130,7 @@ impl<'a> ResponseLayout<'a> {
             top = area.bottom + 2.0 * GAP + if labelled_below { room_below(style) } else { 0.0 };
         }
         let height = plots[plots.len() - 1].area.bottom + room_below(style);
-        Self { diagram, style, detail: settings.detail, panels, title, legend, plots, left, height }
+        Self { diagram, style, detail, panels, title, legend, plots, left, height }
     }
 
     /// The kinds of marks of which at least one has room.
@@ -185,7 +185,9 @@ impl<'a> ResponseLayout<'a> {
 
     /// Description of the figure.
     fn description(&self) -> String {
-        let names: Vec<&str> = self.panels.iter().map(|panel| panel.quantity.name()).collect();
+        let is_whole = |panel: &&ResponsePanel| panel.range_hz == self.panels[0].range_hz;
+        let wholes: Vec<&ResponsePanel> = self.panels.iter().filter(is_whole).collect();
+        let names: Vec<&str> = wholes.iter().map(|panel| panel.quantity.name()).collect();
         let curves = self.diagram.curves.len();
         let solutions: usize = self.diagram.curves.iter().map(|curve| curve.points.len()).sum();
         let (branches, names) = (if curves == 1 { "branch" } else { "branches" }, names.join(" and "));
@@ -210,7 +212,7 @@ impl<'a> ResponseLayout<'a> {
             description.push_str(&format!("; behind the branches of {}, thin, those of ", self.diagram.name));
             description.push_str(&names.join(", "));
         }
-        for panel in self.panels {
+        for panel in &wholes {
             for of in panel.measured() {
                 let (name, count) = (of.motion.name(), of.places.len());
                 description.push_str(&format!("; {name}: {count} of {}", panel.quantity.name()));
@@ -219,7 +221,7 @@ impl<'a> ResponseLayout<'a> {
                 }
             }
         }
-        for (panel, plot) in self.panels.iter().zip(&self.plots) {
+        for (panel, plot) in wholes.iter().zip(&self.plots) {
             for (mark, places) in panel.marks(plot, self.style) {
                 let (all, drawn) = (panel.count(mark), places.len());
                 description.push_str(&format!("; {} of {}: {all}", mark.name(), panel.quantity.name()));
@@ -232,6 +234,9 @@ impl<'a> ResponseLayout<'a> {
                 description
                     .push_str(&format!("; branch point of {quantity}, marked as the flip it is: {count}"));
             }
+        }
+        if let Some((from, to)) = self.detail {
+            description.push_str(&format!("; drawn again below from {from} to {to}"));
         }
         description
     }

@@ -4,7 +4,7 @@ use hammerbeam::{
     figure::{DataAxis, DataDiagram, DataLabel, DataLook, DataPanel, DataSeries, Figure, LabelSide},
     motion::{
         Law,
-        law::{Degree, HertzStop, LinearStop, PowerSpring, TwoSidedStop},
+        law::{Degree, HertzStop, LinearStop, PowerSpring, TwoSidedStop, TwoSlopeStop},
     },
 };
 
@@ -20,11 +20,12 @@ fn force(laws: &[Law]) -> impl Iterator<Item = (f64, f64)> {
     places.map(|r| (r, -laws.iter().map(|law| law.force(r, 0.0).value).sum::<f64>()))
 }
 
-/// Compares the laws with (L2), (L5), (L11) and (L12), and draws them.
+/// Compares the laws with (L2), (L5), (L11), (L12) and (L15), and draws them.
 pub fn draw() -> Outcome<Figure> {
     let linear: [Law; 1] = [LinearStop::with_gap(1.0, GAPS[0])?.into()];
     let hertz: [Law; 1] = [HertzStop::with_gap(1.0, GAPS[0])?.into()];
     let two_sided: [Law; 1] = [TwoSidedStop::new(1.0, GAPS[0], GAPS[1])?.into()];
+    let two_slopes: [Law; 1] = [TwoSlopeStop::with_gap(0.4, (0.6, 1.6), GAPS[0])?.into()];
     let power = |k: f64, degree: Degree| PowerSpring::new(k, degree).map(Law::from);
     let springs = [power(1.0, Degree::Linear)?, power(1.0, Degree::Quadratic)?, power(1.0, Degree::Cubic)?];
     let wells = [power(-1.0, Degree::Linear)?, springs[2].clone()];
@@ -32,6 +33,7 @@ pub fn draw() -> Outcome<Figure> {
     compare(&linear, beyond);
     compare(&hertz, |r| beyond(r).powf(1.5));
     compare(&two_sided, |r| beyond(r) + (r + GAPS[1]).min(0.0));
+    compare(&two_slopes, |r| 0.4 * beyond(r).min(0.6) + 1.6 * (beyond(r) - 0.6).max(0.0));
     compare(&springs[1..2], |r| r * r);
     compare(&wells, |r| r * r * r - r);
 
@@ -48,6 +50,7 @@ pub fn draw() -> Outcome<Figure> {
                 DataSeries::new("linear (L2)", DataLook::Line(0), force(&linear)),
                 DataSeries::new("Hertz (L5)", DataLook::Line(1), force(&hertz)),
                 DataSeries::new("two-sided (L11)", DataLook::Line(2), force(&two_sided)),
+                DataSeries::new("two slopes (L15)", DataLook::Line(3), force(&two_slopes)),
             ],
         )
     };
@@ -64,7 +67,8 @@ pub fn draw() -> Outcome<Figure> {
             ],
         )
     };
-    let description = "force over displacement of linear, Hertz and two-sided stops, and of powers";
+    let description =
+        "force over displacement of linear, Hertz, two-sided and two-slope stops, and of powers";
     Ok(DataDiagram { panels: vec![stops, springs], description: description.to_owned() }.draw(&style())?)
 }
 

@@ -124,7 +124,7 @@ const ROUNDING: f64 = 32.0;
 const HIGHEST: (i32, f64) = degree(NODES - 1);
 const ALL_NODES: (i32, f64) = degree(NODES);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
-/// Part of a step beyond the node next to an end.
+/// Part of a step beyond the node next to an end, equation (S12).
 const AT_AN_END: f64 = 0.01;
 /// Largest factor from one step to the next.
 pub(super) const LONGEST_GROWTH: f64 = 5.0;

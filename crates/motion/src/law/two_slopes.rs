@@ -1,4 +1,5 @@
 //! One-sided linear spring whose stiffness changes at a second gap.
+//! Equation (L15) of the book, `docs/reference`.
 
 use super::{
     Contact, Force, ForceLaw, ForcePoint, LawConstant, LawDescription, LawError, LawIdentity, LawKey,
