@@ -38,8 +38,8 @@ impl ResponseDiagram {
         )
     }
 
-    /// One panel for each of `quantities`, from top to bottom, with one horizontal axis, and below them one for
-    /// each that has values in the detail.
+    /// One panel for each of `quantities`, from top to bottom, with one horizontal axis, and below them one
+    /// for each that has values in the detail.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no solution has a place in a panel of the whole;
