@@ -73,8 +73,7 @@ fn details_that_no_diagram_shows_are_refused() {
     }
 }
 
-/// Of two pieces over one parameter one has nothing there: its figure is whole. A contact that is not touched
-/// has no velocity on a logarithmic scale.
+/// Of two pieces over one parameter one has nothing there: its figure is whole.
 #[test]
 fn figures_with_nothing_in_the_detail_are_drawn_without_it() {
     let vary = |low: f64, high: f64| {
