@@ -157,10 +157,18 @@ impl Lines {
 
     /// Says where the work is, if it is time.
     pub fn say(&mut self, text: impl FnOnce() -> String) {
-        if self.written.elapsed() >= BETWEEN_LINES {
-            self.written = Instant::now();
+        if self.is_due(Instant::now()) {
             notify(&format!("progress: {}", text()));
         }
+    }
+
+    /// Whether ten seconds have passed since the last line, which then counts as written.
+    fn is_due(&mut self, now: Instant) -> bool {
+        let is_due = now.duration_since(self.written) >= BETWEEN_LINES;
+        if is_due {
+            self.written = now;
+        }
+        is_due
     }
 }
 
@@ -250,6 +258,15 @@ mod tests {
             "about 5 s left",
         ];
         assert_eq!(words, expected);
+    }
+
+    #[test]
+    fn a_line_is_due_every_ten_seconds() {
+        let mut lines = Lines::begin();
+        let begun = lines.written;
+        let due: Vec<u64> =
+            (0..600).filter(|tenth| lines.is_due(begun + Duration::from_millis(100 * tenth))).collect();
+        assert_eq!(due, [100, 200, 300, 400, 500]);
     }
 
     #[test]

@@ -76,8 +76,9 @@ impl Terminal {
     /// How long it still takes, branches, solutions so far and their rate, all within 80 columns, and where.
     fn message(&mut self, progress: &Progress) -> String {
         let left = self.diagram_left(progress.done);
+        let branches = if progress.branches_done == 1 { "branch" } else { "branches" };
         format!(
-            "{left}  {} branches done, {} open  {} solutions, {}/s  {:.2} Hz",
+            "{left}  {} {branches} done, {} open  {} solutions, {}/s  {:.2} Hz",
             progress.branches_done,
             progress.walks_open,
             HumanCount(progress.solutions),

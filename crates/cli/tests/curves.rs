@@ -196,8 +196,8 @@ fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
     }
 }
 
-/// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled
-/// there for thousands of rows once.
+/// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it took
+/// thousands of short steps there once.
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {
     let flip = curve("flip", 0.071713, "excitation.amplitude_n", [0.4, 6.8]);

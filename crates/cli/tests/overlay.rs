@@ -349,10 +349,7 @@ fn what_cannot_be_laid_over_is_refused() {
         assert_eq!(output.status.code(), Some(1), "{output:?}");
         assert!(stderr(&output).contains(part), "{}", stderr(&output));
     };
-    none(
-        &["record.csv", "--frequency", "4.571428", "--at", "9"],
-        "no stable orbit of 1 excitation period(s)",
-    );
+    none(&["record.csv", "--frequency", "4.571428", "--at", "9"], "no stable orbit of 1 excitation period");
     none(&["record.csv", "--frequency", "4.571428", "--period", "2"], "the branches have periods 1");
     none(&["wild.csv", "--frequency", "4.8"], "it is no periodic orbit; --period N");
 }

@@ -61,7 +61,7 @@ fn solutions_agree_whatever_the_phase_at_which_the_structure_rests() {
 /// Five thousandths of a hertz are sixty steps; relative to the state at phase 0 a tolerance of 1e-12 of the
 /// orbit is below rounding, and the walk would make thousands of solutions.
 #[test]
-fn a_close_tolerance_does_not_make_a_walk_crawl() {
+fn a_close_tolerance_does_not_keep_a_walk_from_its_way() {
     let (loose, close) = (verified(0.0, 1e-10), verified(0.0, 1e-12));
     assert!(close < 2 * loose, "{close}, {loose}");
 }

@@ -199,7 +199,7 @@ impl Branches {
     ) -> Result<(), OrbitError> {
         match reason {
             StopReason::Motion { .. } => walk.motion_failure().map_or(Ok(()), |error| self.heed(error)),
-            StopReason::Budget { .. } | StopReason::TooLaborious { .. } => {
+            StopReason::Budget { .. } | StopReason::TooMuchWork { .. } => {
                 let solutions = self.solutions_spent;
                 self.heed(OrbitError::SearchBudget { frequency_hz, solutions })
             }

@@ -24,15 +24,16 @@
 //! although `f*` is not reached. A walk whose last [`SHORT_STEPS`] steps were short is therefore asked
 //! whether a contact of its orbit splits, and ends if one does.
 //!
-//! Before steps are that short they may crawl, and it cannot be told any more on which side of the border a
-//! row is: the general integrator finds another motion. So an orbit whose largest multiplier is beyond
-//! [`UNRESOLVED`] and whose contact begins with next to no speed is the end, too.
+//! Before steps are that short they may lead nowhere, and it cannot be told any more on which side of the
+//! border a row is: the general integrator finds another motion. So an orbit whose largest multiplier is
+//! beyond [`UNRESOLVED`] and whose contact begins with next to no speed is the end, too.
 //!
 //! Steps of the path need not be short there, while those of the motion are: the sensitivities of a force
 //! that goes like `1/v` round by so much that no step of the motion within the contact seems good enough, and
-//! an evaluation takes thousands of them instead of some. Where a point took more than [`LABORIOUS`] of them
-//! for each touch, a contact that begins with next to no speed is the end as well. There the work tells that
-//! it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`] of the largest force.
+//! an evaluation takes thousands of them instead of some. Where a point took more than
+//! [`MOST_STEPS_AT_TOUCH`] of them for each touch, a contact that begins with next to no speed is the end as
+//! well. There the work tells that it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`]
+//! of the largest force.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -45,7 +46,7 @@ pub(crate) const SHORT_STEPS: u64 = 50;
 
 /// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path
 /// and in that of the orbit itself; some ten are usual.
-pub(crate) const LABORIOUS: u64 = 500;
+pub(crate) const MOST_STEPS_AT_TOUCH: u64 = 500;
 
 /// Largest multiplier up to which an orbit beside a splitting is told from the one on its other side. In
 /// three systems the general integrator took the motion on the other side from 7e7, 1.1e8 and 7e8 on.

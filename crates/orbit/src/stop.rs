@@ -45,7 +45,7 @@ pub enum StopReason {
     },
     /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a
     /// contact began, its force jumps there, and so does the motion: the branch ends.
-    ContactSplits {
+    ContactReopens {
         /// Where [Hz].
         frequency_hz: f64,
         /// Name of the local element.
@@ -54,7 +54,7 @@ pub enum StopReason {
         phase: f64,
     },
     /// Thousands of steps did not get anywhere.
-    Crawls {
+    NoProgress {
         /// Where [Hz].
         frequency_hz: f64,
         /// So many steps.
@@ -72,7 +72,7 @@ pub enum StopReason {
         mode: Option<ResonantMode>,
     },
     /// The walk took more work than it may, or than it may without getting on.
-    TooLaborious {
+    TooMuchWork {
         /// Where [Hz].
         frequency_hz: f64,
         /// Solutions until then.
@@ -112,10 +112,10 @@ impl StopReason {
             | Self::ShorterPeriod { frequency_hz, .. }
             | Self::StepTooShort { frequency_hz, .. }
             | Self::RunsBack { frequency_hz, .. }
-            | Self::ContactSplits { frequency_hz, .. }
-            | Self::Crawls { frequency_hz, .. }
+            | Self::ContactReopens { frequency_hz, .. }
+            | Self::NoProgress { frequency_hz, .. }
             | Self::Unbounded { frequency_hz, .. }
-            | Self::TooLaborious { frequency_hz, .. }
+            | Self::TooMuchWork { frequency_hz, .. }
             | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
             Self::Closed | Self::Budget { .. } => None,
         }

@@ -23,12 +23,12 @@ impl Display for StopReason {
                 formatter,
                 "beyond {frequency_hz} every step led back to the branch (at arc length {met_arc_length:.6})"
             ),
-            Self::ContactSplits { frequency_hz, element, phase } => write!(
+            Self::ContactReopens { frequency_hz, element, phase } => write!(
                 formatter,
                 "beyond {frequency_hz} {element} opens and is pressed on again at the phase of {phase:.4} \
                 cycles"
             ),
-            Self::Crawls { frequency_hz, solutions, largest_multiplier } => write!(
+            Self::NoProgress { frequency_hz, solutions, largest_multiplier } => write!(
                 formatter,
                 "no progress at {frequency_hz} in {solutions} solutions, with a multiplier of \
                 {largest_multiplier:.1e}"
@@ -36,7 +36,7 @@ impl Display for StopReason {
             Self::Unbounded { frequency_hz, .. } => {
                 write!(formatter, "the amplitude grows without bound at {frequency_hz}")
             }
-            Self::TooLaborious { frequency_hz, solutions, .. } => {
+            Self::TooMuchWork { frequency_hz, solutions, .. } => {
                 write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")
             }
             Self::Motion { frequency_hz, message } => {

@@ -48,7 +48,7 @@ fn a_contact_that_begins_too_slowly_to_be_computed_ends_the_branch_where_it_spli
     while end.is_none() && rows.len() < MOST_ROWS {
         end = walk.step(&mut rows).unwrap();
     }
-    assert!(matches!(&end, Some(StopReason::ContactSplits { element, .. }) if element == "stop"), "{end:?}");
+    assert!(matches!(&end, Some(StopReason::ContactReopens { element, .. }) if element == "stop"), "{end:?}");
 }
 
 /// Two masses in a row, 1 and 0.478 kg on 1 and 1.498 N/m, the outer one driven and 0.401 m above a stop
@@ -80,7 +80,7 @@ fn rows_beside_a_splitting_are_those_that_can_be_told_from_the_other_side() {
     let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
     let start = find_start(&subject.0, &subject.1, 0.38, 2, &settings).unwrap();
     let (rows, end) = side(&subject, &start, Side::Down, (0.29677, 0.44867), &settings);
-    assert!(matches!(&end, StopReason::ContactSplits { element, .. } if element == "stop"), "{end:?}");
+    assert!(matches!(&end, StopReason::ContactReopens { element, .. } if element == "stop"), "{end:?}");
     let largest = rows[rows.len() - 1].solution.largest_multiplier();
     assert!(largest > 1e5, "{largest:e}: that is not up to the end");
     for orbit in rows.iter().rev().take(5).map(|row| &row.solution) {

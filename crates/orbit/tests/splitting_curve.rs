@@ -68,7 +68,7 @@ fn a_curve_ends_where_a_contact_splits() {
             break end;
         }
     };
-    let CurveEnd::ContactSplits { parameter, element, phase } = end else { panic!("{end:?}") };
+    let CurveEnd::ContactReopens { parameter, element, phase } = end else { panic!("{end:?}") };
     assert_eq!(element, "stop");
     // The last contact of the four begins with a ten-thousandth of the speed of the others, at this phase.
     assert!((phase - 0.4919).abs() < 1e-3, "{phase}");

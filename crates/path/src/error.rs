@@ -48,10 +48,10 @@ pub enum PathStop {
         doubt: StepDoubt,
     },
     /// The path was followed, but in steps so short that it does not get anywhere.
-    Crawls {
+    NoProgress {
         /// Parameter of the last accepted point.
         parameter: f64,
-        /// So many steps in a row were no longer than `Settings::crawl_step`.
+        /// So many steps in a row were no longer than `Settings::short_step`.
         steps: u64,
     },
     /// The problem could not be evaluated beyond the last accepted point.
@@ -82,7 +82,7 @@ impl std::fmt::Display for PathStop {
             Self::StepTooShort { step, residual, doubt, .. } => {
                 write!(f, "at step {step:.1e}, residual {residual:.1e}: {doubt}")
             }
-            Self::Crawls { steps, .. } => write!(f, "the last {steps} steps led nowhere"),
+            Self::NoProgress { steps, .. } => write!(f, "the last {steps} steps led nowhere"),
             Self::EvaluationFailed { step, error, .. } => write!(f, "at step {step:.1e}: {error}"),
             Self::RunsBack { .. } => write!(f, "the path continues on a stretch walked before"),
         }

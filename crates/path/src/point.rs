@@ -95,6 +95,6 @@ pub struct Counters {
     pub accepted: u64,
     /// Attempted steps that were given up.
     pub rejected: u64,
-    /// Accepted steps no longer than `Settings::crawl_step`, since the last longer one.
+    /// Accepted steps no longer than `Settings::short_step`, since the last longer one.
     pub short_in_a_row: u64,
 }

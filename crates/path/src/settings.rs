@@ -63,7 +63,7 @@ pub struct Settings {
     pub min_step: f64,
     /// Steps at most this long do not get anywhere: after [`MOST_SHORT_STEPS`](crate::MOST_SHORT_STEPS) of
     /// them in a row the branch stops.
-    pub crawl_step: f64,
+    pub short_step: f64,
     /// Bound of `θ`, in radians.
     pub max_angle: f64,
     /// A point is accepted when the correction that is still due has `‖d‖ ≤ correction_tolerance`
@@ -101,7 +101,7 @@ impl Default for Settings {
             max_parameter_step: f64::INFINITY,
             max_step_length: 0.1,
             min_step: 1e-10,
-            crawl_step: 1e-9,
+            short_step: 1e-9,
             max_angle: 0.3,
             correction_tolerance: 1e-9,
             correction_floor: 1e-12,
@@ -162,7 +162,7 @@ impl Settings {
             ("max_parameter_step", self.max_parameter_step),
             ("max_step_length", self.max_step_length),
             ("min_step", self.min_step),
-            ("crawl_step", self.crawl_step),
+            ("short_step", self.short_step),
             ("max_angle", self.max_angle),
             ("correction_tolerance", self.correction_tolerance),
             ("correction_floor", self.correction_floor),

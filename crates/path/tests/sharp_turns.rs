@@ -238,9 +238,9 @@ fn hidden_pairs_are_found_through_noise() {
 #[test]
 fn a_path_that_leads_nowhere_is_left() {
     let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);
-    let settings = Settings { crawl_step: 1e-7, ..steps_of(0.01) };
+    let settings = Settings { short_step: 1e-7, ..steps_of(0.01) };
     let branch = up(&mut mixed(3, 0.3, wriggle), &mixed_point(3, 0.3, 0.0, 0.0), -1.0, 1.0, settings);
-    let PathStop::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
+    let PathStop::NoProgress { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
     assert_eq!(steps, MOST_SHORT_STEPS);
     assert!(parameter < 1e-7 * MOST_SHORT_STEPS as f64, "{parameter}");
 }

@@ -161,17 +161,17 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         StopReason::RunsBack { frequency_hz, met_arc_length } => {
             StoredEnd::at("runs-back", *frequency_hz).with([*met_arc_length])
         }
-        StopReason::ContactSplits { frequency_hz, element, phase } => {
+        StopReason::ContactReopens { frequency_hz, element, phase } => {
             StoredEnd::at("contact-reopens", *frequency_hz).with([*phase]).saying(element)
         }
-        StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
+        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier } => {
             StoredEnd::at("no-progress", *frequency_hz).with([*solutions as f64, *largest_multiplier])
         }
         StopReason::Unbounded { frequency_hz, mode } => {
             let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
             StoredEnd::at("unbounded", *frequency_hz).with(of_mode.unwrap_or_default())
         }
-        StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
+        StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
             StoredEnd::at("too-much-work", *frequency_hz).with(numbers)
         }
@@ -198,11 +198,11 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         }
         ("runs-back", [met], frequency_hz) => StopReason::RunsBack { frequency_hz, met_arc_length: *met },
         ("contact-reopens", [phase], frequency_hz) => {
-            StopReason::ContactSplits { frequency_hz, element: text()?, phase: *phase }
+            StopReason::ContactReopens { frequency_hz, element: text()?, phase: *phase }
         }
         ("no-progress", [solutions, largest], frequency_hz) => {
             let solutions = *solutions as u64;
-            StopReason::Crawls { frequency_hz, solutions, largest_multiplier: *largest }
+            StopReason::NoProgress { frequency_hz, solutions, largest_multiplier: *largest }
         }
         ("unbounded", [], frequency_hz) => StopReason::Unbounded { frequency_hz, mode: None },
         ("unbounded", [number, at_hz, ratio], frequency_hz) => {
@@ -211,7 +211,7 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         }
         ("too-much-work", [solutions, gets_on], frequency_hz) => {
             let solutions = *solutions as u64;
-            StopReason::TooLaborious { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
+            StopReason::TooMuchWork { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
         }
         ("motion", [], frequency_hz) => StopReason::Motion { frequency_hz, message: text()? },
         _ => return None,
@@ -234,10 +234,10 @@ fn of_curve(end: &CurveEnd) -> StoredEnd<'static, '_> {
         CurveEnd::GrazedAsWell { parameter, element } => {
             StoredEnd::at("curve-grazed-as-well", *parameter).saying(element)
         }
-        CurveEnd::ContactSplits { parameter, element, phase } => {
+        CurveEnd::ContactReopens { parameter, element, phase } => {
             StoredEnd::at("curve-contact-reopens", *parameter).with([*phase]).saying(element)
         }
-        CurveEnd::Crawls { parameter, rows } => {
+        CurveEnd::NoProgress { parameter, rows } => {
             StoredEnd::at("curve-no-progress", *parameter).with([f64::from(*rows)])
         }
         CurveEnd::Stopped { parameter, message } => {
@@ -262,9 +262,11 @@ fn curve_of(stored: &StoredEnd<'_, '_>) -> Option<CurveEnd> {
             CurveEnd::GrazedAsWell { parameter, element: text()? }
         }
         ("curve-contact-reopens", Some(parameter), [phase]) => {
-            CurveEnd::ContactSplits { parameter, element: text()?, phase: *phase }
+            CurveEnd::ContactReopens { parameter, element: text()?, phase: *phase }
         }
-        ("curve-no-progress", Some(parameter), [rows]) => CurveEnd::Crawls { parameter, rows: *rows as u32 },
+        ("curve-no-progress", Some(parameter), [rows]) => {
+            CurveEnd::NoProgress { parameter, rows: *rows as u32 }
+        }
         ("curve-stopped", Some(parameter), []) => CurveEnd::Stopped { parameter, message: text()? },
         _ => return None,
     })
@@ -288,11 +290,11 @@ pub(crate) mod tests {
             StopReason::Budget { solutions: 3 },
             StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: f64::INFINITY, doubt: text() },
             StopReason::RunsBack { frequency_hz, met_arc_length: 3.0 },
-            StopReason::ContactSplits { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
-            StopReason::Crawls { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
+            StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
+            StopReason::NoProgress { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
             StopReason::Unbounded { frequency_hz, mode: Some(mode) },
             StopReason::Unbounded { frequency_hz, mode: None },
-            StopReason::TooLaborious { frequency_hz, solutions: 5, gets_on: false },
+            StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },
             StopReason::Motion { frequency_hz, message: text() },
         ];
         let curves = [
@@ -305,8 +307,8 @@ pub(crate) mod tests {
             CurveEnd::Grazing { parameter, cause: None },
             CurveEnd::Grazing { parameter, cause: Some(text()) },
             CurveEnd::GrazedAsWell { parameter, element: text() },
-            CurveEnd::ContactSplits { parameter, element: text(), phase: 0.25 },
-            CurveEnd::Crawls { parameter, rows: 7 },
+            CurveEnd::ContactReopens { parameter, element: text(), phase: 0.25 },
+            CurveEnd::NoProgress { parameter, rows: 7 },
             CurveEnd::Stopped { parameter, message: text() },
         ];
         let others = [

@@ -129,10 +129,10 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
                 arc length {met_arc_length:.6})",
             at(*frequency_hz)
         ),
-        StopReason::ContactSplits { frequency_hz, element, phase } => {
+        StopReason::ContactReopens { frequency_hz, element, phase } => {
             format!("beyond {} {}", at(*frequency_hz), splits(element, *phase, look))
         }
-        StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => format!(
+        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier } => format!(
             "at {} the last {solutions} solutions brought the branch no further: in a period of the \
                 motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {look}",
             at(*frequency_hz)
@@ -140,8 +140,8 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::Unbounded { frequency_hz, mode } => {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))
         }
-        StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
-            format!("at {} {}", at(*frequency_hz), too_laborious(*solutions, *gets_on))
+        StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
+            format!("at {} {}", at(*frequency_hz), too_much_work(*solutions, *gets_on))
         }
         StopReason::Motion { frequency_hz, message } => {
             format!("the motion could not be computed at {}: {message}", at(*frequency_hz))
@@ -170,10 +170,10 @@ fn of_curve(end: &CurveEnd, along: BranchOver<'_>) -> String {
         CurveEnd::GrazedAsWell { parameter, element } => {
             format!("{element} is grazed as well at {} and struck beyond", at(*parameter))
         }
-        CurveEnd::ContactSplits { parameter, element, phase } => {
+        CurveEnd::ContactReopens { parameter, element, phase } => {
             format!("beyond {} {}", at(*parameter), splits(element, *phase, along.look()))
         }
-        CurveEnd::Crawls { parameter, rows } => {
+        CurveEnd::NoProgress { parameter, rows } => {
             format!(
                 "ended early at {}: the last {rows} solutions brought the curve no further",
                 at(*parameter)
@@ -220,7 +220,7 @@ fn splits(element: &str, phase: f64, look: &str) -> String {
 }
 
 /// What becomes of a branch that takes too much work, and what helps.
-fn too_laborious(solutions: u64, gets_on: bool) -> String {
+fn too_much_work(solutions: u64, gets_on: bool) -> String {
     let what = if gets_on {
         format!("the work that a side of a branch may take is used up after {solutions} solutions")
     } else {
@@ -275,7 +275,7 @@ mod tests {
     fn over_the_frequency_the_end_of_the_range_has_its_digits_and_other_places_six() {
         let range_end = BranchEnd::Walk(StopReason::RangeEnd { frequency_hz: 12.5 });
         assert_eq!(range_end.to_string(), "end of the frequency range at 12.5 Hz");
-        let splits = StopReason::ContactSplits { frequency_hz: 12.5, element: "s2".to_owned(), phase: 0.25 };
+        let splits = StopReason::ContactReopens { frequency_hz: 12.5, element: "s2".to_owned(), phase: 0.25 };
         assert!(BranchEnd::Walk(splits).to_string().starts_with("beyond 12.500000 Hz s2 opens"));
     }
 

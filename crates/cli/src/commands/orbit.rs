@@ -10,6 +10,7 @@ use crate::{
     args::OrbitOptions,
     failure::Failure,
     interrupt::Interrupt,
+    kept::counted,
     output::{Output, notify, readable_frequency, six_decimals},
     watch::Watch,
 };
@@ -27,7 +28,8 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let incomplete = report.incomplete.as_ref().map(|reason| format!("the search is not complete: {reason}"));
     if report.orbits.is_empty() {
         let nothing = format!(
-            "no periodic solution of {multiple} excitation period(s) was found at {}",
+            "no periodic solution of {} was found at {}",
+            counted(multiple.into(), "excitation period"),
             output.frequency_unit.words(frequency_hz)
         );
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
@@ -67,9 +69,9 @@ fn solution_text(solution: &PeriodicSolution, (point, unit): (&str, FrequencyUni
     let shown = |value: f64, of: &str| readable_to(value, of, DIGITS);
     [
         format!(
-            "{}, period {} excitation period(s), {}",
+            "{}, period of {}, {}",
             readable_frequency(unit, solution.frequency_hz),
-            solution.period_multiple,
+            counted(solution.period_multiple.into(), "excitation period"),
             solution.stability().word()
         ),
         format!("  maximum displacement of {point}   {}", shown(maxima.displacement, "m")),

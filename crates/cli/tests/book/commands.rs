@@ -156,6 +156,21 @@ fn run(workshop: &Workshop, line: &str) -> String {
     stdout(&output)
 }
 
+/// Runs a script for a scheduler as that does, with this build's command, one core, and a shorter study.
+#[track_caller]
+fn run_script(workshop: &Workshop, text: &str) {
+    let narrowed = narrowing(&["run".to_owned(), "study.toml".to_owned()]).join("' '");
+    fs::write(workshop.path("job.sh"), format!("{} '{narrowed}'\n", text.trim_end())).unwrap();
+    let program = assert_cmd::cargo::cargo_bin!("hammerbeam");
+    let known = std::env::var_os("PATH").unwrap();
+    let path = [program.parent().unwrap().to_owned()].into_iter().chain(std::env::split_paths(&known));
+    let mut script = std::process::Command::new("bash");
+    script.arg("job.sh").current_dir(workshop.path("")).env("SLURM_CPUS_PER_TASK", "1");
+    let output = script.env("PATH", std::env::join_paths(path).unwrap()).output().unwrap();
+    assert!(output.status.success(), "{text}\n{}", stderr(&output));
+    assert!(workshop.path("results/results.db").is_file());
+}
+
 /// A folder with the studies, files of the page, and what its reader has done before.
 fn prepared(page: &str, text: &str) -> Workshop {
     let first_study = blocks(text).into_iter().find(|block| block.language == "toml");
@@ -196,6 +211,10 @@ fn run_page(page: &str) -> usize {
         );
         if is_command {
             printed.clear();
+        }
+        if block.language == "bash" {
+            run_script(workshop.get_or_insert_with(|| prepared(page, &text)), &block.text);
+            count += 1;
         }
         for command in commands(&block.text).iter().filter(|_| is_command) {
             if NOT_RUN.iter().any(|(start, _)| command.starts_with(start)) {

@@ -197,7 +197,7 @@ pub enum CurveEnd {
     },
     /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a
     /// contact began, its force jumps there, and so does the motion.
-    ContactSplits {
+    ContactReopens {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,
         /// Name of the local element.
@@ -206,7 +206,7 @@ pub enum CurveEnd {
         phase: f64,
     },
     /// Thousands of rows did not get anywhere.
-    Crawls {
+    NoProgress {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,
         /// So many rows.
@@ -231,8 +231,8 @@ impl CurveEnd {
             Self::OwnImage { parameter, .. }
             | Self::Grazing { parameter, .. }
             | Self::GrazedAsWell { parameter, .. }
-            | Self::ContactSplits { parameter, .. }
-            | Self::Crawls { parameter, .. }
+            | Self::ContactReopens { parameter, .. }
+            | Self::NoProgress { parameter, .. }
             | Self::Stopped { parameter, .. } => *parameter = unit(*parameter),
             Self::RangeEnd | Self::FrequencyRangeEnd | Self::Closed | Self::Resonance | Self::Budget => {}
         }

@@ -100,5 +100,5 @@ fn splitting_of(shooting: &mut Shooting, place: &Place) -> Option<Splitting> {
 }
 
 fn splits_at(parameter: f64, Splitting { element, phase }: Splitting) -> CurveEnd {
-    CurveEnd::ContactSplits { parameter, element, phase }
+    CurveEnd::ContactReopens { parameter, element, phase }
 }

@@ -56,7 +56,7 @@ pub(super) fn path_settings(settings: &CurveSettings, units: [f64; 2]) -> Settin
         max_parameter_step: settings.max_step * units[1],
         max_step_length: settings.max_step,
         min_step: 1e-8,
-        crawl_step: 1e-5,
+        short_step: 1e-5,
         correction_tolerance: 1e-8,
         correction_floor: 1e-10,
         residual_floor: 1e3 * default.residual_floor,

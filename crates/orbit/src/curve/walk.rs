@@ -40,10 +40,11 @@ const AHEAD: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
 /// Rows one after the other that are short, the last of them so near to a grazing, after which the curve has
 /// met it: one that only passes it has steps that grow again.
 const SHORT_AT_GRAZING: u64 = 50;
-/// So many rows that have got no further than [`CRAWLING`] crawl: two hundred go over a whole range else.
+/// So many rows that have got no further than [`LEAST_WAY`] lead nowhere: two hundred go over a whole range
+/// else.
 const MANY_ROWS: u32 = 2000;
 /// A way of next to nothing, in hundredths of the ranges.
-const CRAWLING: f64 = 0.5;
+const LEAST_WAY: f64 = 0.5;
 /// Rows in which a curve of flips over half a period comes to a degenerate one, if it leads there.
 const ROWS_OF_HALF: usize = 12;
 /// Largest residual of an orbit that was found as its own image.
@@ -60,7 +61,7 @@ pub struct CurveWalk {
     pub(super) grazing_distance: f64,
     /// Rows one after the other whose orbits graze one, to rounding.
     rows_at_grazing: u32,
-    /// Rows since the walk was last asked whether it crawls, and the arc length then.
+    /// Rows since the walk was last asked whether it gets on, and the arc length then.
     since: (u32, f64),
     /// On a curve of folds.
     approach: Option<Approach>,
@@ -255,7 +256,7 @@ impl CurveWalk {
         let parameter = row.parameter;
         let opposite = if self.strikes_opposite() { opposite_name(&self.problem.shooting) } else { None };
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
-        let crawls = self.crawls();
+        let no_progress = self.makes_no_progress();
         self.end = if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             Some(CurveEnd::Resonance)
         } else if let Some(element) = opposite {
@@ -268,8 +269,8 @@ impl CurveWalk {
                 splits_here(&mut self.problem, &self.follower)
                     .unwrap_or(CurveEnd::Grazing { parameter, cause: None }),
             )
-        } else if crawls {
-            Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
+        } else if no_progress {
+            Some(CurveEnd::NoProgress { parameter, rows: MANY_ROWS })
         } else {
             self.meets_image()?
         };
@@ -301,7 +302,7 @@ impl CurveWalk {
     }
 
     /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].
-    fn crawls(&mut self) -> bool {
+    fn makes_no_progress(&mut self) -> bool {
         self.since.0 += 1;
         if self.since.0 < MANY_ROWS {
             return false;
@@ -309,7 +310,7 @@ impl CurveWalk {
         let arc_length = self.follower.current().arc_length;
         let way = arc_length - self.since.1;
         self.since = (0, arc_length);
-        way < CRAWLING
+        way < LEAST_WAY
     }
 
     /// Whether the curve ends at an orbit that is its own image, as the present row shows; that orbit is the

@@ -56,7 +56,7 @@ impl Effort {
             self.mark = (self.spent, arc_length);
         }
         let gets_on = self.spent - self.mark.0 <= MOST / PARTS;
-        (!gets_on || self.spent > MOST).then(|| StopReason::TooLaborious {
+        (!gets_on || self.spent > MOST).then(|| StopReason::TooMuchWork {
             frequency_hz: path.parameter(),
             solutions: path.follower.counters().accepted,
             gets_on,

@@ -30,8 +30,8 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
                 residual,
                 doubt: doubt.to_string(),
             }),
-        PathStop::Crawls { steps, .. } => {
-            splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::Crawls {
+        PathStop::NoProgress { steps, .. } => {
+            splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::NoProgress {
                 frequency_hz,
                 solutions: steps,
                 largest_multiplier: largest_multiplier(path),

@@ -8,7 +8,7 @@ use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
 /// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like
 /// `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
 /// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would
-/// crawl through noise; so its turn there is taken as the corner that it is.
+/// take ever shorter steps through noise; so its turn there is taken as the corner that it is.
 const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
 /// Residual to which orbits with rigid stops are corrected: an impact of the speed v makes `1/v` times as
@@ -24,7 +24,7 @@ const RESIDUAL: f64 = 1e-8;
 /// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
 /// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
 /// and not to the border.
-const CRAWL_BESIDE_IMPACTS: f64 = 1e4;
+const SHORT_BESIDE_IMPACTS: f64 = 1e4;
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
 pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
@@ -34,7 +34,7 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 /// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
-    let crawl = if begins_with_care(system) { CRAWL_BESIDE_IMPACTS } else { 1.0 };
+    let short = if begins_with_care(system) { SHORT_BESIDE_IMPACTS } else { 1.0 };
     let (shortest, wanted) =
         if system.has_rigid_stops() { (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS) } else { (1.0, RESIDUAL) };
     Settings {
@@ -42,7 +42,7 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
         max_parameter_step: settings.max_step_hz,
         max_step_length: 2.0 * settings.max_step_hz,
         min_step: shortest * default.min_step * length,
-        crawl_step: crawl * default.crawl_step * length,
+        short_step: short * default.short_step * length,
         correction_tolerance: settings.tolerance * length,
         correction_floor: default.correction_floor * length,
         // Rounding of the residual grows with the multipliers.

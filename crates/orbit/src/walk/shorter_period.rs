@@ -16,11 +16,11 @@ const SAME: f64 = 1e-7;
 /// steps far shorter than that has arrived, if its frequency has nothing left to change: then it is located
 /// as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the
 /// choice of contact steps: it is more than what the frequency still has to change.
-const CRAWLS_NEAR: f64 = 1e-4;
+const NO_PROGRESS_NEAR: f64 = 1e-4;
 /// Nothing left: this part of the frequency, by the slope there times the distance.
 const STILL: f64 = 2e-9;
 /// Far shorter: this part of the distance.
-const CRAWLS: f64 = 0.02;
+const LITTLE: f64 = 0.02;
 
 /// Where the walk ends since the present point is one of a branch of shorter period: where that flips, or
 /// so near to it that its place is known while steps are held up by rounding; or where the contacts
@@ -31,15 +31,15 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
         let current = path.follower.current();
         (current.events, current.parameter())
     };
-    let flips = events.branch_point && is_near_shorter_period(path) || crawls_to_shorter_period(path);
+    let flips = events.branch_point && is_near_shorter_period(path) || tends_to_shorter_period(path);
     let grazes = !flips && events.signature_change && distance_to_shorter_period(path) < SAME;
     (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
 }
 
-/// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the
-/// orbit, in a small part of the way that is left each.
-fn crawls_to_shorter_period(path: &mut OrbitPath) -> bool {
-    let near = CRAWLS_NEAR * path.hertz_per_norm();
+/// Whether the last steps have led towards an orbit of shorter period, nearer than [`NO_PROGRESS_NEAR`] of
+/// the orbit, in a small part of the way that is left each.
+fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
+    let near = NO_PROGRESS_NEAR * path.hertz_per_norm();
     let OrbitPath { problem, follower, .. } = path;
     let history = &follower.state().history;
     let nodes = &history.nodes[..history.used];
@@ -52,7 +52,7 @@ fn crawls_to_shorter_period(path: &mut OrbitPath) -> bool {
         slope * left < STILL * problem.parameter_size(&node.point)
     };
     nodes.iter().zip(&left).all(still)
-        && left.windows(2).all(|pair| (0.0..CRAWLS * pair[0]).contains(&(pair[1] - pair[0])))
+        && left.windows(2).all(|pair| (0.0..LITTLE * pair[0]).contains(&(pair[1] - pair[0])))
 }
 
 /// Whether the present orbit is, within [`MERGED`], one of shorter period.

@@ -43,14 +43,14 @@ impl Work {
     }
 
     /// Whether an orbit with so many touches took far more steps of the motion than touches take.
-    fn is_laborious(self, touches: u64) -> bool {
-        self.force_steps > splitting::LABORIOUS * touches.max(1) * self.evaluations.max(1)
+    fn takes_too_many_steps(self, touches: u64) -> bool {
+        self.force_steps > splitting::MOST_STEPS_AT_TOUCH * touches.max(1) * self.evaluations.max(1)
     }
 }
 
 /// If the last steps were short, and a contact of the present orbit splits: the way to the border is no
 /// longer resolved.
-pub(super) fn crawls_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
+pub(super) fn tends_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
     let short = path.follower.counters().short_in_a_row;
     if short == 0 || !short.is_multiple_of(splitting::SHORT_STEPS) {
         return None;
@@ -58,7 +58,7 @@ pub(super) fn crawls_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
     splits_here(path, path.parameter())
 }
 
-/// If the step from `departure` has passed a splitting, or has become laborious beside one.
+/// If the step from `departure` has passed a splitting, or takes too many force steps beside one.
 ///
 /// * `touches`: of each contact at the row before.
 pub(super) fn comes_to_splitting(
@@ -95,7 +95,7 @@ fn labours_at_splitting(
     spent: Work,
 ) -> Result<Option<StopReason>, OrbitError> {
     let touches = path.problem.touches().iter().map(|&touches| u64::from(touches)).sum();
-    if !spent.is_laborious(touches) {
+    if !spent.takes_too_many_steps(touches) {
         return Ok(None);
     }
     let present = place(path);
@@ -103,7 +103,7 @@ fn labours_at_splitting(
     let earlier = work(path);
     evaluate(&mut path.problem, &present.point.point)?;
     let alone = Work { evaluations: 1, ..work(path).since(earlier) };
-    if !alone.is_laborious(touches) {
+    if !alone.takes_too_many_steps(touches) {
         return Ok(None);
     }
     has_just_split(path, before)
@@ -184,5 +184,5 @@ fn move_to_orbit(path: &mut OrbitPath, orbit: &Departed) -> Option<(f64, f64)> {
 
 /// Why a walk ends whose last orbit has this frequency.
 fn splits_at(frequency_hz: f64, Splitting { element, phase }: Splitting) -> StopReason {
-    StopReason::ContactSplits { frequency_hz, element, phase }
+    StopReason::ContactReopens { frequency_hz, element, phase }
 }

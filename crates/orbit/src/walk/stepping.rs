@@ -8,7 +8,7 @@ use super::{
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
     shorter_period::meets_shorter_period,
-    splits::{Departure, comes_to_splitting, crawls_to_splitting, is_lost_at_splitting, may_split, work},
+    splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
 };
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
@@ -100,7 +100,7 @@ impl BranchWalk {
     /// Makes ready to leave the present point; or why the walk ends there.
     fn depart(&mut self) -> Result<Departure, StopReason> {
         let path = &mut self.path;
-        if let Some(end) = meets_shorter_period(path).or_else(|| crawls_to_splitting(path)) {
+        if let Some(end) = meets_shorter_period(path).or_else(|| tends_to_splitting(path)) {
             return Err(end);
         }
         let place = may_split(path);

@@ -105,7 +105,7 @@ pub struct Follower {
     looks_ahead: bool,
 }
 
-/// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn,
+/// So many steps in a row that are no longer than `Settings::short_step` end a branch: an ordinary turn,
 /// whatever its size, is passed with steps that grow again.
 pub const MOST_SHORT_STEPS: u64 = 5000;
 
@@ -229,7 +229,7 @@ impl Follower {
             return Some(PathStop::Budget);
         }
         let parameter = self.state.current.parameter();
-        (steps >= MOST_SHORT_STEPS).then_some(PathStop::Crawls { parameter, steps })
+        (steps >= MOST_SHORT_STEPS).then_some(PathStop::NoProgress { parameter, steps })
     }
 
     /// Attempts shorter and shorter steps until one is beyond doubt.
@@ -378,7 +378,7 @@ impl Follower {
         let angle = product(weights, &base.tangent, &trial.node.tangent).clamp(-1.0, 1.0).acos();
         let errors = state.history.errors(weights, &trial.node.point, &mut self.locator.probe.point);
         counters.accepted += 1;
-        let is_short = chord <= settings.crawl_step;
+        let is_short = chord <= settings.short_step;
         counters.short_in_a_row = if is_short { counters.short_in_a_row + 1 } else { 0 };
         let left = state.current.events.zeros;
         tests.go_on(&trial.tests, &trial.noted, left, arrival.zeros_near | arrival.events.zeros);

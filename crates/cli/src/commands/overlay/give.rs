@@ -7,7 +7,7 @@ use hammerbeam_results::export::{Table, header, number};
 use serde_json::{Value, json};
 
 use super::laid::Laid;
-use crate::{failure::Failure, overlay_args::OverlayOptions};
+use crate::{failure::Failure, kept::counted, overlay_args::OverlayOptions};
 
 /// Writes `overlay.csv`.
 pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
@@ -96,11 +96,11 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     let overlay = &laid.overlay;
     let mut lines = vec![laid.input.heading()];
     lines.push(format!(
-        "{} at {} of {} over {} excitation period(s) at {:.6} Hz, mean of {} pieces, lines up to {:.1} Hz",
+        "{} at {} of {} over {} at {:.6} Hz, mean of {} pieces, lines up to {:.1} Hz",
         laid.quantity.word(),
         laid.point,
         laid.input.channel().name,
-        laid.period_multiple,
+        counted(laid.period_multiple.into(), "excitation period"),
         laid.classification.frequency_hz,
         laid.measured.pieces,
         laid.highest_hz(),

@@ -25,7 +25,8 @@ use super::{
     signal::{Input, open, quantity},
 };
 use crate::{
-    failure::Failure, interrupt::Interrupt, output::Output, overlay_args::OverlayOptions, watch::Watch,
+    failure::Failure, interrupt::Interrupt, kept::counted, output::Output, overlay_args::OverlayOptions,
+    watch::Watch,
 };
 
 /// Samples of a waveform in an excitation period.
@@ -154,8 +155,8 @@ fn nothing(branches: &StoredBranches, period_multiple: u32, settings: &OverlaySe
     periods.dedup();
     let periods: Vec<String> = periods.iter().map(u32::to_string).collect();
     Failure::NoResult(format!(
-        "no stable orbit{of} of {period_multiple} excitation period(s) is stored {place}; the branches have \
-        periods {}",
+        "no stable orbit{of} of {} is stored {place}; the branches have periods {}",
+        counted(period_multiple.into(), "excitation period"),
         periods.join(", ")
     ))
 }
