@@ -11,9 +11,11 @@ from pathlib import Path
 import hammerbeam
 import pytest
 from conftest import ROOT
+from hammerbeam.batch import Batch, Parameters
 
 PAGE = ROOT / "docs/tutorials/python.md"
 MANY = ROOT / "docs/how-to/many-studies.md"
+CLUSTER = ROOT / "docs/how-to/run-on-a-cluster.md"
 # Pages with studies, whole and in part. The data file of `fit-to-measurements.md` is no study.
 STUDIED = [
     ROOT / "docs/reference/study-file.md",
@@ -119,6 +121,16 @@ def test_many_studies_run_from_a_terminal_as_the_page_says(tmp_path: Path) -> No
         words = [sys.executable, *line.split()[1:]]
         done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
         assert done.stdout.startswith(counts), done.stderr
+
+
+def test_a_job_array_is_written_as_the_page_of_clusters_says(tmp_path: Path) -> None:
+    study = ROOT / "python/examples/dakota/oscillator.toml"
+    Batch.plan(tmp_path / "results/forces", study, Parameters.grid({"excitation.amplitude_n": [0.2, 0.3]}))
+    [words] = [line.split() for block in snippets("sh", CLUSTER) for line in block.splitlines()]
+    assert words[:3] == ["python", "-m", "hammerbeam.batch"]
+    done = subprocess.run([sys.executable, *words[1:]], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "#SBATCH --time=01:00:00\n" in (tmp_path / "results/forces/slurm.sh").read_text()
 
 
 def test_examples_of_studies_have_keys_that_there_are() -> None:

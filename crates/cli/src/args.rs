@@ -197,7 +197,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "KEY=VALUE,VALUE,...")]
     pub vary_set: Vec<Setting>,
 
-    /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
+    /// Also start branches at the periodic motions that `sweep` and `basins` have stored in this results
     /// folder and that no branch holds; or at a special point of its branches, by the number that page.html
     /// shows: results:12; may be given several times
     #[arg(long, value_name = "DIR[:POINT]", value_parser = origin)]

@@ -88,7 +88,7 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
-    /// Last frequency of a series, above the first, or the same for that one alone; the motion begins anew at
+    /// Last frequency of a series, above the first, or the same for that one alone; the motion starts anew at
     /// each
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub to: Option<f64>,
@@ -123,7 +123,7 @@ pub struct LyapunovOptions {
     )]
     pub transient_periods: u64,
 
-    /// Sections in a period to begin with; each is cut further where tangent vectors grow too differently
+    /// Sections in a period to start with; each is cut further where tangent vectors grow too differently
     #[arg(
         long,
         value_name = "N",
@@ -235,7 +235,7 @@ pub struct SweepOptions {
     #[arg(long)]
     pub down: bool,
 
-    /// Instead of a sweep: begin at N states at every frequency, the same ones each time
+    /// Instead of a sweep: start at N states at every frequency, the same ones each time
     #[arg(
         long,
         value_name = "N",

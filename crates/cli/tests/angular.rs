@@ -18,9 +18,11 @@ fn texts_have_the_frequencies_that_were_given_in_rad_per_second() {
         stdout(&output)
     };
     let orbit = ["orbit", "study.toml", "--frequency", "1.05 rad/s"];
-    assert!(text(&[&orbit[..], &["--angular"]].concat()).contains("\n1.05 rad/s, period 1"));
+    assert!(
+        text(&[&orbit[..], &["--angular"]].concat()).contains("\n1.05 rad/s, period of 1 excitation period")
+    );
     // To nine digits, as texts have all frequencies; the document has all of them.
-    assert!(text(&orbit).contains("\n0.16711269 Hz, period 1"));
+    assert!(text(&orbit).contains("\n0.16711269 Hz, period of 1 excitation period"));
     let document: serde_json::Value =
         serde_json::from_str(&text(&[&orbit[..], &["--angular", "--json"]].concat())).unwrap();
     assert_eq!(document["frequency_hz"], 1.05 / TAU);

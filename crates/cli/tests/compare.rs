@@ -183,10 +183,7 @@ fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
         (&3.into(), &2.into(), &2.into())
     );
     let text = stdout(&workshop.hammerbeam(&[&["compare", "results"], &given("beyond.csv")[..]].concat()));
-    assert!(
-        text.contains("note: 2 point(s) are shifted beyond the range of the study, 0.3 to 0.8 Hz"),
-        "{text}"
-    );
+    assert!(text.contains("note: 2 points shifted beyond the range of the study, 0.3 to 0.8 Hz"), "{text}");
     let figure = fs::read_to_string(workshop.path("results/compare/compare_displacement.svg")).unwrap();
     assert!(figure.contains("measured, periodic (2 beyond the axes)"), "{figure}");
     // Metres that are millimetres: each point meets the branch, none is near.

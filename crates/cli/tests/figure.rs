@@ -202,8 +202,8 @@ fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
 fn an_orbit_that_no_branch_has_is_bad_input() {
     let workshop = short_run();
     for (orbit, sentence) in [
-        ("20", "no stored branch of 1 excitation period(s) crosses 20 Hz; they lie between 13.5 and 14 Hz"),
-        ("13.7:3", "no stored branch of 3 excitation period(s) crosses 13.7 Hz; there is no such branch"),
+        ("20", "no stored branch of 1 excitation period crosses 20 Hz; they lie between 13.5 and 14 Hz"),
+        ("13.7:3", "no stored branch of 3 excitation periods crosses 13.7 Hz; there is no such branch"),
     ] {
         let arguments = ["figure", "results", "--orbit", "13.7", "--orbit", orbit, "--out", "drawn"];
         assert_bad_input(&workshop.hammerbeam(&arguments), &[sentence]);

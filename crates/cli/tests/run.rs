@@ -146,7 +146,7 @@ fn without_a_terminal_a_run_says_only_its_summary() {
     let output = workshop.hammerbeam(&RUN);
     assert_success(&output);
     assert_eq!(reported(&output), "");
-    assert!(stdout(&output).contains("solutions on 1 branch(es) in results"));
+    assert!(stdout(&output).contains("solutions on 1 branch in results"));
     for figure in ["response_displacement.svg", "response_displacement.png", "response_acceleration.svg"] {
         assert!(fs::metadata(workshop.path("results").join(figure)).unwrap().len() > 1000, "{figure}");
     }

@@ -61,8 +61,7 @@ fn springs_are_found_and_the_study_is_written_with_them() {
     assert_eq!(kept, document);
     let text = workshop.hammerbeam(&["update", "study.toml", "data.toml", "--profile", "--confidence", "90"]);
     assert_success(&text);
-    for part in ["springs: 2 parameter(s), 2 data", "90 % interval", "; profile ", "correlation", "clamped 2"]
-    {
+    for part in ["springs: 2 parameters, 2 data", "90 % interval", "; profile ", "correlation", "clamped 2"] {
         assert!(stdout(&text).contains(part), "{part} is missing in\n{}", stdout(&text));
     }
 }

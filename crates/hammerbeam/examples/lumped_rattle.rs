@@ -30,7 +30,7 @@ pub fn main() -> Result<(), Error> {
     let study = Study::parse("rattle", RATTLE)?;
     for orbit in study.orbits(1.8, 1)? {
         let (stability, maxima) = (orbit.stability().word(), &orbit.maxima);
-        println!("{stability}: {:.2} mm, {} contact(s)", 1e3 * maxima.displacement, maxima.contacts);
+        println!("{stability}: {:.2} mm, contacts: {}", 1e3 * maxima.displacement, maxima.contacts);
         for [re, im] in &orbit.floquet_multipliers {
             println!("    multiplier {re:.6}{im:+.6}i");
         }

@@ -10,7 +10,7 @@ use hammerbeam_jobs::{
 use crate::{
     failure::Failure,
     interrupt::Interrupt,
-    kept::{unfinished, what_is_kept},
+    kept::{counted, unfinished, what_is_kept},
     motion_args::{AxisOption, BasinsOptions},
     output::Output,
     watch::Watch,
@@ -83,7 +83,7 @@ fn text(report: &BasinsReport, unit: FrequencyUnit) -> String {
     }
     if report.cells_not_computed > 0 {
         let lost = report.cells_not_computed;
-        lines.push(format!("  {lost} cell(s) without an attractor: {NOT_COMPUTED}"));
+        lines.push(format!("  {} without an attractor: {NOT_COMPUTED}", counted(lost as u64, "cell")));
     }
     if let Some(folder) = &report.results {
         lines.push(format!("basins.csv and attractors.csv are in {folder}"));

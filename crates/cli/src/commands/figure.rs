@@ -13,7 +13,8 @@ use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
 
 use crate::{
-    failure::Failure, figure_args::FigureOptions, interrupt::Interrupt, output::Output, watch::Watch,
+    failure::Failure, figure_args::FigureOptions, interrupt::Interrupt, kept::counted, output::Output,
+    watch::Watch,
 };
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
@@ -117,8 +118,8 @@ fn refuse_unknown(folder: &Path, file: &StudyFile, orbits: &[DrawnOrbit]) -> Res
                 _ => format!("they lie between {} and {} Hz", plain_number(low), plain_number(high)),
             };
             return Err(Failure::BadInput(format!(
-                "--orbit: no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} \
-                Hz; {there}"
+                "--orbit: no stored branch of {} crosses {frequency_hz} Hz; {there}",
+                counted(period_multiple.into(), "excitation period")
             )));
         }
     }

@@ -10,7 +10,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{unfinished, what_is_kept},
+    kept::{counted, unfinished, what_is_kept},
     motion_args::LyapunovOptions,
     output::Output,
     series::falling,
@@ -67,10 +67,10 @@ fn refused(
 fn one_text(report: &SpectrumReport, unit: FrequencyUnit) -> String {
     let spectrum = &report.record.spectrum;
     let mut lines = vec![format!(
-        "exponents at {} over {:.6} s, {} section(s) in a period, with intervals of 95 %",
+        "exponents at {} over {:.6} s, {} in a period, with intervals of 95 %",
         unit.words(report.record.frequency_hz),
         spectrum.time,
-        report.record.sections_per_period
+        counted(report.record.sections_per_period as u64, "section")
     )];
     for exponent in &spectrum.exponents {
         lines.push(format!("  {:>14.6} +- {:.6} 1/s", exponent.value, exponent.half_width));

@@ -88,7 +88,8 @@ fn text(report: &SweepReport, dof: usize, unit: FrequencyUnit) -> String {
     }
     let doubtful = report.motions.iter().filter(|swept| swept.motion.point.class.doubt().is_some()).count();
     if doubtful > 0 {
-        lines.push(format!("{doubtful} motion(s) of {dof} modes are doubtful; --json has the reasons"));
+        let motions = counted(doubtful as u64, "motion");
+        lines.push(format!("doubtful: {motions} of {dof} modes; --json has the reasons"));
     }
     if let Some(folder) = &report.results {
         lines.push(format!("sweep.csv and sweep_samples.csv are in {folder}"));

@@ -10,6 +10,7 @@ use hammerbeam_study::StudyError;
 use crate::{
     args::UpdateOptions,
     failure::Failure,
+    kept::counted,
     output::{Output, notify},
 };
 
@@ -61,8 +62,9 @@ fn failure(error: UpdateError) -> Failure {
 fn text(UpdateReport { found, data, study }: &UpdateReport) -> String {
     let inference = &found.inference;
     let mut lines = Vec::new();
-    let counts = format!("{} parameter(s), {} data", found.parameters.len(), found.data.len());
-    lines.push(format!("{}: {counts}, after {} iteration(s)", title(data), found.iterations));
+    let parameters = counted(found.parameters.len() as u64, "parameter");
+    let iterations = counted(found.iterations as u64, "iteration");
+    lines.push(format!("{}: {parameters}, {} data, after {iterations}", title(data), found.data.len()));
     if found.starts.tried > 1 {
         let next = found.starts.next_chi_squared;
         let other =
@@ -139,8 +141,8 @@ fn data_lines(found: &Update, data: &UpdateData) -> Vec<String> {
 
 fn test_line(found: &Update) -> String {
     let test = &found.inference.chi_squared;
-    let value =
-        format!("chi-squared {:.4} with {} degree(s) of freedom", test.value, test.degrees_of_freedom);
+    let degrees = counted(test.degrees_of_freedom as u64, "degree");
+    let value = format!("chi-squared {:.4} with {degrees} of freedom", test.value);
     match (test.probability, found.inference.variance) {
         (Some(probability), _) => {
             format!("{value}: errors of the stated size exceed it with a probability of {probability:.3}")

@@ -5,13 +5,15 @@ use hammerbeam_jobs::comparison::{
 };
 use hammerbeam_signal::MeasuredQuantity;
 
+use crate::kept::counted;
+
 /// Unexplained points that are listed; all are in the table.
 const LISTED: usize = 20;
 
 /// * `has_own_folder`: whether the tables are elsewhere than in the results.
 pub fn text(report: &CompareReport, has_own_folder: bool) -> String {
-    let (count, results) = (report.measured.points.len(), report.results.display());
-    let mut lines = vec![format!("{count} measured point(s) over {results}")];
+    let points = counted(report.measured.points.len() as u64, "measured point");
+    let mut lines = vec![format!("{points} over {}", report.results.display())];
     if let Some(Filter { order, cut_off_hz }) = report.filter {
         lines.push(format!("branches behind a low-pass filter of {cut_off_hz} Hz, order {order}"));
     }
@@ -19,6 +21,7 @@ pub fn text(report: &CompareReport, has_own_folder: bool) -> String {
     lines.extend(report.measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
     lines.push(format!("in {}: {}", report.folder.display(), report.files.join(", ")));
     if !has_own_folder {
+        let results = report.results.display();
         lines.push(format!("hammerbeam figure {results} --kind page lays these points over its page"));
     }
     lines.extend(report.excitation_notes.iter().map(|note| format!("note: {note}")));
@@ -93,7 +96,8 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
 /// That branches have gaps.
 pub fn gaps(gaps: usize) -> Option<String> {
     (gaps > 0)
-        .then(|| format!("{gaps} solution(s) of the branches could not be gone over: there are gaps there"))
+        .then(|| counted(gaps as u64, "solution"))
+        .map(|lost| format!("{lost} of the branches could not be gone over: there are gaps there"))
 }
 
 /// That points are shifted beyond the range of the study.
@@ -102,8 +106,9 @@ fn beyond(compared: &ComparedQuantity) -> Option<String> {
     let beyond = compared.beyond();
     (beyond > 0).then(|| {
         format!(
-            "{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where \
-        nothing is computed or drawn"
+            "{} shifted beyond the range of the study, {low} to {high} Hz, where nothing is computed or \
+            drawn",
+            counted(beyond as u64, "point")
         )
     })
 }
@@ -119,8 +124,11 @@ fn second_minimum(fit: &Fit) -> Option<String> {
     let end = if second.at_end { ", at an end of what is tried" } else { "" };
     Some(format!(
         "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} \
-        times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
-        second.amplitude, second.cost_ratio, second.points, fit.points
+        times that of the best, points that fit neither left out; it goes by {}, the best by {}",
+        second.amplitude,
+        second.cost_ratio,
+        counted(second.points as u64, "point"),
+        fit.points
     ))
 }
 
@@ -136,8 +144,11 @@ pub fn estimate(estimate: FitEstimate, digits: usize) -> String {
 
 fn residual(residual: Residual) -> String {
     format!(
-        "{:.4} over {} point(s); {} of them within the reach, {:.4}",
-        residual.rms, residual.met, residual.within, residual.rms_within
+        "{:.4} over {}; {} of them within the reach, {:.4}",
+        residual.rms,
+        counted(residual.met as u64, "point"),
+        residual.within,
+        residual.rms_within
     )
 }
 

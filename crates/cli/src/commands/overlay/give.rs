@@ -112,15 +112,15 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     }
     let row = overlay.row.map_or_else(String::new, |row| format!(", row {row}"));
     lines.push(format!(
-        "most alike of {} orbit(s): {:.6} Hz, {:.5} times the measured frequency; branch {}{row}",
-        overlay.tried,
+        "most alike of {}: {:.6} Hz, {:.5} times the measured frequency; branch {}{row}",
+        counted(overlay.tried as u64, "orbit"),
         overlay.frequency_hz,
         overlay.frequency_hz / laid.classification.frequency_hz,
         overlay.branch,
     ));
     lines.push(format!("  correlation            {:.6}", overlay.alignment.correlation));
     lines.push(format!(
-        "  time shift             {} s: there on the clock of the record the orbit begins, the excitation \
+        "  time shift             {} s: there on the clock of the record the orbit starts, the excitation \
         at phase 0",
         plain_number(laid.phase_zero_s())
     ));

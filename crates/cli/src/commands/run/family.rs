@@ -12,6 +12,7 @@ use crate::{
     args::RunOptions,
     failure::Failure,
     interrupt::Interrupt,
+    kept::counted,
     output::{Output, notify},
 };
 
@@ -34,7 +35,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
                 texts.push(format!("{}\n{}", member.name(), summary.text()));
             }
             Err(Failure::NoResult(message)) => failed.push(format!("{}: {message}", member.name())),
-            Err(other) => return Err(other.and(&format!("{} run(s) are done", documents.len()))),
+            Err(other) => return Err(other.and(&format!("{} done", counted(documents.len() as u64, "run")))),
         }
     }
     if documents.is_empty() {

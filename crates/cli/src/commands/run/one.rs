@@ -28,6 +28,7 @@ use crate::{
     commands::check::UNDAMPED_ADVICE,
     failure::Failure,
     interrupt::Interrupt,
+    kept::counted,
     output::{Output, decimals},
     progress::Terminal,
     watch::Watch,
@@ -156,9 +157,10 @@ impl Summary {
             others => format!(" (nor have {others} others)"),
         };
         Some(format!(
-            "\n{first}{others}: {marginal} solution(s), those at bifurcations included, \
-             have multipliers on the unit circle as well as these are known; \
-             {UNDAMPED_ADVICE}"
+            "\n{first}{others}: {}, those at bifurcations included, \
+             with multipliers on the unit circle as well as these are known; \
+             {UNDAMPED_ADVICE}",
+            counted(marginal as u64, "solution")
         ))
     }
 
@@ -183,9 +185,9 @@ impl Summary {
 
     pub fn text(&self) -> String {
         let mut lines = vec![format!(
-            "{} solutions on {} branch(es) in {}, after {:.1} s",
+            "{} solutions on {} in {}, after {:.1} s",
             self.report.solutions(),
-            self.report.branches.len(),
+            counted(self.report.branches.len() as u64, "branch"),
             self.folder(),
             self.elapsed.as_secs_f64()
         )];
