@@ -319,7 +319,7 @@ mod tests {
             filters(&mut text, &[filter], &Filtered { branches: Vec::new(), gaps });
             text
         };
-        let note = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they \
+        let note = "Note: 3 solutions of the branches could not be gone over: there are gaps there; they \
         are in no ratio.";
         assert!(of(3).contains(note), "{}", of(3));
         assert!(!of(0).contains("gone over"), "{}", of(0));
