@@ -70,7 +70,7 @@ fn one_text(report: &SpectrumReport, unit: FrequencyUnit) -> String {
         "exponents at {} over {:.6} s, {} in a period, with intervals of 95 %",
         unit.words(report.record.frequency_hz),
         spectrum.time,
-        counted(report.record.sections_per_period as u64, "section")
+        counted(report.record.sections_per_period, "section")
     )];
     for exponent in &spectrum.exponents {
         lines.push(format!("  {:>14.6} +- {:.6} 1/s", exponent.value, exponent.half_width));

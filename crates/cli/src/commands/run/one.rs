@@ -160,7 +160,7 @@ impl Summary {
             "\n{first}{others}: {}, those at bifurcations included, \
              with multipliers on the unit circle as well as these are known; \
              {UNDAMPED_ADVICE}",
-            counted(marginal as u64, "solution")
+            counted(marginal, "solution")
         ))
     }
 
