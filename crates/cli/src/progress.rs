@@ -11,6 +11,7 @@ use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::{
     interrupt::Interrupt,
+    kept::counted,
     output::notify,
     pace::{Lines, Pace},
 };
@@ -76,10 +77,9 @@ impl Terminal {
     /// How long it still takes, branches, solutions so far and their rate, all within 80 columns, and where.
     fn message(&mut self, progress: &Progress) -> String {
         let left = self.diagram_left(progress.done);
-        let branches = if progress.branches_done == 1 { "branch" } else { "branches" };
         format!(
-            "{left}  {} {branches} done, {} open  {} solutions, {}/s  {:.2} Hz",
-            progress.branches_done,
+            "{left}  {} done, {} open  {} solutions, {}/s  {:.2} Hz",
+            counted(progress.branches_done as u64, "branch"),
             progress.walks_open,
             HumanCount(progress.solutions),
             self.rate(progress.new_solutions),

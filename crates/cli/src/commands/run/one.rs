@@ -157,8 +157,8 @@ impl Summary {
             others => format!(" (nor have {others} others)"),
         };
         Some(format!(
-            "\n{first}{others}: {}, those at bifurcations included, \
-             with multipliers on the unit circle as well as these are known; \
+            "\n{first}{others}: of {}, those at bifurcations included, \
+             multipliers lie on the unit circle as well as these are known; \
              {UNDAMPED_ADVICE}",
             counted(marginal, "solution")
         ))
