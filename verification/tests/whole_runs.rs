@@ -163,3 +163,63 @@ fn a_branch_of_two_periods_ends_at_a_flip_beside_a_grazing_and_is_found_once() {
     let end = doubled[0].record.up.end.as_ref().unwrap();
     assert!(end.to_string().contains("met the flip of a branch of shorter period at 0.171659"), "{end}");
 }
+
+/// A branch of doubled period begins where the orbits that it leaves are cut in two, so with four segments. An
+/// impact that comes to lie over the end of one of them is no end of the branch.
+#[test]
+fn a_branch_of_doubled_period_passes_impacts_at_the_ends_of_its_segments() {
+    let text = r#"
+        [structure]
+        kind = "lumped"
+        mass = [
+            { name = "1", mass_kg = 0.06621056984518939 },
+            { name = "2", mass_kg = 0.05242480950624889 },
+        ]
+        damper = [
+            { between = ["1", "ground"], damping_n_s_m = 0.00021644257024897384 },
+            { between = ["2", "ground"], damping_n_s_m = 0.00024272238344359012 },
+        ]
+        spring = [
+            { between = ["1", "ground"], stiffness_n_m = 0.00037771427618638417 },
+            { between = ["2", "ground"], stiffness_n_m = 0.00041069526099431203 },
+            { between = ["1", "2"], stiffness_n_m = 0.000584598225287383 },
+        ]
+
+        [excitation]
+        kind = "force"
+        at = "1"
+        amplitude_n = 0.0000006882796092932982
+        frequency_hz = [0.01627758455478702, 0.021974739148962474]
+        phase_rad = 2.3493199784685475
+
+        [[stop]]
+        between = ["2", "1"]
+        law = "rigid"
+        gap_m = 0.0
+        restitution = 0.9246058642203513
+        side = "above"
+
+        [response]
+        period_multiples = [1, 2]
+
+        [search]
+        frequencies = 2
+        starts = 2
+        trials = 2
+
+        [continuation]
+        max_step_hz = 0.000056971545941754566
+        "#;
+    let results = run(text);
+    let low = results.range_hz[0];
+    let reaches = |multiple: u32| {
+        let branches = results.branches().iter().filter(|branch| branch.record.period_multiple == multiple);
+        branches.flat_map(|branch| &branch.rows).any(|placed| placed.row.frequency_hz == low)
+    };
+    assert!(reaches(1) && reaches(2));
+    for branch in results.branches() {
+        for walk in [&branch.record.up, &branch.record.down] {
+            assert!(walk.end.as_ref().unwrap().is_complete(), "{:?}", walk.end);
+        }
+    }
+}

@@ -6,8 +6,9 @@
 //! segment of its own, and depends on the state before it alone. The multipliers grow like the product of
 //! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
 //!
-//! The phases at which a cut orbit begins and is cut must both be clear of impacts. Where an impact comes
-//! near one of them the orbit is made one segment again, whose begin may move.
+//! The phases at which a cut orbit begins and is cut must all be clear of impacts. Where an impact comes
+//! near one of them the orbit is made one segment again, whose begin may move. A branch of doubled period
+//! begins with twice the segments of the orbit that it leaves: with four, where that one was cut.
 
 use hammerbeam_path::{ContinuationPoint, Node};
 
@@ -21,7 +22,7 @@ use crate::cut::{contacts, folded, longest_of_orbit};
 /// second segment, and there may be no room for it.
 pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     let of_rigid_stops = path.problem.system().has_rigid_stops();
-    if path.problem.segments() != 1 || !of_rigid_stops || halves_are_clear(path) != Some(true) {
+    if path.problem.segments() != 1 || !of_rigid_stops || ends_are_clear(path, 2) != Some(true) {
         return false;
     }
     let OrbitPath { problem, follower, .. } = path;
@@ -33,10 +34,11 @@ pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     go_on_with(path, 2, &current, start.as_ref())
 }
 
-/// Makes orbits of two segments one again where an impact comes near their ends, or the start of the walk
+/// Makes the segments of an orbit one again where an impact comes near their ends, or the start of the walk
 /// is to be found again.
-pub(super) fn join_halves_at_contacts(path: &mut OrbitPath) {
-    if halves_are_clear(path) == Some(true) && !path.is_near_lost_start() {
+pub(super) fn join_at_contacts(path: &mut OrbitPath) {
+    let segments = path.problem.segments();
+    if ends_are_clear(path, segments) == Some(true) && !path.is_near_lost_start() {
         return;
     }
     let size = path.problem.node_size();
@@ -46,9 +48,9 @@ pub(super) fn join_halves_at_contacts(path: &mut OrbitPath) {
     go_on_with(path, 1, &current, start.as_ref());
 }
 
-/// Whether the start and the middle of the present orbit are clear of impacts; none where it has a single
-/// one, for which halves are of no use, or cannot be followed.
-fn halves_are_clear(path: &mut OrbitPath) -> Option<bool> {
+/// Whether the ends of so many segments of the present orbit are clear of impacts; none where it has a
+/// single one, for which more than one are of no use, or cannot be followed.
+fn ends_are_clear(path: &mut OrbitPath, segments: usize) -> Option<bool> {
     let OrbitPath { problem, follower, .. } = path;
     let point = &follower.current().point;
     problem.move_to(point).ok()?;
@@ -60,7 +62,8 @@ fn halves_are_clear(path: &mut OrbitPath) -> Option<bool> {
         1 => return None,
         _ => {}
     }
-    let (gap, nearest) = longest_of_orbit(&folded(&contacts, 0.5 * cycles), 0.5 * cycles, false)?;
+    let length = cycles / segments as f64;
+    let (gap, nearest) = longest_of_orbit(&folded(&contacts, length), length, false)?;
     Some(!gap.asks_to_move(nearest))
 }
 

@@ -13,14 +13,14 @@
 //!
 //! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
 //! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
-//! Orbits that are cut in two (`halves.rs`) are made one segment again first; where the study gives the
+//! Orbits that are cut (`halves.rs`) are made one segment again first; where the study gives the
 //! number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
-    halves::join_halves_at_contacts,
+    halves::join_at_contacts,
     orbit_path::{OrbitPath, Origin},
 };
 use crate::{
@@ -39,8 +39,8 @@ pub(super) fn keep_phase_clear(path: &mut OrbitPath) {
     if path.follower.stop_reason().is_some() {
         return;
     }
-    if is_cut_in_halves(path) {
-        join_halves_at_contacts(path);
+    if is_cut(path) {
+        join_at_contacts(path);
     }
     if !moves_phase(path) {
         return;
@@ -71,10 +71,10 @@ fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
     (moves && offset > 0.0).then_some(offset)
 }
 
-/// Whether its orbits were cut in two (`halves.rs`).
-fn is_cut_in_halves(path: &OrbitPath) -> bool {
+/// Whether its orbits were cut (`halves.rs`).
+fn is_cut(path: &OrbitPath) -> bool {
     let is_given = matches!(path.settings.segments, Segments::Fixed(_));
-    begins_with_care(path.problem.system()) && path.problem.segments() == 2 && !is_given
+    begins_with_care(path.problem.system()) && path.problem.segments() > 1 && !is_given
 }
 
 /// Cuts the present orbit and the start of the walk this much later; false if the walk stays as it was.
