@@ -164,8 +164,8 @@ fn a_branch_of_two_periods_ends_at_a_flip_beside_a_grazing_and_is_found_once() {
     assert!(end.to_string().contains("met the flip of a branch of shorter period at 0.171659"), "{end}");
 }
 
-/// A branch of doubled period begins where the orbits that it leaves are cut in two, so with four segments. An
-/// impact that comes to lie over the end of one of them is no end of the branch.
+/// A branch of doubled period begins where the orbits that it leaves are cut in two, so with four segments.
+/// An impact that comes to lie over the end of one of them is no end of the branch.
 #[test]
 fn a_branch_of_doubled_period_passes_impacts_at_the_ends_of_its_segments() {
     let text = r#"
