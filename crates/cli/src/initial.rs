@@ -2,7 +2,7 @@
 
 use hammerbeam_jobs::{InitialState, InitialStateError, InitialWordsError, JobError};
 
-use crate::failure::Failure;
+use crate::{failure::Failure, kept::counted};
 
 /// What `--initial` means.
 ///
@@ -23,7 +23,8 @@ pub fn refused(text: &str, size: usize, error: JobError) -> Result<Failure, JobE
             format!("--initial {text}{place}: {source}")
         }
         InitialStateError::Length { found, .. } => {
-            let error = InitialWordsError::not_numbers(&format!("found {found} number(s)"), size);
+            let error =
+                InitialWordsError::not_numbers(&format!("found {}", counted(*found as u64, "number")), size);
             return Ok(Failure::BadInput(format!("--initial: {error}")));
         }
         InitialStateError::NoResults => "--initial branch:N needs --results DIR".to_owned(),

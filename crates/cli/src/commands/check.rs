@@ -198,7 +198,7 @@ fn damping_text(study: &Study) -> String {
     };
     match dampers(&study.structure) {
         0 => of_modes,
-        count => format!("{of_modes}, and {count} damper(s) of the structure"),
+        count => format!("{of_modes}, and {} of the structure", counted(count as u64, "damper")),
     }
 }
 

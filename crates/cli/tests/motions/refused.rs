@@ -31,7 +31,7 @@ fn options_that_make_no_sense_are_refused() {
             "is 100000120000 numbers, must be 5000000000 at most with --out; allowed: 1 to 999 periods",
         ),
         (&simulate, &["--section-phase", "1.5"], "must be a number of cycles from 0 to 1"),
-        (&simulate, &["--initial", "1,2"], "found 2 number(s); allowed: rest, linear, branch:N"),
+        (&simulate, &["--initial", "1,2"], "found 2 numbers; allowed: rest, linear, branch:N"),
         (&simulate[..3], &["0"], "must be a number of hertz from 1e-10 to 1e10"),
         (&simulate[..3], &["1e300"], "must be a number of hertz from 1e-10 to 1e10"),
         (&sweep, &["--to", "1e300"], "must be a number of hertz from 1e-10 to 1e10"),
