@@ -13,8 +13,8 @@
 //!
 //! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
 //! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
-//! Orbits that are cut (`halves.rs`) are made one segment again first; where the study gives the
-//! number of segments the phase does not move.
+//! Orbits that are cut (`halves.rs`) are made one segment again first; where the study gives the number of
+//! segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};

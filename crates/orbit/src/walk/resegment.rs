@@ -1,5 +1,5 @@
 //! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
-//! Where nodes have to keep clear of contacts (`cut.rs`) there are two at most (`halves.rs`).
+//! Where nodes have to keep clear of contacts (`cut.rs`) one segment becomes two, and no more (`halves.rs`).
 //!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k +
 //! dZ/df t_f`. The present point and the start of the walk are cut anew, and the follower goes on in the new
