@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod angular;
+mod bad_folders;
 mod bad_input;
 mod beam_from_formats;
 mod book;
