@@ -75,7 +75,7 @@ class Study(Attractors):
         """
         found = self.orbits(frequency_hz, period_multiple, progress)
         if not found:
-            place = f"{period_multiple} excitation period(s) was found at {float(frequency_hz)} Hz"
+            place = f"period {period_multiple} was found at {float(frequency_hz)} Hz"
             message = f"no periodic solution of {place}"
             raise NoResult(message + (f"; {found.incomplete}" if found.incomplete else ""), name="NoOrbit")
         return found[0]

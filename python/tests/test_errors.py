@@ -69,7 +69,7 @@ def test_faults_of_a_study_are_those_of_the_command(tmp_path: Path) -> None:
         (
             "simulate S --frequency 0.25 --initial 1,2,3",
             lambda s: s.simulate(0.25, initial=[1, 2, 3]),
-            "found 3 number(s)",
+            "found 3 numbers",
         ),
         (
             "simulate S --frequency 0.25 --initial what",

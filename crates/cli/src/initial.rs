@@ -1,8 +1,8 @@
 //! The state at which a motion begins, as `--initial` has it.
 
-use hammerbeam_jobs::{InitialState, InitialStateError, InitialWordsError, JobError};
+use hammerbeam_jobs::{InitialState, InitialStateError, InitialWordsError, JobError, counted};
 
-use crate::{failure::Failure, kept::counted};
+use crate::failure::Failure;
 
 /// What `--initial` means.
 ///

@@ -24,16 +24,6 @@ pub fn place(number: u64, out: Option<&Path>) -> String {
     }
 }
 
-/// A number of things.
-pub fn counted(number: u64, thing: &str) -> String {
-    let ending = match number {
-        1 => "",
-        _ if thing.ends_with("ch") => "es",
-        _ => "s",
-    };
-    format!("{number} {thing}{ending}")
-}
-
 /// A job that was stopped or cannot go on, with what becomes of what it has done.
 ///
 /// * `what_is_kept`: of so many pieces, in words.

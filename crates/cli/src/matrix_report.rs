@@ -1,9 +1,8 @@
 //! What was found in matrices, as text.
 
+use hammerbeam_jobs::counted;
 use hammerbeam_structure::MatrixReport;
 use hammerbeam_study::readable_to;
-
-use crate::kept::counted;
 
 /// A box with less than this mass for its volume [kg/m^3] is reported: units may be mixed.
 const LIGHT: f64 = 0.1;

@@ -5,13 +5,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_jobs::{DoneShare, Observer, Progress, VariedProgress};
+use hammerbeam_jobs::{DoneShare, Observer, Progress, VariedProgress, counted};
 use hammerbeam_results::store::{JobKind, JobRecord};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::{
     interrupt::Interrupt,
-    kept::counted,
     output::notify,
     pace::{Lines, Pace},
 };

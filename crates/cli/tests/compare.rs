@@ -190,7 +190,7 @@ fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     table("units.csv", &[0.4, 0.45, 0.5, 0.55], 1e3);
     let far = workshop.hammerbeam(&["compare", "results", "units.csv", "--frequency-factor", "1"]);
     assert_eq!(far.status.code(), Some(1));
-    let reported = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best \
+    let reported = "a fit of 1 number to displacement was asked for, but of 4 periodic points, at the best \
     shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within \
     a factor of 2.25 of it";
     assert!(stderr(&far).contains(reported), "{}", stderr(&far));

@@ -8,7 +8,7 @@ use std::path::Path;
 use hammerbeam_figure::{
     FilteredAcceleration, FrequencyUnit, HoleDiagram, OrbitDiagram, OrbitImpulse, OrbitSample,
 };
-use hammerbeam_jobs::StoredBranches;
+use hammerbeam_jobs::{StoredBranches, counted};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{
@@ -70,7 +70,8 @@ pub fn draw_stored(
             None => drawn.refuse(
                 &name,
                 format!(
-                    "no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} Hz"
+                    "no stored branch of {} crosses {frequency_hz} Hz",
+                    counted(period_multiple.into(), "excitation period")
                 ),
             ),
         }

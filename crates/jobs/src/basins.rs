@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::{
     CountedProgress, JobError, JobFolders, Observer, PooledOrder, PreparedStudy, StoredBranches,
     basin_parts::BasinParts,
+    counted,
     request::{KeptRequest, effort_words},
 };
 
@@ -152,7 +153,7 @@ pub fn basins_with_parts(
             done: cells.len() as u64,
             total: Some(total as u64),
             things: "cells",
-            place: &format_args!("{} attractor(s)", basins.attractors().len()),
+            place: &counted(basins.attractors().len() as u64, "attractor"),
         });
     }
     observer.finishing();

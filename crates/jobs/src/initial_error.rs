@@ -4,6 +4,8 @@ use hammerbeam_attractor::AttractorError;
 use hammerbeam_motion::exact::MotionError;
 use hammerbeam_study::PointStartError;
 
+use crate::counted;
+
 /// Why a motion cannot begin at a state.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -15,7 +17,7 @@ pub enum InitialStateError {
     #[error("{source}")]
     NotInFront { frequency_hz: Option<f64>, source: AttractorError },
     /// A state of another length.
-    #[error("found {found} number(s), the state has {expected}")]
+    #[error("found {}, the state has {expected}", counted(*found as u64, "number"))]
     Length { found: usize, expected: usize },
     /// Points that no state of the model has.
     #[error(transparent)]

@@ -40,6 +40,7 @@ mod branch;
 pub mod check;
 pub mod chosen_orbits;
 pub mod comparison;
+mod counted;
 mod crossings;
 mod error;
 pub mod exponents;
@@ -77,6 +78,7 @@ mod walk;
 
 pub use basins_part::basins_part;
 pub use branch::BranchRows;
+pub use counted::counted;
 pub use crossings::{MirrorImage, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
 pub use failure_kind::FailureKind;

@@ -231,7 +231,7 @@ fn a_response_that_the_model_does_not_have_is_told() {
     3.0\nperiod_multiple = 7\nmax_abs_displacement_m = 0.001\ndeviation_relative = 0.1\n";
     let data = UpdateData::parse("data.toml", data.to_owned(), &study).unwrap();
     let message = update(&study, &data, &UpdateSettings::default()).expect_err("it was accepted").to_string();
-    assert!(message.contains("no stable periodic response of 7 excitation period(s) at 3 Hz"), "{message}");
+    assert!(message.contains("no stable periodic response of 7 excitation periods at 3 Hz"), "{message}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub enum OrbitError {
     NotConverged { frequency_hz: f64, correction: f64, iterations: u32 },
     /// No start led to an orbit of that period.
     #[error(
-        "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz \
+        "no periodic orbit of period {period_multiple} was found at {frequency_hz} Hz \
         from {starts} starts"
     )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },

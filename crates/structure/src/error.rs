@@ -108,7 +108,7 @@ pub enum StructureError {
     MasslessMechanism { row: String },
     /// More motions without strain than rigid bodies have.
     #[error(
-        "{found} motions bend nothing, but {parts} part(s) have {} as rigid bodies: a mechanism that moves \
+        "{found} motions bend nothing, but rigid bodies have {} (parts: {parts}): a mechanism that moves \
         {row}",
         6 * parts
     )]

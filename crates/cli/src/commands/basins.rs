@@ -4,13 +4,14 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
     JobError, JobFolders, PreparedStudy,
     basins::{BasinAxis, BasinsReport, BasinsRequest, CoordinateError, GridAxis, basins},
+    counted,
     pool::threads,
 };
 
 use crate::{
     failure::Failure,
     interrupt::Interrupt,
-    kept::{counted, unfinished, what_is_kept},
+    kept::{unfinished, what_is_kept},
     motion_args::{AxisOption, BasinsOptions},
     output::Output,
     watch::Watch,

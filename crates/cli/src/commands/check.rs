@@ -4,6 +4,7 @@ use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
     PreparedStudy,
     check::{CheckReport, check},
+    counted,
 };
 use hammerbeam_motion::law::{LawKey, LawPhrase, LawValue};
 use hammerbeam_structure::MatrixReport;
@@ -21,7 +22,6 @@ use hammerbeam_study::{
 use crate::{
     args::StudyOptions,
     failure::Failure,
-    kept::counted,
     matrix_report,
     output::{Output, readable_frequency},
     watch::Notices,

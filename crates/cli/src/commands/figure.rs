@@ -7,14 +7,13 @@ use hammerbeam_drawing::{
     ensure_details,
 };
 use hammerbeam_figure::plain_number;
-use hammerbeam_jobs::{PreparedStudy, StoredBranches, pool::threads};
+use hammerbeam_jobs::{PreparedStudy, StoredBranches, counted, pool::threads};
 use hammerbeam_results::{Store, StoreError};
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
 
 use crate::{
-    failure::Failure, figure_args::FigureOptions, interrupt::Interrupt, kept::counted, output::Output,
-    watch::Watch,
+    failure::Failure, figure_args::FigureOptions, interrupt::Interrupt, output::Output, watch::Watch,
 };
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {

@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
-    FrequencySeries, JobError, JobFolders, PreparedStudy,
+    FrequencySeries, JobError, JobFolders, PreparedStudy, counted,
     exponents::{ExponentsRequest, SpectrumReport, exponents},
 };
 
@@ -10,7 +10,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{counted, unfinished, what_is_kept},
+    kept::{unfinished, what_is_kept},
     motion_args::LyapunovOptions,
     output::Output,
     series::falling,

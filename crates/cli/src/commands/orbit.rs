@@ -2,7 +2,7 @@
 
 use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_jobs::{PreparedStudy, orbits::orbits};
+use hammerbeam_jobs::{PreparedStudy, counted, orbits::orbits};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::readable_to;
 
@@ -10,7 +10,6 @@ use crate::{
     args::OrbitOptions,
     failure::Failure,
     interrupt::Interrupt,
-    kept::counted,
     output::{Output, notify, readable_frequency, six_decimals},
     watch::Watch,
 };

@@ -5,7 +5,7 @@ use std::path::Path;
 use hammerbeam_attractor::AttractorError;
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
-    JobError, JobFolders, PreparedStudy,
+    JobError, JobFolders, PreparedStudy, counted,
     simulate::{
         DurationTooLong, SimulationReport, SimulationRequest, SimulationTime, SimulationTooLarge, simulate,
     },
@@ -15,7 +15,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{counted, place, unfinished, what_is_kept},
+    kept::{place, unfinished, what_is_kept},
     motion_args::SimulateOptions,
     output::Output,
     watch::Watch,

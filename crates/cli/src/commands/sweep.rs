@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
-    FrequencySeries, JobError, JobFolders, PreparedStudy,
+    FrequencySeries, JobError, JobFolders, PreparedStudy, counted,
     pool::threads,
     sweep::{SweepReport, SweepRequest, SweepStarts, sweep},
 };
@@ -12,7 +12,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{counted, unfinished, what_is_kept},
+    kept::{unfinished, what_is_kept},
     motion_args::SweepOptions,
     output::Output,
     series::falling,

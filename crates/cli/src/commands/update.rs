@@ -1,6 +1,7 @@
 //! `hammerbeam update`: parameters of a study fitted to measurements.
 
 use hammerbeam_fit::Interval;
+use hammerbeam_jobs::counted;
 use hammerbeam_jobs::update::{
     CandidateError, DataError, FittedDatum, FittedParameter, Update, UpdateData, UpdateError, UpdateReport,
     UpdateSettings, update, write_update,
@@ -10,7 +11,6 @@ use hammerbeam_study::StudyError;
 use crate::{
     args::UpdateOptions,
     failure::Failure,
-    kept::counted,
     output::{Output, notify},
 };
 

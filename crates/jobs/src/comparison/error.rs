@@ -1,5 +1,7 @@
 //! Why there is no comparison.
 
+use crate::counted;
+
 /// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -10,10 +12,12 @@ pub enum ComparisonError {
     NothingMeasured { quantity: &'static str },
     /// Too few points for what is to be fitted.
     #[error(
-        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the \
+        "a fit of {} to {quantity} was asked for, but of {}, at the \
         best shift and factor that were tried, {met} meet a stable branch of their period and only {near} \
         of them lie within a factor of {} of it; are frequency and unit right? Give --frequency-factor or \
         --frequency-offset and --amplitude-factor, or measure more",
+        counted(*fitted as u64, "number"),
+        counted(*measured as u64, "periodic point"),
         to_digits(*ratio)
     )]
     TooFewPoints {

@@ -7,6 +7,8 @@ use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::{SignalError, filter::periodic_low_pass};
 use hammerbeam_study::Model;
 
+use crate::counted;
+
 /// A low-pass filter of an instrument: Butterworth, analogue.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Filter {
@@ -33,7 +35,7 @@ pub enum HistoryError {
 
 /// No orbit can be gone over.
 #[derive(Debug, thiserror::Error)]
-#[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
+#[error("none of {} can be gone over; the first: {first}", counted(*count as u64, "orbit"))]
 #[expect(missing_docs, reason = "the message names its fields")]
 pub struct NoneSampled {
     pub count: usize,

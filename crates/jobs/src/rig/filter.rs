@@ -306,7 +306,7 @@ mod tests {
         let refused = filled(vec![lost(), lost()]).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "none of the 2 orbit(s) can be gone over; the first: the orbit has no state at phase 0"
+            "none of 2 orbits can be gone over; the first: the orbit has no state at phase 0"
         );
     }
 }

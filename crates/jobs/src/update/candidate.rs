@@ -2,7 +2,7 @@
 
 use hammerbeam_study::{Model, StudyError, StudyFile, changed::model_with, number::Number};
 
-use crate::comparison::history::HistoryError;
+use crate::{comparison::history::HistoryError, counted};
 
 /// Why a model with some values of the parameters does not exist.
 #[derive(Debug, thiserror::Error)]
@@ -13,12 +13,12 @@ pub enum CandidateError {
     #[error("{0}")]
     Study(#[from] StudyError),
     /// A mode is no longer in its table.
-    #[error("mode {mode} was measured, but this table of the model has {modes} mode(s)")]
+    #[error("mode {mode} was measured, but this table of the model has {}", counted(*modes as u64, "mode"))]
     NoMode { mode: usize, modes: usize, place: String },
     /// No stable orbit was found where one was measured.
     #[error(
-        "the model has no stable periodic response of {period_multiple} excitation period(s) at \
-        {frequency_hz} Hz that simulation finds"
+        "the model has no stable periodic response of {} at {frequency_hz} Hz that simulation finds",
+        counted((*period_multiple).into(), "excitation period")
     )]
     NoResponse { frequency_hz: f64, period_multiple: u32 },
     /// An orbit could not be followed to these parameters.

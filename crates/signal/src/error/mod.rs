@@ -57,7 +57,7 @@ pub enum SignalError {
     #[error("no decaying oscillation stands out of the noise")]
     NoDecay,
     /// The fit of the decay did not converge.
-    #[error("the fit of {modes} mode(s) did not converge in {iterations} iterations")]
+    #[error("the fit did not converge in {iterations} iterations (number of modes: {modes})")]
     FitNotConverged { modes: usize, iterations: usize },
     /// Distances do not grow exponentially anywhere.
     #[error("the mean logarithmic distance has no straight part: {reason}")]

@@ -3,9 +3,8 @@
 use hammerbeam_jobs::comparison::{
     CompareReport, ComparedQuantity, Filter, Fit, FitEstimate, Origin, PointOutcome, Residual, Verdict,
 };
+use hammerbeam_jobs::counted;
 use hammerbeam_signal::MeasuredQuantity;
-
-use crate::kept::counted;
 
 /// Unexplained points that are listed; all are in the table.
 const LISTED: usize = 20;

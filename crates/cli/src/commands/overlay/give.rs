@@ -1,5 +1,6 @@
 //! An overlay as a table, a document and in words.
 
+use hammerbeam_jobs::counted;
 use std::path::Path;
 
 use hammerbeam_figure::plain_number;
@@ -7,7 +8,7 @@ use hammerbeam_results::export::{Table, header, number};
 use serde_json::{Value, json};
 
 use super::laid::Laid;
-use crate::{failure::Failure, kept::counted, overlay_args::OverlayOptions};
+use crate::{failure::Failure, overlay_args::OverlayOptions};
 
 /// Writes `overlay.csv`.
 pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {

@@ -8,6 +8,7 @@ use std::path::Path;
 use hammerbeam_jobs::{
     Observer, StoredBranches,
     comparison::{Filter, OverlaySettings, Sought, frequency_in_name, nothing_alike, overlay},
+    counted,
     pool::threads,
 };
 use hammerbeam_results::Store;
@@ -25,8 +26,7 @@ use super::{
     signal::{Input, open, quantity},
 };
 use crate::{
-    failure::Failure, interrupt::Interrupt, kept::counted, output::Output, overlay_args::OverlayOptions,
-    watch::Watch,
+    failure::Failure, interrupt::Interrupt, output::Output, overlay_args::OverlayOptions, watch::Watch,
 };
 
 /// Samples of a waveform in an excitation period.

@@ -112,9 +112,9 @@ mod tests {
         let expected = [
             // 0.58^2.
             "no orbit is alike: 34 % of the measured power is that of the most alike one",
-            "the measured motion is aperiodic; its mean over 2 period(s) is compared",
+            "the measured motion is aperiodic; its mean over 2 periods is compared",
             "turned around the measured signal would be more alike, with a correlation of 0.9000",
-            "2 more orbit(s) could not be gone over and are left out",
+            "2 more orbits could not be gone over, left out",
             "pieces of the record differ from their mean by 90.0 % of it",
         ];
         let document = signal_document((0, &signals[0]));
@@ -131,7 +131,7 @@ mod tests {
         let signals = [aperiodic(0.09)];
         let mut text = String::new();
         report(&mut text, &signals);
-        assert!(text.contains("nothing is alike: the largest correlation of 7 orbit(s)"), "{text}");
+        assert!(text.contains("nothing is alike: the largest correlation of 7 orbits"), "{text}");
         assert!(!text.contains("5.000"), "{text}");
         assert_eq!(signal_document((0, &signals[0]))["computed"], Value::Null);
     }

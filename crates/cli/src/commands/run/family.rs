@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use hammerbeam_jobs::PreparedStudy;
+use hammerbeam_jobs::{PreparedStudy, counted};
 use hammerbeam_results::whole_file::subfolder;
 use hammerbeam_study::{Setting, StudyFile};
 use serde_json::{Map, Value, json};
@@ -12,7 +12,6 @@ use crate::{
     args::RunOptions,
     failure::Failure,
     interrupt::Interrupt,
-    kept::counted,
     output::{Output, notify},
 };
 

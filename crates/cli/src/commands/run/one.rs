@@ -8,7 +8,7 @@ use std::{
 use hammerbeam_drawing::{DrawSettings, FigureSelection, draw, draw_into};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{
-    MirrorImage, PreparedStudy,
+    MirrorImage, PreparedStudy, counted,
     outputs::OutputPass,
     pool::threads,
     run::{
@@ -28,7 +28,6 @@ use crate::{
     commands::check::UNDAMPED_ADVICE,
     failure::Failure,
     interrupt::Interrupt,
-    kept::counted,
     output::{Output, decimals},
     progress::Terminal,
     watch::Watch,

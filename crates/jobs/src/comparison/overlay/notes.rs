@@ -6,6 +6,7 @@ use hammerbeam_signal::{
 };
 
 use super::found::Overlay;
+use crate::counted;
 
 /// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of
 /// the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed
@@ -60,8 +61,9 @@ pub fn nothing_alike(overlay: &Overlay) -> Option<String> {
     let alike = correlation >= NOTHING;
     (!alike).then(|| {
         format!(
-            "nothing is alike: the largest correlation of {tried} orbit(s) with the record is \
-            {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything"
+            "nothing is alike: the largest correlation of {} with the record is \
+            {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything",
+            counted(tried as u64, "orbit")
         )
     })
 }
@@ -110,9 +112,9 @@ impl LaidWaveform<'_> {
         let branches: Vec<String> = alike.branches.iter().map(u32::to_string).collect();
         let (low, high) = alike.frequency_hz;
         Some(format!(
-            "{} other orbit(s) between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter \
+            "{} between {low:.4} and {high:.4} Hz, of branch {}, are as alike as the scatter \
             of the record can show: which of them it is remains open",
-            alike.count,
+            counted(alike.count as u64, "other orbit"),
             branches.join(", ")
         ))
     }
@@ -122,16 +124,22 @@ impl LaidWaveform<'_> {
         let period = self.period_multiple;
         let found = match self.classification.motion {
             MotionClass::Periodic { period_multiple } if period_multiple as u32 == period => return None,
-            MotionClass::Periodic { period_multiple } => format!("of {period_multiple} excitation period(s)"),
+            MotionClass::Periodic { period_multiple } => {
+                format!("of {}", counted(period_multiple as u64, "excitation period"))
+            }
             MotionClass::Aperiodic => "aperiodic".to_owned(),
             MotionClass::Doubtful { reason } => format!("doubtful: {reason}"),
         };
-        Some(format!("the measured motion is {found}; its mean over {period} period(s) is compared"))
+        Some(format!(
+            "the measured motion is {found}; its mean over {} is compared",
+            counted(period.into(), "period")
+        ))
     }
 
     fn skipped(&self) -> Option<String> {
         let skipped = self.overlay.skipped;
-        (skipped > 0).then(|| format!("{skipped} more orbit(s) could not be gone over and are left out"))
+        (skipped > 0)
+            .then(|| format!("{} could not be gone over, left out", counted(skipped as u64, "more orbit")))
     }
 
     /// That the record differs more from itself than from the orbit.
