@@ -29,6 +29,7 @@ mod sag;
 mod second_grazing;
 mod slow_contact;
 mod splitting_curve;
+mod splitting_end;
 mod symmetry_breaking;
 mod touch_over_the_begin;
 mod unbounded;

@@ -37,24 +37,23 @@ const MEASURED: f64 = 4e-4;
 const MOST_HALVINGS: u32 = 10;
 
 impl RowRecord {
-    /// Appends the rows that belong between the row before, at `from`, and `row`, the present one, and then
-    /// `row` itself.
+    /// Appends the rows that belong between the row before, at `from`, and `row`, at `to`, and then `row`
+    /// itself.
     pub fn append_densely(
         &mut self,
         path: &mut OrbitPath,
-        from: &ContinuationPoint,
+        [from, to]: [&ContinuationPoint; 2],
         row: BranchRow,
         rows: &mut Vec<BranchRow>,
     ) -> Result<(), OrbitError> {
-        let to = path.current().clone();
-        let end = RowPlace::new(&to, row.solution.maxima.displacement);
+        let end = RowPlace::new(to, row.solution.maxima.displacement);
         let slopes = [from.tangent_parameter(), to.tangent_parameter()];
         let mut between = Vec::new();
         if self.last_rows.estimate(end, slopes) > ESTIMATED {
-            self.halve(path, [from, &to], (end, MOST_HALVINGS), &mut between)?;
+            self.halve(path, [from, to], (end, MOST_HALVINGS), &mut between)?;
         }
         if path.settings.locates_stability_changes {
-            between = show_hidden_events(self, path, from, (&to, &row), between)?;
+            between = show_hidden_events(self, path, from, (to, &row), between)?;
         }
         rows.extend(between.into_iter().map(|between| between.row));
         self.last_rows.push(end);

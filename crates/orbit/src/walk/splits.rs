@@ -1,13 +1,24 @@
-//! Whether a walk has come to the place where a contact splits.
+//! Whether a walk has come to the place where a contact splits, and how far it goes before that.
+//!
+//! A step that has passed the place tells no more than that the branch ends within its length. The end is
+//! found by halving: from the last orbit that is known, half of what is left is gone along its tangent, and
+//! the orbit there is the next one if the corrector comes to it, its contacts are those of the branch, and it
+//! is told from the other side.
 
-use hammerbeam_path::ContinuationPoint;
+use hammerbeam_path::{ContinuationPoint, solve_between};
 
-use super::orbit_path::OrbitPath;
+use super::{
+    orbit_path::OrbitPath,
+    row::{RowRecord, row_at},
+};
 use crate::{
-    OrbitError, StopReason,
+    BranchRow, OrbitError, StopReason,
     solve::evaluate,
     splitting::{self, Splitting},
 };
+
+/// Halvings of a step that has passed a splitting, to an interval of rounding.
+const HALVINGS: u32 = 40;
 
 /// A point of a walk and the phase at which its orbit begins.
 pub(super) struct Departed {
@@ -58,20 +69,83 @@ pub(super) fn tends_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
     splits_here(path, path.parameter())
 }
 
-/// If the step from `departure` has passed a splitting, or takes too many force steps beside one.
+/// If the step from `departure` has passed a splitting, or takes too many force steps beside one: the last
+/// orbit before that, with why the walk ends.
 ///
-/// * `touches`: of each contact at the row before.
+/// * `record`: at the row before.
+/// * `from`: the point before the present one, cut in the same way.
 pub(super) fn comes_to_splitting(
     path: &mut OrbitPath,
-    touches: &[u32],
+    record: &mut RowRecord,
     departure: &Departure,
-) -> Result<Option<StopReason>, OrbitError> {
+    from: &ContinuationPoint,
+) -> Result<Option<(ContinuationPoint, StopReason)>, OrbitError> {
     let Some(before) = &departure.place else { return Ok(None) };
     let spent = work(path).since(departure.work);
-    if let Some(splits) = passes_splitting(path, touches, before)? {
-        return Ok(Some(splits));
+    if let Some(splitting) = passes_splitting(path, &record.touches, before)? {
+        let last = last_before_splitting(path, record, from);
+        let reason = splits_at(last.parameter(), splitting);
+        return Ok(Some((last, reason)));
     }
-    labours_at_splitting(path, before, spent)
+    let labours = labours_at_splitting(path, before, spent)?;
+    Ok(labours.map(|reason| (from.clone(), reason)))
+}
+
+/// The last orbit of a branch that is found behind `from` before the splitting that the step to the present
+/// orbit has passed.
+fn last_before_splitting(
+    path: &mut OrbitPath,
+    record: &mut RowRecord,
+    from: &ContinuationPoint,
+) -> ContinuationPoint {
+    let settings = path.settings_between();
+    let mut last = from.clone();
+    let mut length = path.current().arc_length - from.arc_length;
+    for _ in 0..HALVINGS {
+        length /= 2.0;
+        let ahead = along_tangent(&last, length);
+        if let Ok(found) = solve_between(&mut path.problem, [&last, &ahead], 1.0, &settings) {
+            record.evaluations_between += found.evaluations;
+            if path.problem.touches() == record.touches && is_told(path) {
+                last = found;
+            }
+        }
+    }
+    last
+}
+
+/// Whether the orbit at which the problem was evaluated last is told from those on the other side.
+fn is_told(path: &mut OrbitPath) -> bool {
+    let multipliers = path.problem.multipliers().map(|all| all.iter().map(|[re, im]| re.hypot(*im)));
+    multipliers.is_ok_and(|mut sizes| sizes.all(|size| size < splitting::UNRESOLVED))
+}
+
+/// The point at a length ahead on the tangent of another one.
+fn along_tangent(from: &ContinuationPoint, length: f64) -> ContinuationPoint {
+    let point = from.point.iter().zip(&from.tangent).map(|(x, t)| x + length * t).collect();
+    ContinuationPoint { point, arc_length: from.arc_length + length, ..from.clone() }
+}
+
+impl RowRecord {
+    /// Appends the row of the last orbit before a splitting, and those between `from` and it; none if it is
+    /// `from`.
+    pub fn append_last(
+        &mut self,
+        path: &mut OrbitPath,
+        [from, last]: [&ContinuationPoint; 2],
+        rows: &mut Vec<BranchRow>,
+    ) -> Result<(), OrbitError> {
+        if last.arc_length <= from.arc_length {
+            return Ok(());
+        }
+        evaluate(&mut path.problem, &last.point)?;
+        match row_at(path, last) {
+            Ok(row) => self.append_densely(path, [from, last], row, rows),
+            // As in `density.rs`: what cannot be computed is no row.
+            Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
 }
 
 /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and
@@ -131,7 +205,7 @@ fn passes_splitting(
     path: &mut OrbitPath,
     touches: &[u32],
     before: &Departed,
-) -> Result<Option<StopReason>, OrbitError> {
+) -> Result<Option<Splitting>, OrbitError> {
     let (system, now) = (path.problem.system(), path.problem.touches());
     let changed = splitting::elements_with_other_touches(system, touches, now);
     if changed.is_empty() {
@@ -142,7 +216,7 @@ fn passes_splitting(
     let splits = splitting_of(path, before).and_then(among);
     let splits = splits.or_else(|| splitting_of(path, &current).and_then(among));
     evaluate(&mut path.problem, &current.point.point)?;
-    Ok(splits.map(|splitting| splits_at(before.point.parameter(), splitting)))
+    Ok(splits)
 }
 
 /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just

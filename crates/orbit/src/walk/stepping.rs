@@ -49,7 +49,8 @@ impl BranchWalk {
             return Ok(Some(end_of_path(&mut self.path, reason)));
         }
         let Self { path, record, .. } = self;
-        if let Some(splits) = comes_to_splitting(path, &record.touches, &departure)? {
+        if let Some((last, splits)) = comes_to_splitting(path, record, &departure, &from)? {
+            record.append_last(path, [&from, &last], rows)?;
             return Ok(Some(splits));
         }
         let (at_corner, row) = match record.rows_here(path) {
@@ -67,7 +68,10 @@ impl BranchWalk {
         path.note_in_journal();
         match at_corner {
             Some(at_corner) => record.append_behind_corner(path, at_corner, row, rows),
-            None => record.append_densely(path, &from, row, rows)?,
+            None => {
+                let to = path.current().clone();
+                record.append_densely(path, [&from, &to], row, rows)?;
+            }
         }
         self.keep_segments_short(largest)?;
         Ok(None)
@@ -87,7 +91,7 @@ impl BranchWalk {
             return Ok(Some(stop_reason(&mut self.path, reason)));
         }
         let Self { path, record, .. } = self;
-        if let Some(splits) = comes_to_splitting(path, &record.touches, &departure)? {
+        if let Some((_, splits)) = comes_to_splitting(path, record, &departure, &from)? {
             return Ok(Some(splits));
         }
         record.note_touches(path);
