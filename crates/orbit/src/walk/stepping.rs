@@ -62,7 +62,9 @@ impl BranchWalk {
             Err(error) => return Err(error),
         };
         let largest = row.solution.largest_multiplier();
-        if let Some(splits) = is_lost_at_splitting(path, &departure, largest)? {
+        let lost = is_lost_at_splitting(path, record, (&departure, &from), largest)?;
+        if let Some((last, splits)) = lost {
+            record.append_last(path, [&from, &last], rows)?;
             return Ok(Some(splits));
         }
         path.note_in_journal();
