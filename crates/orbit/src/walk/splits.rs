@@ -92,7 +92,7 @@ pub(super) fn comes_to_splitting(
 }
 
 /// The last orbit of a branch that is found behind `from` before the splitting that the step to the present
-/// orbit has passed, or beside which that is lost.
+/// orbit has passed.
 fn last_before_splitting(
     path: &mut OrbitPath,
     record: &mut RowRecord,
@@ -149,23 +149,16 @@ impl RowRecord {
 }
 
 /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and
-/// one of its contacts begins with next to no speed: the last orbit before that, with why the walk ends.
-///
-/// * `record`: at the present orbit.
-/// * `from`: as above.
+/// one of its contacts begins with next to no speed.
 pub(super) fn is_lost_at_splitting(
     path: &mut OrbitPath,
-    record: &mut RowRecord,
-    (departure, from): (&Departure, &ContinuationPoint),
+    departure: &Departure,
     largest_multiplier: f64,
-) -> Result<Option<(ContinuationPoint, StopReason)>, OrbitError> {
-    if departure.place.is_none() || largest_multiplier < splitting::UNRESOLVED {
-        return Ok(None);
+) -> Result<Option<StopReason>, OrbitError> {
+    match &departure.place {
+        Some(before) if largest_multiplier >= splitting::UNRESOLVED => has_just_split(path, before),
+        _ => Ok(None),
     }
-    let Some(splitting) = has_just_split(path)? else { return Ok(None) };
-    let last = last_before_splitting(path, record, from);
-    let reason = splits_at(last.parameter(), splitting);
-    Ok(Some((last, reason)))
 }
 
 /// If the motion of the last step, which led away from `before`, took far more work than its contacts
@@ -187,20 +180,19 @@ fn labours_at_splitting(
     if !alone.takes_too_many_steps(touches) {
         return Ok(None);
     }
-    let split = has_just_split(path)?;
-    Ok(split.map(|splitting| splits_at(before.point.parameter(), splitting)))
+    has_just_split(path, before)
 }
 
 /// If one of the contacts of the present orbit, at which the problem is evaluated again, begins with next
 /// to no speed.
-fn has_just_split(path: &mut OrbitPath) -> Result<Option<Splitting>, OrbitError> {
+fn has_just_split(path: &mut OrbitPath, before: &Departed) -> Result<Option<StopReason>, OrbitError> {
     let present = place(path);
     let span = move_to_orbit(path, &present);
     let begin = (present.phase, present.state);
     let found =
         span.and_then(|span| splitting::find_slow_begin(path.problem.integrator(), begin, span).ok()?);
     evaluate(&mut path.problem, &present.point.point)?;
-    Ok(found)
+    Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
 }
 
 /// If a step has passed a splitting: the number of contacts of an element has changed since the last row,

@@ -62,9 +62,7 @@ impl BranchWalk {
             Err(error) => return Err(error),
         };
         let largest = row.solution.largest_multiplier();
-        let lost = is_lost_at_splitting(path, record, (&departure, &from), largest)?;
-        if let Some((last, splits)) = lost {
-            record.append_last(path, [&from, &last], rows)?;
+        if let Some(splits) = is_lost_at_splitting(path, &departure, largest)? {
             return Ok(Some(splits));
         }
         path.note_in_journal();
