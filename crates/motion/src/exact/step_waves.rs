@@ -8,10 +8,10 @@
 //!
 //! So the sum is looked at [`PLACES_PER_RADIAN`] times for each radian through which the fastest load turns,
 //! and every top of it is noted, with the most that it can be. With the distance `d` between places [rad] and
-//! the amplitude `A` of the load's part, that is `A d^2/8` above the higher one of two places. The vertex of a
-//! parabola through three places lies below the top of a wave beside the middle one: a top at the part `e` of
-//! `d` from it is missed by `A d^4 (e^2 - e^4)/8`, up to terms of sixth order, and `e` is 1/2 at most. That is
-//! `3 A d^4/128`; a third more is for what is smooth, which bends far less over three places.
+//! the amplitude `A` of the load's part, that is `A d^2/8` above the higher one of two places. The vertex of
+//! a parabola through three places lies below the top of a wave beside the middle one: a top at the part `e`
+//! of `d` from it is missed by `A d^4 (e^2 - e^4)/8`, up to terms of sixth order, and `e` is 1/2 at most.
+//! That is `3 A d^4/128`; a third more is for what is smooth, which bends far less over three places.
 
 use super::{
     ExactIntegrator,
