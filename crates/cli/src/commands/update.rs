@@ -1,10 +1,12 @@
 //! `hammerbeam update`: parameters of a study fitted to measurements.
 
 use hammerbeam_fit::Interval;
-use hammerbeam_jobs::counted;
-use hammerbeam_jobs::update::{
-    CandidateError, DataError, FittedDatum, FittedParameter, Update, UpdateData, UpdateError, UpdateReport,
-    UpdateSettings, update, write_update,
+use hammerbeam_jobs::{
+    counted,
+    update::{
+        CandidateError, DataError, FittedDatum, FittedParameter, Update, UpdateData, UpdateError,
+        UpdateReport, UpdateSettings, update, write_update,
+    },
 };
 use hammerbeam_study::StudyError;
 

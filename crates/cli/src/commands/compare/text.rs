@@ -1,9 +1,11 @@
 //! A comparison in words.
 
-use hammerbeam_jobs::comparison::{
-    CompareReport, ComparedQuantity, Filter, Fit, FitEstimate, Origin, PointOutcome, Residual, Verdict,
+use hammerbeam_jobs::{
+    comparison::{
+        CompareReport, ComparedQuantity, Filter, Fit, FitEstimate, Origin, PointOutcome, Residual, Verdict,
+    },
+    counted,
 };
-use hammerbeam_jobs::counted;
 use hammerbeam_signal::MeasuredQuantity;
 
 /// Unexplained points that are listed; all are in the table.

@@ -1,9 +1,9 @@
 //! An overlay as a table, a document and in words.
 
-use hammerbeam_jobs::counted;
 use std::path::Path;
 
 use hammerbeam_figure::plain_number;
+use hammerbeam_jobs::counted;
 use hammerbeam_results::export::{Table, header, number};
 use serde_json::{Value, json};
 
