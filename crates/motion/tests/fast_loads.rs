@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use crate::common::{assert_agreement, cubic, damped, diagonal, element, force, hertz, model, settled};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
-    exact::{ExactIntegrator, ExactSettings},
-    general::{GeneralSettings, observe},
+    exact::{ExactIntegrator, ExactSettings, Maxima},
+    general::{GeneralSettings, Observed, observe},
     law::{LinearStop, TwoSidedStop},
 };
 
@@ -53,6 +53,16 @@ fn sensitivities_agree_under_a_load_of_order_300() {
     }
 }
 
+/// Maxima of one mode over a period: those of the exact integrator, and those of the general one.
+fn maxima_of_both(system: System, frequency_hz: f64, state: &[f64]) -> (Maxima, Observed) {
+    let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+    let response: (&[f64], &[f64]) = (&[1.0], &[0.0]);
+    let settings = GeneralSettings::with_tolerance(1e-12);
+    let expected = observe(&system, &stretch, state, response, &settings).unwrap();
+    let mut exact = ExactIntegrator::watching(system, ExactSettings::default(), Some(response)).unwrap();
+    (exact.observe(&[(stretch, state)]).unwrap(), expected)
+}
+
 /// A soft contact lasts for dozens of waves of the load, whose parts of the acceleration are as large as that
 /// of the contact: the largest of hundreds of tops is one that the general integrator finds, too.
 #[test]
@@ -72,13 +82,7 @@ fn the_largest_acceleration_is_the_highest_of_all_waves_of_a_load() {
                 let stop = element(&[1.0], 0.0, law.clone());
                 let system = System::new(model(&[1.0], damping), &load, vec![stop]).unwrap();
                 let state = settled(&system, frequency_hz, 20, 0.0);
-                let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
-                let response: (&[f64], &[f64]) = (&[1.0], &[0.0]);
-                let settings = GeneralSettings::with_tolerance(1e-12);
-                let expected = observe(&system, &stretch, &state, response, &settings).unwrap();
-                let mut exact =
-                    ExactIntegrator::watching(system, ExactSettings::default(), Some(response)).unwrap();
-                let found = exact.observe(&[(stretch, &state)]).unwrap();
+                let (found, expected) = maxima_of_both(system, frequency_hz, &state);
                 let what = format!("{law:?}, order {order}, {frequency_hz} Hz");
                 for (found, expected) in [
                     (found.acceleration, expected.acceleration),
@@ -104,12 +108,8 @@ fn of_two_tops_that_are_nearly_equal_the_higher_one_is_found() {
         let spring = element(&[1.0], 0.0, cubic(1e-6));
         let system = System::new(model(&[1.0], diagonal(&[0.2])), &load, vec![spring]).unwrap();
         let state = settled(&system, frequency_hz, 60, 0.0);
-        let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
-        let response: (&[f64], &[f64]) = (&[1.0], &[0.0]);
-        let settings = GeneralSettings::with_tolerance(1e-12);
-        let expected = observe(&system, &stretch, &state, response, &settings).unwrap().acceleration;
-        let mut exact = ExactIntegrator::watching(system, ExactSettings::default(), Some(response)).unwrap();
-        let found = exact.observe(&[(stretch, &state)]).unwrap().acceleration;
+        let (found, expected) = maxima_of_both(system, frequency_hz, &state);
+        let (found, expected) = (found.acceleration, expected.acceleration);
         assert!((found - expected).abs() <= 1e-9 * expected, "{phase}: {found} {expected}");
     }
 }

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::exact::Maxima;
 
-use crate::{BranchEventKind, EventSet, LocatedEvent, Stability};
+use crate::{BranchEventKind, EventSet, LocatedEvent, Stability, spectrum::largest_modulus};
 
 /// A converged periodic solution.
 ///
@@ -54,7 +54,7 @@ impl PeriodicSolution {
     /// Magnitude of the largest Floquet multiplier; 0 if there is none.
     #[must_use]
     pub fn largest_multiplier(&self) -> f64 {
-        self.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
+        largest_modulus(&self.floquet_multipliers)
     }
 }
 

@@ -7,8 +7,11 @@ use hammerbeam_motion::{
 use hammerbeam_path::PathProblem;
 
 use crate::{
-    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, shooting::ShootingProblem, size::Cut,
-    spectrum::Spectrum, state_scale::StateScale,
+    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
+    shooting::ShootingProblem,
+    size::Cut,
+    spectrum::{Spectrum, largest_modulus},
+    state_scale::StateScale,
 };
 
 const MAX_ITERATIONS: u32 = 25;
@@ -51,10 +54,9 @@ impl Wanted {
         if iterations >= patience && correction > STILL_FAR {
             return true;
         }
-        let largest = |multipliers: &[[f64; 2]]| multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
         let is_unstable = self == Self::StableNearby
             && correction <= NEAR
-            && problem.multipliers().is_ok_and(|multipliers| largest(multipliers) >= FAR_OUTSIDE);
+            && problem.multipliers().is_ok_and(|multipliers| largest_modulus(multipliers) >= FAR_OUTSIDE);
         *unstable = if is_unstable { *unstable + 1 } else { 0 };
         *unstable >= 2
     }

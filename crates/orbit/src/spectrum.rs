@@ -123,6 +123,11 @@ impl Spectrum {
     }
 }
 
+/// The largest modulus of multipliers, which come first; 0 of none.
+pub(crate) fn largest_modulus(multipliers: &[[f64; 2]]) -> f64 {
+    multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
+}
+
 /// Root of the sum of the squared entries.
 pub(crate) fn norm(matrix: &[f64]) -> f64 {
     matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()

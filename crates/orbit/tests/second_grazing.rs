@@ -4,14 +4,17 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System,
+    Law, Parameter, System,
     law::{HertzStop, RigidStop},
 };
 use hammerbeam_orbit::{
     CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, OrbitMaxima, OrbitSettings, PeriodicSolution,
     Response, Side,
 };
-use hammerbeam_structure::ReducedModel;
+use hammerbeam_testkit::{
+    structures::unit_mass,
+    systems::{element, force, forced},
+};
 
 const DAMPING: f64 = 0.1;
 /// Second harmonic of the force, of which the first one is 1 [N], and its phase.
@@ -20,21 +23,9 @@ const RANGE_HZ: (f64, f64) = (0.03, 0.12);
 
 /// Unit mass on a unit spring, with a stop below.
 fn oscillator(law: Law) -> (System, Response) {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: faer::mat![[DAMPING]],
-        points: vec![],
-        supports: vec![],
-        uniform_acceleration: vec![1.0],
-    };
-    let force = |order, amplitude, phase| HarmonicForce {
-        shape: vec![1.0],
-        harmonic: Harmonic { order, amplitude, phase },
-    };
-    let load = Load { support: vec![], forces: vec![force(1, 1.0, 0.0), force(2, SECOND.0, SECOND.1)] };
-    let stop = LocalElement { name: "stop".into(), shape: vec![-1.0], support_ratios: vec![0.0], law };
-    let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
-    (System::new(model, &load, vec![stop]).unwrap(), response)
+    let load = forced(vec![force(&[1.0], 1, 1.0, 0.0), force(&[1.0], 2, SECOND.0, SECOND.1)]);
+    let system = System::new(unit_mass(1.0, DAMPING), &load, vec![element(&[-1.0], 0.0, law)]).unwrap();
+    (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
 /// The motion without contact at a phase, and its velocity [m/cycle] and acceleration [m/cycle^2]: of a force

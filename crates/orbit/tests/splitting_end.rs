@@ -5,12 +5,13 @@
 use std::f64::consts::TAU;
 
 use crate::common::events::side;
-use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, System,
-    law::{HertzStop, RestitutionModel, RestitutionStop},
-};
+use hammerbeam_motion::{System, law::RestitutionModel};
 use hammerbeam_orbit::{OrbitSettings, Response, Side, StopReason, find_start};
-use hammerbeam_structure::ReducedModel;
+use hammerbeam_testkit::{
+    laws::remembering,
+    structures::unit_mass,
+    systems::{element, force, forced},
+};
 
 const DAMPING: f64 = 0.2;
 /// Amplitudes of the first and second harmonic of the force, both downwards.
@@ -52,23 +53,10 @@ fn border() -> f64 {
 
 /// A stop so soft that it does not move the mass by a digit.
 fn subject() -> (System, Response) {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: faer::mat![[DAMPING]],
-        points: vec![],
-        supports: vec![],
-        uniform_acceleration: vec![1.0],
-    };
-    let force = |(k, amplitude): (usize, &f64)| HarmonicForce {
-        shape: vec![1.0],
-        harmonic: Harmonic { order: k as u32 + 1, amplitude: -amplitude, phase: 0.0 },
-    };
-    let load = Load { support: vec![], forces: FORCES.iter().enumerate().map(force).collect() };
-    let elastic = HertzStop::with_gap(1e-13, GAP).unwrap();
-    let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
-    let law = Law::Restitution(law);
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
-    let system = System::new(model, &load, vec![stop]).unwrap();
+    let forces = (1..).zip(FORCES).map(|(order, amplitude)| force(&[1.0], order, -amplitude, 0.0));
+    let law = remembering(1e-13, RestitutionModel::LankaraniNikravesh, 0.7, GAP);
+    let (model, load) = (unit_mass(1.0, DAMPING), forced(forces.collect()));
+    let system = System::new(model, &load, vec![element(&[1.0], 0.0, law)]).unwrap();
     (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 

@@ -14,6 +14,7 @@ use super::{
 use crate::{
     BranchRow, OrbitError, StopReason,
     solve::evaluate,
+    spectrum::largest_modulus,
     splitting::{self, Splitting},
 };
 
@@ -116,8 +117,7 @@ fn last_before_splitting(
 
 /// Whether the orbit at which the problem was evaluated last is told from those on the other side.
 fn is_told(path: &mut OrbitPath) -> bool {
-    let multipliers = path.problem.multipliers().map(|all| all.iter().map(|[re, im]| re.hypot(*im)));
-    multipliers.is_ok_and(|mut sizes| sizes.all(|size| size < splitting::UNRESOLVED))
+    path.problem.multipliers().is_ok_and(|multipliers| largest_modulus(multipliers) < splitting::UNRESOLVED)
 }
 
 /// The point at a length ahead on the tangent of another one.
