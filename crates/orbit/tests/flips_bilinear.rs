@@ -233,3 +233,24 @@ fn simulation_on_both_sides_settles_to_period_one_and_two() {
     assert_eq!(settle(0.98 * flip.frequency_hz), Some(1));
     assert_eq!(settle(1.01 * flip.frequency_hz), Some(2));
 }
+
+/// A doubled branch comes back to the harmonic one in another flip of it, as sharply with long steps as with
+/// short ones.
+#[test]
+fn a_doubled_branch_ends_in_a_flip_however_long_its_steps_are() {
+    let subject = subject();
+    let found = flips(0.3, &step_of(0.001));
+    let flips = sorted(&found.iter().collect::<Vec<_>>());
+    let mut ends = 0;
+    for step in (1..=12).chain([30, 46, 80, 93, 97]) {
+        let settings = step_of(2e-4 * f64::from(step));
+        for flip in &found {
+            let (_, reason) = leaving(&subject, flip, Side::Up, RANGE, &settings);
+            let StopReason::ShorterPeriod { frequency_hz, .. } = reason else { continue };
+            let off = flips.iter().map(|flip| (flip / frequency_hz - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            assert!(off < 1e-10, "steps of {} Hz: {off:.1e} off", settings.max_step_hz);
+            ends += 1;
+        }
+    }
+    assert!(ends >= 30, "{ends}");
+}

@@ -140,6 +140,9 @@ impl ExactIntegrator {
             if event == Some(ending) {
                 until = until.min(self.step.length - self.located_within(run, ending));
             }
+            if until <= 0.0 {
+                continue;
+            }
             let boundary =
                 if matches!(ending, Event::Part(_)) { Boundary::Presses } else { Boundary::Leaves };
             let sought = Sought::Closed(Touch { element: ending.element(), contact, boundary });

@@ -6,7 +6,8 @@
 //! `±w` and `±2w` with `w` a fiftieth of the step, points are sharp and `D` is smooth: the cubic polynomial
 //! of the path's length over `D` through these four gives the length at `D = 0`, the Hermite polynomial
 //! through the inner two the point. The quadratic polynomial through three of them tells how far that can be
-//! trusted.
+//! trusted. Where the step is so long that this point is not on the path, a quarter of `w` serves, with less
+//! than a hundredth of the error.
 
 use super::{attempt::Attempt, bracket::at_zero, locator::Locator};
 use crate::{
@@ -14,28 +15,34 @@ use crate::{
     product::progress,
 };
 
-/// `w` as a share of the step.
-const ASIDE: f64 = 0.02;
+/// `w` as a share of the step: the second where the first is too much.
+const ASIDES: [f64; 2] = [0.02, 0.005];
 
 /// Makes the probe, evaluated last, the branch point at this share of the step; returns the arc length within
 /// which it lies. If points beside it do not tell, the probe stays where it was.
 pub(super) fn sharpen(attempt: &mut Attempt<'_>, locator: &mut Locator, share: f64) -> f64 {
     let found = locator.probe.clone();
-    if let Some(uncertainty) = place_from_beside(attempt, locator, share) {
-        return uncertainty;
+    for aside in ASIDES {
+        if let Some(uncertainty) = place_from_beside(attempt, locator, (share, aside)) {
+            return uncertainty;
+        }
     }
     locator.probe = found;
     // It was evaluated before: this cannot fail, and if it did the next step would show it.
     let _ = attempt.evaluate(&locator.probe.point);
-    ASIDE * attempt.progress()
+    ASIDES[0] * attempt.progress()
 }
 
-fn place_from_beside(attempt: &mut Attempt<'_>, locator: &mut Locator, share: f64) -> Option<f64> {
+fn place_from_beside(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    (share, aside): (f64, f64),
+) -> Option<f64> {
     let length = attempt.progress();
     let scale = attempt.trial.log_determinant.max(attempt.state.current.log_determinant);
     let mut beside: Vec<(Node, f64)> = Vec::new();
     for place in [-2.0, -1.0, 1.0, 2.0] {
-        locator.probe_between(attempt, attempt.step, (share + place * ASIDE) * length).ok()?;
+        locator.probe_between(attempt, attempt.step, (share + place * aside) * length).ok()?;
         let probe = &locator.probe;
         if probe.signature != attempt.state.current.signature {
             return None;
