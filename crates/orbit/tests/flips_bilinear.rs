@@ -247,7 +247,8 @@ fn a_doubled_branch_ends_in_a_flip_however_long_its_steps_are() {
         for flip in &found {
             let (_, reason) = leaving(&subject, flip, Side::Up, RANGE, &settings);
             let StopReason::ShorterPeriod { frequency_hz, .. } = reason else { continue };
-            let off = flips.iter().map(|flip| (flip / frequency_hz - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            let off =
+                flips.iter().map(|flip| (flip / frequency_hz - 1.0).abs()).fold(f64::INFINITY, f64::min);
             assert!(off < 1e-10, "steps of {} Hz: {off:.1e} off", settings.max_step_hz);
             ends += 1;
         }
