@@ -99,12 +99,7 @@ impl ExactIntegrator {
                 if event == Some(Event::Touch(touch)) {
                     until = until.min(self.step.length - self.located_within(run, Event::Touch(touch)));
                 }
-                if from >= until {
-                    continue;
-                }
-                let found = Search::new(self, run, Sought::Open(touch), &forced, (from, until)).run();
-                self.counts.looks += found.looks;
-                if let Some(time) = found.result? {
+                if let Some(time) = self.search(run, Sought::Open(touch), &forced, (from, until))? {
                     first = Some((touch, time));
                 }
             }
@@ -140,19 +135,32 @@ impl ExactIntegrator {
             if event == Some(ending) {
                 until = until.min(self.step.length - self.located_within(run, ending));
             }
-            if until <= 0.0 {
-                continue;
-            }
             let boundary =
                 if matches!(ending, Event::Part(_)) { Boundary::Presses } else { Boundary::Leaves };
             let sought = Sought::Closed(Touch { element: ending.element(), contact, boundary });
-            let found = Search::new(self, run, sought, &forced, (0.0, until)).run();
-            self.counts.looks += found.looks;
-            if let Some(time) = found.result?.filter(|time| *time > SAME * self.step.length) {
+            let found = self.search(run, sought, &forced, (0.0, until))?;
+            if let Some(time) = found.filter(|time| *time > SAME * self.step.length) {
                 first = Some((ending, time));
             }
         }
         Ok(first)
+    }
+
+    /// When a contact crosses its boundary between two times in the solved step; there may be nothing between
+    /// them.
+    fn search(
+        &mut self,
+        run: &Run,
+        sought: Sought,
+        forced: &Forced,
+        (from, until): (f64, f64),
+    ) -> Result<Option<f64>, Unresolved> {
+        if from >= until {
+            return Ok(None);
+        }
+        let found = Search::new(self, run, sought, forced, (from, until)).run();
+        self.counts.looks += found.looks;
+        found.result
     }
 
     /// Time in the step before which an element is not looked at: it has just left its rigid stop, and
