@@ -5,6 +5,7 @@ mod density;
 mod effort;
 mod end;
 mod growth;
+mod half_orbit;
 mod halves;
 mod last_rows;
 mod orbit_path;

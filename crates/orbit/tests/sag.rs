@@ -11,7 +11,7 @@ use crate::common::events::{
 };
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
-use hammerbeam_orbit::{Response, Side, StopReason, find_start};
+use hammerbeam_orbit::{BranchRow, Response, Side, StopReason, find_start};
 use hammerbeam_structure::ReducedModel;
 
 const RANGE: (f64, f64) = (0.12, 0.5);
@@ -73,18 +73,26 @@ fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
             assert!(alternation(&subject.0, &row.solution) > least, "{} Hz", row.solution.frequency_hz);
         }
         match reason {
-            StopReason::ShorterPeriod { frequency_hz, .. } | StopReason::RangeEnd { frequency_hz } => {
+            StopReason::ShorterPeriod { frequency_hz, .. } => {
+                assert_ends_in_flip(&rows[rows.len() - 1], frequency_hz, &flips);
                 frequency_hz
             }
+            StopReason::RangeEnd { frequency_hz } => frequency_hz,
             other => panic!("{other:?}"),
         }
     });
     (sorted(&flips), ends.collect())
 }
 
-/// The flips and ends of a subject are those of the oscillator alone, to a tolerance in proportion to the
-/// square of its units: at an end, where the frequency goes with the square of the doubling, an error of
-/// 1e-10 of the units in the states is one of 1e-6 to 1e-5.
+/// However the walk came to its end, its last row is the flip of the harmonic branch there.
+#[track_caller]
+fn assert_ends_in_flip(last: &BranchRow, end: f64, flips: &[&BranchRow]) {
+    assert!(last.events.branch_point && last.solution.frequency_hz == end, "{end} Hz: {:?}", last.events);
+    let off = flips.iter().map(|flip| (flip.solution.frequency_hz - end).abs()).fold(f64::INFINITY, f64::min);
+    assert!(off < 1e-10, "the end at {end} Hz is {off:e} Hz beside a flip");
+}
+
+/// The flips and ends of a subject are those of the oscillator alone, to a part of the units.
 #[track_caller]
 fn assert_as_alone(subject: &Subject, least: f64, tolerance: f64) {
     let (flips, ends) = flips_and_ends(&self::subject(0.0, 0.0), 1e-5);
@@ -96,16 +104,16 @@ fn assert_as_alone(subject: &Subject, least: f64, tolerance: f64) {
 
 #[test]
 fn branches_about_a_sag_are_those_without_it() {
-    assert_as_alone(&subject(SAG, 0.0), 1e-8, 1e-8);
+    assert_as_alone(&subject(SAG, 0.0), 1e-8, 1e-10);
 }
 
 /// Units are those of the sag here, of which the motion is a five-thousandth.
 #[test]
 fn branches_about_a_sag_that_a_stop_carries_are_those_without_it() {
-    assert_as_alone(&subject(5.0 * SAG, 0.9), 1e-9, 1e-5);
+    assert_as_alone(&subject(5.0 * SAG, 0.9), 1e-9, 1e-10);
 }
 
 #[test]
 fn branches_beside_a_far_larger_motion_are_those_without_it() {
-    assert_as_alone(&beside_a_large_motion(4e3), 1e-9, 1e-5);
+    assert_as_alone(&beside_a_large_motion(4e3), 1e-9, 1e-10);
 }

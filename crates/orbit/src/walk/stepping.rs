@@ -5,6 +5,7 @@ use hammerbeam_path::{ContinuationPoint, PathStop, StepOutcome};
 use super::{
     BranchWalk, Walked,
     end::{end_of_path, stop_reason},
+    half_orbit::at_flip,
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
     shorter_period::meets_shorter_period,
@@ -42,11 +43,12 @@ impl BranchWalk {
         }
         let departure = match self.depart() {
             Ok(departure) => departure,
-            Err(end) => return Ok(Some(end)),
+            Err(end) => return Ok(Some(at_flip(&mut self.path, end, rows))),
         };
         let mut from = self.path.current().clone();
         if let Some(reason) = self.advance(&mut from)? {
-            return Ok(Some(end_of_path(&mut self.path, reason)));
+            let end = end_of_path(&mut self.path, reason);
+            return Ok(Some(at_flip(&mut self.path, end, rows)));
         }
         let Self { path, record, .. } = self;
         if let Some((last, splits)) = comes_to_splitting(path, record, &departure, &from)? {
