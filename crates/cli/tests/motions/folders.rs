@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use hammerbeam_results::Store;
+use rusqlite::{Connection, OpenFlags};
 
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run};
 
@@ -85,13 +85,16 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
     let signal = |signal: &str| {
         assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
     };
-    let stored = || {
-        let requests = Store::open(&workshop.path("out")).and_then(|store| store.requests());
-        requests.is_ok_and(|requests| requests.first().is_some_and(|one| one.done == one.pieces))
+    // A command that is stopped may hold the database for itself; it is not waited for.
+    let stored = || -> rusqlite::Result<bool> {
+        let database = workshop.path("out/results.db");
+        let connection = Connection::open_with_flags(database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
+        connection.busy_timeout(Duration::ZERO)?;
+        connection.query_row("SELECT done = pieces FROM request ORDER BY id LIMIT 1", [], |row| row.get(0))
     };
     loop {
         signal("-STOP");
-        if stored() {
+        if stored().unwrap_or(false) {
             break;
         }
         signal("-CONT");
