@@ -214,7 +214,10 @@ impl<'a> Catalogue<'a> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-    use hammerbeam_motion::{Law, law::PowerSpring};
+    use hammerbeam_motion::{
+        Law,
+        law::{Formula, PowerSpring},
+    };
 
     use super::*;
     use crate::test_oscillator::oscillator;
@@ -232,5 +235,21 @@ mod tests {
         assert_eq!(arrived_at(Wanted::StableNearby, &hill).unwrap(), None);
         assert!(arrived_at(Wanted::StableNearby, &well).unwrap().is_some_and(|arrived| arrived.is_new));
         assert!(arrived_at(Wanted::Any, &hill).unwrap().is_some_and(|arrived| arrived.is_new));
+    }
+
+    /// The van der Pol oscillator of `studies/van-der-pol.toml`: its damping grows with the square of the
+    /// displacement, and so do the steps of a motion far away, to which Newton's method may jump.
+    #[test]
+    fn a_guess_that_leads_astray_costs_little() {
+        let law = Law::Formula(Formula::new("0.3*(x^2 - 1)*v", &[]).unwrap());
+        let (system, response) = oscillator(0.0, 1.0, law);
+        let settings = OrbitSettings::default();
+        let mut catalogue = Catalogue::new(&system, &response, &settings, 0.16).unwrap();
+        for guess in [[-405.1, 788.7], [-644.7, -51.7]] {
+            let before = catalogue.integrator().counts().steps;
+            catalogue.probe((0.0, &[guess.to_vec()]), 1).unwrap();
+            let steps = catalogue.integrator().counts().steps - before;
+            assert!(steps < 10_000, "{steps} force steps from {guess:?}");
+        }
     }
 }

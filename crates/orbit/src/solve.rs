@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::{
     Stretch, System,
-    exact::{ExactIntegrator, ExactSettings},
+    exact::{ExactIntegrator, ExactSettings, MotionError},
 };
 use hammerbeam_path::PathProblem;
 
@@ -29,6 +29,12 @@ const NEAR: f64 = 0.03;
 /// proves it: beside a stiff stop one more contact may make such a multiplier. What is lost so is one of many
 /// guesses.
 const FAR_OUTSIDE: f64 = 2.0;
+
+/// A motion that takes so many times as many force steps in an excitation period as that of the guess,
+const ASTRAY: u64 = 10;
+/// and at least so many, is not on the way to an orbit: hundreds are many, and what goes on far away, in a
+/// force that grows with a power, may take all that a motion may take.
+const LEAST_ASTRAY: u64 = 1000;
 
 /// Which orbits Newton's method is to find.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -140,13 +146,33 @@ fn correct_wanted_in_plane(
     (row, wanted): (&[f64], Wanted),
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
+    let found = iterate(problem, point, (row, wanted), settings);
+    problem.integrator().limit_steps(None);
+    found
+}
+
+/// Newton's method; from the second iteration on the integrator has a limit of its steps.
+fn iterate(
+    problem: &mut ShootingProblem,
+    point: &mut [f64],
+    (row, wanted): (&[f64], Wanted),
+    settings: &OrbitSettings,
+) -> Result<f64, OrbitError> {
     let mut unstable = 0;
+    let steps_before = problem.counts().steps;
     let frequency_hz = problem.frequency(point);
     let mut correction = f64::INFINITY;
     for iterations in 1..=MAX_ITERATIONS {
         let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
+        let made = newton_update(problem, point, row);
+        if iterations == 1 {
+            let at_guess = (problem.counts().steps - steps_before) / u64::from(problem.period_multiple());
+            problem.integrator().limit_steps(Some(LEAST_ASTRAY.max(ASTRAY * at_guess)));
+        } else if matches!(made, Err(OrbitError::Motion(MotionError::TooManySteps { .. }))) {
+            return Err(failed);
+        }
         let update;
-        (update, correction) = newton_update(problem, point, row)?;
+        (update, correction) = made?;
         if !correction.is_finite() || wanted.is_out_of_reach(problem, (iterations, correction), &mut unstable)
         {
             return Err(failed);

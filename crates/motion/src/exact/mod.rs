@@ -221,6 +221,8 @@ pub struct ExactIntegrator {
     notes_course: bool,
     course: Course,
     tracing: Option<trace::Tracing>,
+    /// Force steps in an excitation period, at most.
+    most_steps: u64,
     closed_throughout: u64,
     response: Option<(Vec<f64>, Vec<f64>)>,
     parameter: Option<Parameter>,
@@ -297,6 +299,7 @@ impl ExactIntegrator {
             notes_course: false,
             course: Course::default(),
             tracing: None,
+            most_steps: MOST_STEPS,
             closed_throughout: 0,
             response: response.map(|(shape, ratios)| (shape.to_vec(), ratios.to_vec())),
             parameter: None,
@@ -331,6 +334,12 @@ impl ExactIntegrator {
     #[must_use]
     pub fn settings(&self) -> ExactSettings {
         self.settings
+    }
+
+    /// Has motions end with [`MotionError::TooManySteps`] after about so many force steps in an excitation
+    /// period; without a number after 20 000.
+    pub fn limit_steps(&mut self, most: Option<u64>) {
+        self.most_steps = most.map_or(MOST_STEPS, |most| most.min(MOST_STEPS));
     }
 
     /// Work done so far.
