@@ -247,9 +247,10 @@ mod tests {
         let mut catalogue = Catalogue::new(&system, &response, &settings, 0.16).unwrap();
         for guess in [[-405.1, 788.7], [-644.7, -51.7]] {
             let before = catalogue.integrator().counts().steps;
-            catalogue.probe((0.0, &[guess.to_vec()]), 1).unwrap();
+            assert_eq!(catalogue.probe((0.0, &[guess.to_vec()]), 1).unwrap(), None);
+            // Once as many as make a motion a stray, not the 40 000 that it may take.
             let steps = catalogue.integrator().counts().steps - before;
-            assert!(steps < 10_000, "{steps} force steps from {guess:?}");
+            assert!((4000..10_000).contains(&steps), "{steps} force steps from {guess:?}");
         }
     }
 }

@@ -103,6 +103,14 @@ pub(crate) struct Place<'a> {
     pub before: Option<NearChange>,
 }
 
+impl<'a> Place<'a> {
+    /// A place of which no more is known than itself, and within which the parameter is known, if that was
+    /// computed.
+    pub fn alone(point: &'a ContinuationPoint, computed: Option<f64>) -> Self {
+        Self { point, bend: 0.0, at_corners: 0.0, contacts: Vec::new(), computed, before: None }
+    }
+}
+
 /// How near the contacts of an orbit came to a change at the point before a grazing.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct NearChange {

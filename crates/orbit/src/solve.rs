@@ -30,11 +30,11 @@ const NEAR: f64 = 0.03;
 /// guesses.
 const FAR_OUTSIDE: f64 = 2.0;
 
-/// A motion that takes so many times as many force steps in an excitation period as that of the guess,
-const ASTRAY: u64 = 10;
-/// and at least so many, is not on the way to an orbit: hundreds are many, and what goes on far away, in a
-/// force that grows with a power, may take all that a motion may take.
-const LEAST_ASTRAY: u64 = 1000;
+/// A segment that takes so many times as many force steps as the whole guess,
+const ASTRAY: u64 = 20;
+/// and at least so many, is not on the way to an orbit: what goes on far away, in a force that grows with a
+/// power, may take all that a motion may take.
+const LEAST_ASTRAY: u64 = 4000;
 
 /// Which orbits Newton's method is to find.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,15 +160,17 @@ fn iterate(
 ) -> Result<f64, OrbitError> {
     let mut unstable = 0;
     let steps_before = problem.counts().steps;
+    let mut limit = u64::MAX;
     let frequency_hz = problem.frequency(point);
     let mut correction = f64::INFINITY;
     for iterations in 1..=MAX_ITERATIONS {
         let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
         let made = newton_update(problem, point, row);
         if iterations == 1 {
-            let at_guess = (problem.counts().steps - steps_before) / u64::from(problem.period_multiple());
-            problem.integrator().limit_steps(Some(LEAST_ASTRAY.max(ASTRAY * at_guess)));
-        } else if matches!(made, Err(OrbitError::Motion(MotionError::TooManySteps { .. }))) {
+            limit = LEAST_ASTRAY.max(ASTRAY * (problem.counts().steps - steps_before));
+            problem.integrator().limit_steps(Some(limit));
+        }
+        if is_astray(&made, limit) {
             return Err(failed);
         }
         let update;
@@ -185,6 +187,11 @@ fn iterate(
         point.iter_mut().zip(&update).for_each(|(x, u)| *x += factor * u);
     }
     Err(OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS })
+}
+
+/// Whether a motion was given up at this number of steps.
+fn is_astray<T>(made: &Result<T, OrbitError>, limit: u64) -> bool {
+    matches!(made, Err(OrbitError::Motion(MotionError::TooManySteps { steps, .. })) if *steps == limit)
 }
 
 /// Newton's correction at a point in the plane with this border, and its norm; the problem was then evaluated

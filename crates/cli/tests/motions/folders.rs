@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, ErrorCode, OpenFlags};
 
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run};
 
@@ -94,7 +94,9 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
     };
     loop {
         signal("-STOP");
-        if stored().unwrap_or(false) {
+        if stored().unwrap_or_else(|error| panic_unless_not_yet(&error))
+            || child.try_wait().unwrap().is_some()
+        {
             break;
         }
         signal("-CONT");
@@ -106,6 +108,22 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
     child.kill().unwrap();
     child.wait().unwrap();
     None
+}
+
+/// False where the database is not there, not begun or in use.
+#[cfg(unix)]
+fn panic_unless_not_yet(error: &rusqlite::Error) -> bool {
+    let not_yet = match error {
+        rusqlite::Error::QueryReturnedNoRows => true,
+        rusqlite::Error::SqliteFailure(cause, message) => {
+            let is_begun = !message.as_ref().is_some_and(|message| message.contains("no such table"));
+            let codes = [ErrorCode::DatabaseBusy, ErrorCode::DatabaseLocked, ErrorCode::CannotOpen];
+            !is_begun || codes.contains(&cause.code)
+        }
+        _ => false,
+    };
+    assert!(not_yet, "{error}");
+    false
 }
 
 /// As a command leaves it whose first write has failed, or that was killed before its tables were there.

@@ -5,7 +5,7 @@
 use faer::Mat;
 
 use super::{
-    AtEnd, ExactIntegrator, MotionError,
+    AtEnd, ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
     flight::{Boundary, Touch, clearance_of},
     hole,
@@ -158,7 +158,8 @@ impl ExactIntegrator {
         let end = stretch.duration();
         self.check_start(run, stretch)?;
         self.closed_throughout = closed_bits(run);
-        let steps = self.most_steps * (1 + (stretch.end - stretch.start) as u64);
+        let usual = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
+        let steps = self.most_steps.map_or(usual, |most| most.min(usual));
         let most = self.counts.steps + steps;
         // Besides those there are flights and touches, which need no step.
         let mut further = steps + 2 * MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64);

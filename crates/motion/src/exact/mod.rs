@@ -221,8 +221,8 @@ pub struct ExactIntegrator {
     notes_course: bool,
     course: Course,
     tracing: Option<trace::Tracing>,
-    /// Force steps in an excitation period, at most.
-    most_steps: u64,
+    /// Force steps in a stretch, at most; `None` for [`MOST_STEPS`] in each period.
+    most_steps: Option<u64>,
     closed_throughout: u64,
     response: Option<(Vec<f64>, Vec<f64>)>,
     parameter: Option<Parameter>,
@@ -299,7 +299,7 @@ impl ExactIntegrator {
             notes_course: false,
             course: Course::default(),
             tracing: None,
-            most_steps: MOST_STEPS,
+            most_steps: None,
             closed_throughout: 0,
             response: response.map(|(shape, ratios)| (shape.to_vec(), ratios.to_vec())),
             parameter: None,
@@ -336,10 +336,10 @@ impl ExactIntegrator {
         self.settings
     }
 
-    /// Has motions end with [`MotionError::TooManySteps`] after about so many force steps in an excitation
-    /// period; without a number after 20 000.
+    /// Has the motion over a stretch end with [`MotionError::TooManySteps`] after so many force steps, or
+    /// after the usual number, 20 000 in each period, if that is less; without a number after the usual one.
     pub fn limit_steps(&mut self, most: Option<u64>) {
-        self.most_steps = most.map_or(MOST_STEPS, |most| most.min(MOST_STEPS));
+        self.most_steps = most;
     }
 
     /// Work done so far.

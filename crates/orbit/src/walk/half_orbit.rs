@@ -6,27 +6,34 @@
 //! is -1. So a walk begins on that branch, at the mean of the two halves, which is `O(d^2)` away from it, and
 //! goes to both sides until a multiplier passes -1. The orbit there, run through twice, is the last one of
 //! the branch of doubled period.
+//!
+//! That holds if the flip is near: nothing else is taken for it. At a corner of the path, as at the grazing of
+//! a rigid stop, multipliers jump over -1; that is no flip of this kind.
 
 use hammerbeam_motion::exact::ExactIntegrator;
 use hammerbeam_path::{
-    ContinuationPoint, Follower, Judge, ParameterRange, PathEvents, StartDirection, StepOutcome,
+    ContinuationPoint, Follower, ParameterRange, PathEvents, PathProblem, StartDirection, StepOutcome,
 };
 
-use super::{OrbitPath, row::row_at, settings::path_settings};
+use super::{
+    OrbitPath,
+    row::{RowRecord, row_at},
+    settings::path_settings,
+};
 use crate::{
-    BranchRow, OrbitError, OrbitSettings, StopReason, located,
+    BranchRow, EventStatus, OrbitError, OrbitSettings, StopReason, located,
     shooting::ShootingProblem,
     solve::{evaluate, nodes_from},
 };
 
-/// Steps on the branch of half the period are at most this many distances of the two halves long, or
-const DISTANCES: f64 = 2.0;
-/// this part of those of the walk, if that is longer,
-const PART: f64 = 1e-3;
-/// so many to each side.
-const MOST_STEPS: usize = 16;
+/// The flip lies no farther from the mean of the two halves than they from each other, since it goes with the
+/// square of that; or within this part of a longest step of the walk, if that is more: of halves that rounding
+/// alone tells apart the distance says little.
+const PART: f64 = 2e-3;
+/// Steps to each side, at most.
+const STEPS_TO_FLIP: usize = 16;
 
-/// A place on the branch of half the period.
+/// The orbit of half the period at its flip.
 struct Flip {
     point: ContinuationPoint,
     nodes: Vec<Vec<f64>>,
@@ -34,23 +41,41 @@ struct Flip {
     uncertainty: f64,
 }
 
-/// Where a walk ends at the flip of a branch of shorter period that is not located yet, it ends in a row there:
-/// the end with its place.
-pub(super) fn at_flip(path: &mut OrbitPath, end: StopReason, rows: &mut Vec<BranchRow>) -> StopReason {
-    let StopReason::ShorterPeriod { grazes: false, .. } = end else { return end };
-    if path.current().events.branch_point {
-        return end;
+/// The equations of the orbit of half the period, and a point near its path.
+struct Half {
+    problem: ShootingProblem,
+    mean: Vec<f64>,
+    /// Within which the flip is looked for, in arc length.
+    reach: f64,
+}
+
+/// A walk that ends at the flip of a branch of shorter period, without having located it as a branch point of
+/// its own, ends in the row of that flip: the end with its place. Where no flip is found nearby, or its motion
+/// cannot be computed, it ends as it did.
+pub(super) fn end_in_flip(
+    path: &mut OrbitPath,
+    record: &mut RowRecord,
+    end: StopReason,
+    rows: &mut Vec<BranchRow>,
+) -> Result<StopReason, OrbitError> {
+    let is_flip = matches!(end, StopReason::ShorterPeriod { grazes: false, .. });
+    if !is_flip || path.current().events.branch_point {
+        return Ok(end);
     }
-    let Ok(Some(row)) = row_of_flip(path) else { return end };
+    let row = match row_of_flip(path, &mut record.evaluations_between) {
+        Ok(Some(row)) => row,
+        Ok(None) | Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(end),
+        Err(error) => return Err(error),
+    };
     let frequency_hz = row.parameter.unwrap_or(row.solution.frequency_hz);
     rows.push(row);
-    StopReason::ShorterPeriod { frequency_hz, grazes: false }
+    Ok(StopReason::ShorterPeriod { frequency_hz, grazes: false })
 }
 
 /// The row of the flip beside the present orbit, as the last one of its branch; `None` where the orbit of
 /// half the period does not flip nearby.
-pub(super) fn row_of_flip(path: &mut OrbitPath) -> Result<Option<BranchRow>, OrbitError> {
-    let Some(flip) = nearest_flip(path)? else { return Ok(None) };
+fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<BranchRow>, OrbitError> {
+    let Some(flip) = nearest_flip(path, evaluations)? else { return Ok(None) };
     let (present, problem) = (path.follower.current(), &mut path.problem);
     let nodes = if problem.segments().is_multiple_of(2) {
         [flip.nodes.as_slice(), &flip.nodes].concat()
@@ -61,37 +86,28 @@ pub(super) fn row_of_flip(path: &mut OrbitPath) -> Result<Option<BranchRow>, Orb
         let frequency_hz = problem.frequency(&flip.point.point);
         nodes_from(problem.integrator(), begin, frequency_hz, multiple, segments)?
     };
-    let at_flip = ContinuationPoint {
+    // The branch arrives along the direction that alternates, as the present tangent nearly does.
+    let last = ContinuationPoint {
         point: problem.point(&nodes, flip.point.parameter()),
         events: PathEvents { branch_point: true, ..PathEvents::default() },
         correction_norm: flip.point.correction_norm,
         residual_norm: flip.point.residual_norm,
         ..present.clone()
     };
-    evaluate(problem, &at_flip.point)?;
-    let place = located::Place {
-        point: &at_flip,
-        bend: 0.0,
-        at_corners: 0.0,
-        contacts: Vec::new(),
-        computed: Some(flip.uncertainty),
-        before: None,
-    };
-    let located = located::describe(problem, place);
-    Ok(Some(BranchRow { located, ..row_at(path, &at_flip)? }))
+    evaluate(problem, &last.point)?;
+    *evaluations += 1;
+    let located = located::describe(problem, located::Place::alone(&last, Some(flip.uncertainty)));
+    Ok(Some(BranchRow { located, ..row_at(path, &last)? }))
 }
 
 /// The nearest flip of the branch of half the period.
-fn nearest_flip(path: &mut OrbitPath) -> Result<Option<Flip>, OrbitError> {
-    let present = path.follower.current().point.clone();
-    let distance = path.problem.distance_to_simpler(&present);
-    let longest = (DISTANCES * distance).max(PART * path.settings.max_step_hz);
+fn nearest_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Flip>, OrbitError> {
     let here = path.parameter();
+    let off = |flip: &Flip| (flip.point.parameter() - here).abs();
     let mut nearest: Option<Flip> = None;
     for direction in [StartDirection::Increasing, StartDirection::Decreasing] {
-        let Some((mut problem, start)) = half_orbit(path, &present)? else { return Ok(None) };
-        let found = flip_ahead(path, &mut problem, &start, (direction, longest));
-        let off = |flip: &Flip| (flip.point.parameter() - here).abs();
+        let Some(mut half) = half_orbit(path)? else { return Ok(None) };
+        let found = flip_ahead(path, &mut half, direction, evaluations);
         if let Some(found) = found
             && nearest.as_ref().is_none_or(|nearest| off(&found) < off(nearest))
         {
@@ -101,13 +117,10 @@ fn nearest_flip(path: &mut OrbitPath) -> Result<Option<Flip>, OrbitError> {
     Ok(nearest)
 }
 
-/// The equations of the orbit of half the period, and the mean of the two halves of the present one, at which
-/// the path is; `None` where its periods cannot be halved.
-fn half_orbit(
-    path: &mut OrbitPath,
-    present: &[f64],
-) -> Result<Option<(ShootingProblem, Vec<f64>)>, OrbitError> {
-    let problem = &mut path.problem;
+/// The orbit of half the period beside the present one; `None` where its periods cannot be halved.
+fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
+    let least = PART * path.settings.max_step_hz;
+    let (present, problem) = (&path.follower.current().point, &mut path.problem);
     let (multiple, segments) = (problem.period_multiple(), problem.segments());
     if !multiple.is_multiple_of(2) {
         return Ok(None);
@@ -120,46 +133,125 @@ fn half_orbit(
         nodes = nodes_from(problem.integrator(), begin, frequency_hz, multiple, 2)?;
     }
     let later = nodes.split_off(nodes.len() / 2);
+    let (scale, length) = (problem.scale().clone(), problem.hertz_per_norm());
+    let squares: f64 = nodes.iter().zip(&later).map(|(a, b)| scale.distance(a, b).powi(2)).sum();
+    let distance = length * (squares / nodes.len() as f64).sqrt();
     for (node, later) in nodes.iter_mut().zip(&later) {
         node.iter_mut().zip(later).for_each(|(a, b)| *a = 0.5 * (*a + b));
     }
     let integrator = ExactIntegrator::new(problem.system().clone(), problem.integrator().settings())?;
-    let (scale, length) = (problem.scale().clone(), problem.hertz_per_norm());
     let cut = (multiple / 2, nodes.len());
     let mut half = ShootingProblem::new(integrator, cut, scale, length).beginning_at(problem.phase());
     half.watch_stability();
     half.vary(problem.varied())?;
-    let start = half.point(&nodes, present[present.len() - 1]);
-    Ok(Some((half, start)))
+    let mean = half.point(&nodes, present[present.len() - 1]);
+    let reach = distance.max(least);
+    Ok(reach.is_finite().then_some(Half { problem: half, mean, reach }))
 }
 
-/// The first flip on the path from `start`, in steps of at most this length.
+/// The first flip on the path of half the period in this direction, if it is within reach.
 fn flip_ahead(
     path: &OrbitPath,
-    problem: &mut ShootingProblem,
-    start: &[f64],
-    (direction, longest): (StartDirection<'_>, f64),
+    Half { problem, mean, reach }: &mut Half,
+    direction: StartDirection<'_>,
+    evaluations: &mut u64,
 ) -> Option<Flip> {
-    let settings = OrbitSettings { max_step_hz: longest, ..path.settings };
+    let settings = OrbitSettings { max_step_hz: 0.25 * *reach, ..path.settings };
     let settings = path_settings(&settings, problem.system(), problem.hertz_per_norm());
     let range = ParameterRange::new(path.range_hz.0, path.range_hz.1).ok()?;
-    let mut follower = Follower::start(problem, start, direction, range, settings).ok()?;
-    for _ in 0..MOST_STEPS {
-        let StepOutcome::Accepted = follower.step(problem) else { return None };
+    let mut follower = Follower::start(problem, mean, direction, range, settings).ok()?;
+    for _ in 0..STEPS_TO_FLIP {
+        if distance(problem, &follower.current().point, mean) > *reach {
+            break;
+        }
+        let before = follower.counters().evaluations;
+        let outcome = follower.step(problem);
+        *evaluations += follower.counters().evaluations - before;
+        let StepOutcome::Accepted = outcome else { break };
         let point = follower.current();
         if point.events.zeros & 1 == 0 {
             continue;
         }
-        let place = located::Place {
-            point,
-            bend: 0.0,
-            at_corners: follower.settings().min_step,
-            contacts: Vec::new(),
-            computed: None,
-            before: None,
-        };
-        let uncertainty = located::describe(problem, place)?.uncertainty;
-        return Some(Flip { nodes: problem.nodes(&point.point), point: point.clone(), uncertainty });
+        let is_near = distance(problem, &point.point, mean) <= *reach;
+        let is_smooth = !point.events.corner && follower.passed_corner().is_none();
+        let located = located::describe(problem, located::Place::alone(point, None))?;
+        let is_flip = is_near && is_smooth && located.status == EventStatus::Located;
+        return is_flip.then(|| Flip {
+            nodes: problem.nodes(&point.point),
+            point: point.clone(),
+            uncertainty: located.uncertainty,
+        });
     }
     None
+}
+
+/// Distance of two points of a path in its norm.
+fn distance(problem: &ShootingProblem, a: &[f64], b: &[f64]) -> f64 {
+    let squares = a.iter().zip(b).zip(problem.weights()).map(|((a, b), w)| w * (a - b) * (a - b));
+    squares.sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use hammerbeam_motion::{Law, System, law::LinearStop};
+
+    use super::row_of_flip;
+    use crate::{
+        BranchWalk, Crossing, OrbitSettings, Response, Segments, Side, find_start,
+        test_oscillator::oscillator,
+    };
+
+    const RANGE: (f64, f64) = (0.12, 0.5);
+
+    /// `x'' + 0.1 x' + x = cos(2 pi f t)`, with 19 N/m more beyond `x = 0`.
+    fn bilinear() -> (System, Response) {
+        oscillator(0.1, 1.0, Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap()))
+    }
+
+    /// The first flip above 0.3 Hz.
+    fn flip((system, response): &(System, Response), settings: &OrbitSettings) -> Crossing {
+        let start = find_start(system, response, 0.3, 1, settings).unwrap();
+        let mut walk = BranchWalk::new(system, response, &start, Side::Up, RANGE, settings).unwrap();
+        loop {
+            assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
+            if let Some(flip) = walk.flip_here().unwrap() {
+                return flip;
+            }
+        }
+    }
+
+    /// From its first solutions, which alternate by a thousandth to a tenth, in any number of segments.
+    #[test]
+    fn the_flip_is_found_from_the_branch_that_leaves_there() {
+        for segments in [Segments::Automatic, Segments::Fixed(3)] {
+            let settings = OrbitSettings { max_step_hz: 0.001, segments, ..OrbitSettings::default() };
+            let subject = bilinear();
+            let flip = flip(&subject, &settings);
+            let (system, response) = &subject;
+            let mut walk =
+                BranchWalk::from_crossing(system, response, &flip, Side::Up, RANGE, &settings).unwrap();
+            for _ in 0..14 {
+                assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
+                let (mut evaluations, at) = (0, flip.orbit.frequency_hz);
+                let row = row_of_flip(&mut walk.path, &mut evaluations).unwrap().unwrap();
+                assert!(evaluations > 2 && row.events.branch_point);
+                assert!((row.solution.frequency_hz - at).abs() < 1e-12, "{}", row.solution.frequency_hz);
+                assert_eq!(row.solution.period_multiple, 2);
+            }
+        }
+    }
+
+    /// An orbit run through twice alternates nowhere; where it flips far away there is no end.
+    #[test]
+    fn a_flip_far_away_is_none() {
+        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let (system, response) = bilinear();
+        let orbit = find_start(&system, &response, 0.3, 1, &settings).unwrap();
+        let twice = Crossing { orbit, direction: Vec::new(), factor: 2 };
+        let twice = twice.root(&system, &response, &settings).unwrap();
+        let mut walk = BranchWalk::new(&system, &response, &twice, Side::Up, RANGE, &settings).unwrap();
+        assert_eq!(row_of_flip(&mut walk.path, &mut 0).unwrap(), None);
+    }
 }

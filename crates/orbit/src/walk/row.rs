@@ -77,14 +77,8 @@ impl RowRecord {
         evaluate(&mut path.problem, &corner.beside)?;
         let correction_norm = correction_due(path, &current.tangent);
         let at_corner = ContinuationPoint { point: corner.beside, correction_norm, ..current.clone() };
-        let place = located::Place {
-            point: &at_corner,
-            bend: 0.0,
-            at_corners: 0.0,
-            contacts,
-            computed: Some(corner.uncertainty),
-            before: None,
-        };
+        let place =
+            located::Place { contacts, ..located::Place::alone(&at_corner, Some(corner.uncertainty)) };
         let located = located::describe(&mut path.problem, place);
         let first = BranchRow { located, ..row_at(path, &at_corner)? };
         evaluate(&mut path.problem, &current.point)?;

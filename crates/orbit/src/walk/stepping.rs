@@ -5,7 +5,7 @@ use hammerbeam_path::{ContinuationPoint, PathStop, StepOutcome};
 use super::{
     BranchWalk, Walked,
     end::{end_of_path, stop_reason},
-    half_orbit::at_flip,
+    half_orbit::end_in_flip,
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
     shorter_period::meets_shorter_period,
@@ -28,7 +28,8 @@ const MOST_FLIGHTS: u32 = 3;
 
 impl BranchWalk {
     /// Goes to the next solution and appends its row, after those that belong between it and the row before;
-    /// or says why the walk has ended.
+    /// or says why the walk has ended, then with the rows that still belong to it; it is not to be called
+    /// again then.
     ///
     /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good
     /// to 1e-3.
@@ -43,12 +44,12 @@ impl BranchWalk {
         }
         let departure = match self.depart() {
             Ok(departure) => departure,
-            Err(end) => return Ok(Some(at_flip(&mut self.path, end, rows))),
+            Err(end) => return end_in_flip(&mut self.path, &mut self.record, end, rows).map(Some),
         };
         let mut from = self.path.current().clone();
         if let Some(reason) = self.advance(&mut from)? {
             let end = end_of_path(&mut self.path, reason);
-            return Ok(Some(at_flip(&mut self.path, end, rows)));
+            return end_in_flip(&mut self.path, &mut self.record, end, rows).map(Some);
         }
         let Self { path, record, .. } = self;
         if let Some((last, splits)) = comes_to_splitting(path, record, &departure, &from)? {
