@@ -82,8 +82,9 @@ fn a_folder_is_locked_until_the_tables_are_written() {
 fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, Child)> {
     let workshop = Workshop::with(TWO_MASSES);
     let mut child = workshop.spawn(command);
+    let number = child.id().to_string();
     let signal = |signal: &str| {
-        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        assert!(Command::new("kill").args([signal, &number]).status().unwrap().success());
     };
     // A command that is stopped may hold the database for itself; it is not waited for.
     let stored = || -> rusqlite::Result<bool> {
