@@ -26,9 +26,9 @@ use crate::{
     solve::{evaluate, nodes_from},
 };
 
-/// The flip lies no farther from the mean of the two halves than they from each other, since it goes with the
-/// square of that; or within this part of a longest step of the walk, if that is more: of halves that rounding
-/// alone tells apart the distance says little.
+/// The flip lies no farther from the mean of the two halves than they from each other, since it goes with
+/// the square of that; or within this part of a longest step of the walk, if that is more: of halves that
+/// rounding alone tells apart the distance says little.
 const PART: f64 = 2e-3;
 /// Steps to each side, at most.
 const STEPS_TO_FLIP: usize = 16;
@@ -49,9 +49,9 @@ struct Half {
     reach: f64,
 }
 
-/// A walk that ends at the flip of a branch of shorter period, without having located it as a branch point of
-/// its own, ends in the row of that flip: the end with its place. Where no flip is found nearby, or its motion
-/// cannot be computed, it ends as it did.
+/// A walk that ends at the flip of a branch of shorter period, without having located it as a branch point
+/// of its own, ends in the row of that flip: the end with its place. Where no flip is found nearby, or its
+/// motion cannot be computed, it ends as it did.
 pub(super) fn end_in_flip(
     path: &mut OrbitPath,
     record: &mut RowRecord,
