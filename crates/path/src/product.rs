@@ -8,8 +8,9 @@ pub(crate) fn norm(weights: &[f64], a: &[f64]) -> f64 {
     product(weights, a, a).sqrt()
 }
 
-/// `‖a − b‖`.
-pub(crate) fn distance(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
+/// `‖a − b‖`, the distance of two points with the weights of their problem.
+#[must_use]
+pub fn distance(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
     weights.iter().zip(a).zip(b).map(|((w, x), y)| w * (x - y) * (x - y)).sum::<f64>().sqrt()
 }
 

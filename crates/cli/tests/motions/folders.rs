@@ -91,6 +91,9 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
         let database = workshop.path("out/results.db");
         let connection = Connection::open_with_flags(database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
         connection.busy_timeout(Duration::ZERO)?;
+        if !connection.table_exists(None::<&str>, "request")? {
+            return Ok(false);
+        }
         connection.query_row("SELECT done = pieces FROM request ORDER BY id LIMIT 1", [], |row| row.get(0))
     };
     loop {
@@ -111,17 +114,15 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
     None
 }
 
-/// False where the database is not there, not begun or in use.
+/// False where the database is not there, still without a request, or in use.
 #[cfg(unix)]
 fn panic_unless_not_yet(error: &rusqlite::Error) -> bool {
     let not_yet = match error {
         rusqlite::Error::QueryReturnedNoRows => true,
-        rusqlite::Error::SqliteFailure(cause, message) => {
-            let is_begun = !message.as_ref().is_some_and(|message| message.contains("no such table"));
-            let codes = [ErrorCode::DatabaseBusy, ErrorCode::DatabaseLocked, ErrorCode::CannotOpen];
-            !is_begun || codes.contains(&cause.code)
-        }
-        _ => false,
+        error => matches!(
+            error.sqlite_error_code(),
+            Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked | ErrorCode::CannotOpen)
+        ),
     };
     assert!(not_yet, "{error}");
     false

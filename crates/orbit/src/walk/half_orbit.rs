@@ -13,6 +13,7 @@
 use hammerbeam_motion::exact::ExactIntegrator;
 use hammerbeam_path::{
     ContinuationPoint, Follower, ParameterRange, PathEvents, PathProblem, StartDirection, StepOutcome,
+    distance,
 };
 
 use super::{
@@ -104,9 +105,9 @@ fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Bra
 fn nearest_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Flip>, OrbitError> {
     let here = path.parameter();
     let off = |flip: &Flip| (flip.point.parameter() - here).abs();
+    let Some(mut half) = half_orbit(path)? else { return Ok(None) };
     let mut nearest: Option<Flip> = None;
     for direction in [StartDirection::Increasing, StartDirection::Decreasing] {
-        let Some(mut half) = half_orbit(path)? else { return Ok(None) };
         let found = flip_ahead(path, &mut half, direction, evaluations);
         if let Some(found) = found
             && nearest.as_ref().is_none_or(|nearest| off(&found) < off(nearest))
@@ -135,7 +136,7 @@ fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
     let later = nodes.split_off(nodes.len() / 2);
     let (scale, length) = (problem.scale().clone(), problem.hertz_per_norm());
     let squares: f64 = nodes.iter().zip(&later).map(|(a, b)| scale.distance(a, b).powi(2)).sum();
-    let distance = length * (squares / nodes.len() as f64).sqrt();
+    let apart = length * (squares / nodes.len() as f64).sqrt();
     for (node, later) in nodes.iter_mut().zip(&later) {
         node.iter_mut().zip(later).for_each(|(a, b)| *a = 0.5 * (*a + b));
     }
@@ -145,7 +146,7 @@ fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
     half.watch_stability();
     half.vary(problem.varied())?;
     let mean = half.point(&nodes, present[present.len() - 1]);
-    let reach = distance.max(least);
+    let reach = apart.max(least);
     Ok(reach.is_finite().then_some(Half { problem: half, mean, reach }))
 }
 
@@ -161,7 +162,7 @@ fn flip_ahead(
     let range = ParameterRange::new(path.range_hz.0, path.range_hz.1).ok()?;
     let mut follower = Follower::start(problem, mean, direction, range, settings).ok()?;
     for _ in 0..STEPS_TO_FLIP {
-        if distance(problem, &follower.current().point, mean) > *reach {
+        if distance(problem.weights(), &follower.current().point, mean) > *reach {
             break;
         }
         let before = follower.counters().evaluations;
@@ -172,7 +173,7 @@ fn flip_ahead(
         if point.events.zeros & 1 == 0 {
             continue;
         }
-        let is_near = distance(problem, &point.point, mean) <= *reach;
+        let is_near = distance(problem.weights(), &point.point, mean) <= *reach;
         let is_smooth = !point.events.corner && follower.passed_corner().is_none();
         let located = located::describe(problem, located::Place::alone(point, None))?;
         let is_flip = is_near && is_smooth && located.status == EventStatus::Located;
@@ -183,12 +184,6 @@ fn flip_ahead(
         });
     }
     None
-}
-
-/// Distance of two points of a path in its norm.
-fn distance(problem: &ShootingProblem, a: &[f64], b: &[f64]) -> f64 {
-    let squares = a.iter().zip(b).zip(problem.weights()).map(|((a, b), w)| w * (a - b) * (a - b));
-    squares.sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The rows of a walk.
 
-use hammerbeam_path::{ContinuationPoint, Judge, PathProblem};
+use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance};
 
 use super::{
     last_rows::{LastRows, RowPlace},
@@ -140,8 +140,7 @@ fn frequency_bend(path: &OrbitPath) -> f64 {
 fn last_chord(path: &OrbitPath) -> f64 {
     let history = &path.follower.state().history;
     let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
-    let squares = base.point.iter().zip(&before.point).zip(path.problem.weights());
-    squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt()
+    distance(path.problem.weights(), &base.point, &before.point)
 }
 
 /// How near contacts came to a change at the point before the present one.
