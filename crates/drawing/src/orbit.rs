@@ -67,16 +67,17 @@ pub fn draw_stored(
                 let shown = (low_pass_hz, drawn.frequency_unit());
                 add(drawn, &name, &diagrams((file, model), orbit, shown)?);
             }
-            None => drawn.refuse(
-                &name,
-                format!(
-                    "no stored branch of {} crosses {frequency_hz} Hz",
-                    counted(period_multiple.into(), "excitation period")
-                ),
-            ),
+            None => drawn.refuse(&name, no_branch_crosses(period_multiple, frequency_hz)),
         }
     }
     Ok(())
+}
+
+/// What is said where an orbit is asked for that no stored branch has.
+#[must_use]
+pub fn no_branch_crosses(period_multiple: u32, frequency_hz: f64) -> String {
+    let periods = counted(period_multiple.into(), "excitation period");
+    format!("no stored branch of {periods} crosses {frequency_hz} Hz")
 }
 
 fn add(drawn: &mut Drawn<'_>, name: &str, (diagram, holes): &(OrbitDiagram, Vec<HoleDiagram>)) {

@@ -21,7 +21,7 @@
 //! that direction.
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem};
+use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm};
 
 use crate::shooting::ShootingProblem;
 
@@ -226,7 +226,7 @@ fn response_to_closure(problem: &mut ShootingProblem, point: &ContinuationPoint)
         let mut vector: Vec<f64> = (0..weights.len()).map(|i| sign.powi(i as i32)).collect();
         vector[last] = 0.0;
         problem.solve(&mut vector);
-        vector.iter().zip(&weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt()
+        norm(&weights, &vector)
     };
     Some(response(1.0).max(response(-1.0)))
 }
@@ -312,7 +312,7 @@ fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) 
     for _ in 0..3 {
         vector[last] = 0.0;
         problem.solve(&mut vector);
-        let length = vector.iter().zip(&weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt();
+        let length = norm(&weights, &vector);
         vector.iter_mut().for_each(|v| *v /= length);
     }
     let first = vector[..problem.node_size()].iter().zip(problem.scale().values());

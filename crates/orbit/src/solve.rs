@@ -4,7 +4,7 @@ use hammerbeam_motion::{
     Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
-use hammerbeam_path::PathProblem;
+use hammerbeam_path::{PathProblem, norm};
 
 use crate::{
     OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
@@ -207,8 +207,7 @@ pub(crate) fn newton_update(
     problem.factorise(row).map_err(|_| failed)?;
     let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
     problem.solve(&mut update);
-    let squares = update.iter().zip(problem.weights()).map(|(u, w)| w * u * u);
-    let size = squares.sum::<f64>().sqrt();
+    let size = norm(problem.weights(), &update);
     Ok((update, size))
 }
 

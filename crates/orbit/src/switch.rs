@@ -12,7 +12,7 @@
 //! grazing lies between the crossing and the orbit found.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
-use hammerbeam_path::{Follower, ParameterRange, StartDirection};
+use hammerbeam_path::{Follower, Judge, ParameterRange, PathProblem, StartDirection, norm};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -143,14 +143,10 @@ fn leave(
     if evaluate(&mut problem, &base).is_err() {
         return Ok(None);
     }
-    let signature = hammerbeam_path::Judge::signature(&problem);
+    let signature = problem.signature();
     let direction = problem.point(&slopes, crossing.direction[crossing.direction.len() - 1]);
-    let norm = |vector: &[f64]| {
-        let squares = vector.iter().zip(hammerbeam_path::PathProblem::weights(&problem));
-        squares.map(|(v, w)| w * v * v).sum::<f64>().sqrt()
-    };
     let reach = amplitude * length;
-    let unit = 1.0 / norm(&direction);
+    let unit = 1.0 / norm(problem.weights(), &direction);
     let start: Vec<f64> = base.iter().zip(&direction).map(|(z, d)| z + reach * unit * d).collect();
     let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
     let range = ParameterRange::new(range_hz.0, range_hz.1)?;
@@ -164,7 +160,7 @@ fn leave(
     let current = &follower.current().point;
     let last = current.len() - 1;
     let squares = (0..last).map(|i| (current[i] - start[i]).powi(2));
-    let weight = hammerbeam_path::PathProblem::weights(&problem)[0];
+    let weight = problem.weights()[0];
     let away_in_states = (weight * squares.sum::<f64>()).sqrt();
     let away_in_frequency = (current[last] - start[last]).abs() / orbit.frequency_hz;
     if away_in_states > reach.abs() || away_in_frequency > amplitude.abs() {

@@ -4,7 +4,9 @@ pub(crate) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
     weights.iter().zip(a).zip(b).map(|((w, x), y)| w * x * y).sum()
 }
 
-pub(crate) fn norm(weights: &[f64], a: &[f64]) -> f64 {
+/// `‖a‖`, the norm of a vector with the weights of its problem.
+#[must_use]
+pub fn norm(weights: &[f64], a: &[f64]) -> f64 {
     product(weights, a, a).sqrt()
 }
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use hammerbeam_drawing::{
     DrawSettings, DrawnFiles, FigureFormat, FigureKind, FigureSelection, draw, draw_into, ensure_alike,
-    ensure_details,
+    ensure_details, orbit::no_branch_crosses,
 };
 use hammerbeam_figure::plain_number;
-use hammerbeam_jobs::{PreparedStudy, StoredBranches, counted, pool::threads};
+use hammerbeam_jobs::{PreparedStudy, StoredBranches, pool::threads};
 use hammerbeam_results::{Store, StoreError};
 use hammerbeam_study::{StudyFile, file::DrawnOrbit};
 use serde_json::json;
@@ -116,10 +116,8 @@ fn refuse_unknown(folder: &Path, file: &StudyFile, orbits: &[DrawnOrbit]) -> Res
                 0 => "there is no such branch".to_owned(),
                 _ => format!("they lie between {} and {} Hz", plain_number(low), plain_number(high)),
             };
-            return Err(Failure::BadInput(format!(
-                "--orbit: no stored branch of {} crosses {frequency_hz} Hz; {there}",
-                counted(period_multiple.into(), "excitation period")
-            )));
+            let missing = no_branch_crosses(period_multiple, frequency_hz);
+            return Err(Failure::BadInput(format!("--orbit: {missing}; {there}")));
         }
     }
     Ok(())

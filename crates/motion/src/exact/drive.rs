@@ -7,7 +7,7 @@
 //! the load is *secular*: the solution that starts from rest with the stretch takes its place
 //! (`secular.rs`); it stays finite.
 
-use std::f64::consts::TAU;
+use std::{cell::Cell, f64::consts::TAU};
 
 use faer::c64;
 
@@ -34,6 +34,8 @@ pub(super) struct Order {
     state_by_frequency: Vec<c64>,
     /// Amplitude of each output, and its derivative by the frequency.
     pub(super) outputs: Vec<(c64, c64)>,
+    /// The angle asked for last, with its rotation: at one time all elements ask for it.
+    last_rotation: Cell<(f64, c64)>,
 }
 
 /// The particular solution over a stretch; times are counted from the start of the stretch.
@@ -200,7 +202,8 @@ impl Drive {
             (read(&state) + carried, read(&state_by_frequency) + slope)
         };
         let outputs = outputs.iter().map(amplitude).collect();
-        self.orders.push(Order { order, state, state_by_frequency, outputs });
+        let last_rotation = Cell::new((0.0, c64::new(1.0, 0.0)));
+        self.orders.push(Order { order, state, state_by_frequency, outputs, last_rotation });
     }
 
     /// Circular excitation frequency [rad/s].
@@ -211,8 +214,14 @@ impl Drive {
     /// `exp(i w t)` of an order.
     #[inline]
     pub(super) fn rotation(&self, order: &Order, time: f64) -> c64 {
-        let (sin, cos) = sine_and_cosine(order.order * (self.start_angle + self.circular_frequency * time));
-        c64::new(cos, sin)
+        let angle = order.order * (self.start_angle + self.circular_frequency * time);
+        let (known, mut rotation) = order.last_rotation.get();
+        if angle != known {
+            let (sin, cos) = sine_and_cosine(angle);
+            rotation = c64::new(cos, sin);
+            order.last_rotation.set((angle, rotation));
+        }
+        rotation
     }
 
     /// Adds the particular state at `time`, times `factor`, to `state`.
@@ -296,7 +305,13 @@ impl Drive {
             }
             let read = |o: &Output| o.row.iter().zip(&state).map(|(r, v)| *v * *r).sum::<c64>();
             let outputs = outputs.iter().map(|o| (read(o), c64::new(0.0, 0.0))).collect();
-            changed.orders.push(Order { order: order.order, state_by_frequency: Vec::new(), state, outputs });
+            changed.orders.push(Order {
+                order: order.order,
+                state_by_frequency: Vec::new(),
+                state,
+                outputs,
+                last_rotation: order.last_rotation.clone(),
+            });
         }
         for load in &self.secular {
             for pair in change.pairs().iter().filter(|pair| pair.from == load.block) {

@@ -64,6 +64,8 @@ pub(crate) struct ForceStep {
     pub(super) lu: SmallLu,
     pub(super) fixed_lu: FixedLu<NODES>,
     pub(super) work: Vec<f64>,
+    /// Of each column of the sensitivities what [`ForceStep::sensitivity_tails`] adds up.
+    column_sums: Vec<f64>,
     /// What a parameter that is not in the forces has in the solved step.
     pub(super) driven: Driven,
 }
@@ -300,16 +302,18 @@ impl ForceStep {
     /// Tail and largest value of each sensitivity of the force of the a-th active element, once solved for,
     /// and the largest velocity before the step.
     pub fn sensitivity_tails(
-        &self,
+        &mut self,
         a: usize,
         sensitivity: &Sensitivity,
-    ) -> impl Iterator<Item = ColumnTail> + use<> {
+    ) -> impl Iterator<Item = ColumnTail> {
         let columns = sensitivity.columns();
         let coefficients = &self.grading().rule().coefficients;
         let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
         let degrees = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1];
         // Largest velocities, largest forces, and a coefficient of each degree.
-        let mut all = vec![0.0; (2 + degrees.len()) * columns];
+        let all = &mut self.column_sums;
+        all.clear();
+        all.resize((2 + degrees.len()) * columns, 0.0);
         let (velocities, forces) = all.split_at_mut(columns);
         let (largest, sums) = forces.split_at_mut(columns);
         sensitivity.raise_velocity_norms(velocities);

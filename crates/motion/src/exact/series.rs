@@ -156,11 +156,6 @@ impl Series {
         factors
     }
 
-    /// Terms that each block needs: slow ones need few.
-    fn terms_of_blocks(&self, length: f64) -> Vec<usize> {
-        self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
-    }
-
     /// Prepares a step within the reach: its convolution `W`, and `W'` if `velocity` says so. The rest
     /// follows with [`StepWeights::set_propagators`] and [`Series::complete`].
     pub fn prepare(
@@ -229,15 +224,16 @@ impl Series {
         let terms = Self::terms(z);
         step.resize(active.len(), size, velocity);
         step.complete = true;
-        let needed = self.terms_of_blocks(length);
+        step.terms.clear();
+        step.terms.extend(self.rates.iter().map(|rate| Self::terms(length * rate)));
         let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
         for (a, &e) in active.iter().enumerate() {
             let (rows, columns) = &self.entries[e];
-            sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
-            sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
+            sum_powers(rows, &powers, &rule.powers, &step.terms, &mut step.rows[a]);
+            sum_powers(columns, &factors, &rule.at_end, &step.terms, &mut step.to_state[a]);
         }
         if velocity {
-            self.complete_velocities(active, grading, (&powers, &needed), step);
+            self.complete_velocities(active, grading, &powers, step);
         }
     }
 
@@ -247,11 +243,11 @@ impl Series {
         &self,
         active: &[usize],
         grading: Grading,
-        (powers, needed): (&[f64; TERMS], &[usize]),
+        powers: &[f64; TERMS],
         step: &mut StepWeights,
     ) {
         for (rows, &e) in step.velocity_rows.iter_mut().zip(active) {
-            sum_powers(&self.velocity_entries[e], powers, &grading.rule().powers, needed, rows);
+            sum_powers(&self.velocity_entries[e], powers, &grading.rule().powers, &step.terms, rows);
             rows.iter_mut().for_each(|entry| *entry *= self.rate);
         }
     }

@@ -385,7 +385,8 @@ impl ExactIntegrator {
         let mut further = [Errors::default(); 2];
         let elements = 0..self.step.active.len();
         let rounding = ROUNDING * elements.map(|a| self.relative_rounding(run, a)).fold(0.0, f64::max);
-        for (a, &element) in self.step.active.iter().enumerate() {
+        for a in 0..self.step.active.len() {
+            let element = self.step.active[a];
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).enumerate() {

@@ -34,6 +34,8 @@ pub(crate) struct StepWeights {
     /// `X'` of each active element and `W'`; empty where no law depends on the velocity.
     pub velocity_rows: Vec<NodeRows>,
     pub velocity_convolution: Vec<NodeMatrix>,
+    /// How many terms of their series the blocks need: slow ones few.
+    pub terms: Vec<usize>,
     /// Whether more than the convolution has been made.
     pub complete: bool,
 }

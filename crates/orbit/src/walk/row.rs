@@ -1,6 +1,6 @@
 //! The rows of a walk.
 
-use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance};
+use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance, norm};
 
 use super::{
     last_rows::{LastRows, RowPlace},
@@ -116,7 +116,7 @@ fn correction_due(path: &mut OrbitPath, direction: &[f64]) -> f64 {
     }
     let mut correction: Vec<f64> = problem.residual().iter().copied().chain([0.0]).collect();
     problem.solve(&mut correction);
-    correction.iter().zip(&weights).map(|(c, w)| w * c * c).sum::<f64>().sqrt()
+    norm(&weights, &correction)
 }
 
 /// Whether the pair that seems to cross the circle at a point becomes real there instead.
