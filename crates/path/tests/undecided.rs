@@ -113,3 +113,14 @@ fn a_zero_that_is_crossed_is_an_event_however_flat_it_is() {
         assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 1e-3), "{found:?}");
     }
 }
+
+/// Of a function that is known badly a point may fall beside its zero, where its sign is not known.
+#[test]
+fn a_zero_is_found_though_a_point_beside_it_is_undecided() {
+    let coarse: Part = |x, _| 1e-9 * (x - 0.3);
+    for step in (0..60).map(|k| 0.03 + 0.004 * f64::from(k)) {
+        let found = zeros(&[coarse], step);
+        assert_eq!(found.len(), 2, "step {step}: {found:?}");
+        assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 0.011), "step {step}: {found:?}");
+    }
+}

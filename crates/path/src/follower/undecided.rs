@@ -8,7 +8,9 @@
 //! With the numbers u of undecided `g_i` at the last point and at the trial, `j = min(u_0, u_1)` are left out
 //! at both. At a point at which there are more than before the sign is that of the point before, and the next
 //! one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and
-//! nothing has happened. Nor has anything where it leaves zero after a stretch of it.
+//! nothing has happened. Nor has anything where it leaves zero after a stretch of it. On the other side there
+//! was a zero, perhaps before the point whose sign was taken over: then it is given just behind that point,
+//! with the way back to the point before as what it is known to (`zero.rs`).
 
 use super::attempt::Attempt;
 use crate::{error::StepDoubt, problem::TestValue};

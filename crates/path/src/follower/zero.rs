@@ -123,13 +123,18 @@ struct Ends {
     /// The larger of them, in magnitude.
     size: f64,
     length: f64,
+    /// Where the sign at the last point was taken over from the point before (`undecided.rs`): how far behind
+    /// that lies. The zero may be there already.
+    taken_over: Option<f64>,
 }
 
 impl Ends {
     fn of(attempt: &Attempt<'_>, index: usize) -> Self {
         let (before, after) = (attempt.tests.values[index], attempt.trial.tests[index]);
         let sign = if before.count % 2 == 0 { 1.0 } else { -1.0 };
+        let was_undecided = before.undecided > before.left_out && attempt.state.history.used >= 2;
         Self {
+            taken_over: was_undecided.then(|| -attempt.progress_of(&attempt.state.history.nodes[1])),
             low: sign * before.value.abs().max(f64::MIN_POSITIVE),
             high: -sign * after.value.abs(),
             size: before.value.abs().max(after.value.abs()),
@@ -148,7 +153,7 @@ fn arrive_at_zero(
     let (ends, after) = (Ends::of(attempt, index), attempt.trial.tests[index]);
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
-    let (mut value, mut counted) = (ends.low, None);
+    let (mut value, mut counted, mut uncertainty) = (ends.low, None, None);
     let left_out = left_out(&attempt.trial.tests);
     let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
         problem.tests(&left_out, &mut probe.tests);
@@ -161,6 +166,11 @@ fn arrive_at_zero(
         value = locator.probe_toward_zero(attempt, &probing, ask)?;
         bracket.narrow(place, value);
         if bracket.width() < JUMP_WIDTH * ends.length && value.abs() > JUMP_SIZE * ends.size {
+            if let Some(behind) = ends.taken_over.filter(|_| value * ends.high > 0.0) {
+                // It is behind the last point, which is as near to it as the step can end.
+                uncertainty = Some(behind + place);
+                break;
+            }
             attempt.return_to_trial()?;
             return Ok(None);
         }
@@ -171,7 +181,7 @@ fn arrive_at_zero(
         let outside = outside.filter(|outside| outside.least == outside.most);
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
-    if value.abs() > JUMP_SIZE * ends.size {
+    if uncertainty.is_none() && value.abs() > JUMP_SIZE * ends.size {
         attempt.return_to_trial()?;
         return Ok(None);
     }
@@ -183,7 +193,7 @@ fn arrive_at_zero(
     attempt.trial.tests[index] = after;
     let zero = bracket.newest();
     let counted = counted.map(|(place, count)| Counted { count, before: place < zero });
-    let uncertainty = bracket.uncertainty(value);
+    let uncertainty = uncertainty.unwrap_or_else(|| bracket.uncertainty(value));
     let mut arrival = Arrival { uncertainty, counted, ..Arrival::default() };
     arrival.events.zeros = 1 << index;
     Ok(Some(arrival))
