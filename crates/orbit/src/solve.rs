@@ -4,7 +4,7 @@ use hammerbeam_motion::{
     Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
-use hammerbeam_path::{PathProblem, norm};
+use hammerbeam_path::{PathProblem, SingularJacobian, norm};
 
 use crate::{
     OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
@@ -204,7 +204,15 @@ pub(crate) fn newton_update(
     evaluate(problem, point)?;
     let frequency_hz = problem.frequency(point);
     let failed = OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: 0 };
-    problem.factorise(row).map_err(|_| failed)?;
+    update_here(problem, row).map_err(|_| failed)
+}
+
+/// The same at the point at which the problem was evaluated last.
+pub(crate) fn update_here(
+    problem: &mut ShootingProblem,
+    row: &[f64],
+) -> Result<(Vec<f64>, f64), SingularJacobian> {
+    problem.factorise(row)?;
     let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
     problem.solve(&mut update);
     let size = norm(problem.weights(), &update);

@@ -1,6 +1,6 @@
 //! The rows of a walk.
 
-use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance, norm};
+use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance};
 
 use super::{
     last_rows::{LastRows, RowPlace},
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     BranchRow, Events, OrbitError, located,
-    solve::{evaluate, solution},
+    solve::{evaluate, solution, update_here},
     stability,
 };
 
@@ -109,14 +109,8 @@ pub(super) fn row_at(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
 /// Norm of the correction normal to a direction that is due where the problem was evaluated last.
 fn correction_due(path: &mut OrbitPath, direction: &[f64]) -> f64 {
     let problem = &mut path.problem;
-    let weights = problem.weights().to_vec();
-    let border: Vec<f64> = direction.iter().zip(&weights).map(|(t, w)| t * w).collect();
-    if problem.factorise(&border).is_err() {
-        return f64::INFINITY;
-    }
-    let mut correction: Vec<f64> = problem.residual().iter().copied().chain([0.0]).collect();
-    problem.solve(&mut correction);
-    norm(&weights, &correction)
+    let border: Vec<f64> = direction.iter().zip(problem.weights()).map(|(t, w)| t * w).collect();
+    update_here(problem, &border).map_or(f64::INFINITY, |(_, size)| size)
 }
 
 /// Whether the pair that seems to cross the circle at a point becomes real there instead.

@@ -153,7 +153,7 @@ fn arrive_at_zero(
     let (ends, after) = (Ends::of(attempt, index), attempt.trial.tests[index]);
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
-    let (mut value, mut counted, mut uncertainty) = (ends.low, None, None);
+    let (mut value, mut counted) = (ends.low, None);
     let left_out = left_out(&attempt.trial.tests);
     let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
         problem.tests(&left_out, &mut probe.tests);
@@ -166,13 +166,7 @@ fn arrive_at_zero(
         value = locator.probe_toward_zero(attempt, &probing, ask)?;
         bracket.narrow(place, value);
         if bracket.width() < JUMP_WIDTH * ends.length && value.abs() > JUMP_SIZE * ends.size {
-            if let Some(behind) = ends.taken_over.filter(|_| value * ends.high > 0.0) {
-                // It is behind the last point, which is as near to it as the step can end.
-                uncertainty = Some(behind + place);
-                break;
-            }
-            attempt.return_to_trial()?;
-            return Ok(None);
+            break;
         }
         if value.abs() <= SHARP * ends.size || bracket.uncertainty(value) <= floor {
             break;
@@ -181,9 +175,14 @@ fn arrive_at_zero(
         let outside = outside.filter(|outside| outside.least == outside.most);
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
-    if uncertainty.is_none() && value.abs() > JUMP_SIZE * ends.size {
-        attempt.return_to_trial()?;
-        return Ok(None);
+    let mut uncertainty = bracket.uncertainty(value);
+    if value.abs() > JUMP_SIZE * ends.size {
+        let Some(behind) = ends.taken_over.filter(|_| value * ends.high > 0.0) else {
+            attempt.return_to_trial()?;
+            return Ok(None);
+        };
+        // The zero is behind the last point, which is as near to it as the step can end.
+        uncertainty = behind + bracket.newest();
     }
     if !attempt.frame.range.contains(locator.probe.parameter()) {
         return Err(StepDoubt::NotLocated);
@@ -193,7 +192,6 @@ fn arrive_at_zero(
     attempt.trial.tests[index] = after;
     let zero = bracket.newest();
     let counted = counted.map(|(place, count)| Counted { count, before: place < zero });
-    let uncertainty = uncertainty.unwrap_or_else(|| bracket.uncertainty(value));
     let mut arrival = Arrival { uncertainty, counted, ..Arrival::default() };
     arrival.events.zeros = 1 << index;
     Ok(Some(arrival))
