@@ -9,7 +9,7 @@ use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
-use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, states_at_phase};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, correct_at_frequency, states_at_phase};
 use hammerbeam_results::{
     Store, StoreError,
     store::{BranchRecord, PlacedRow},
@@ -94,7 +94,7 @@ impl StoredBranches {
     }
 
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the
-    /// state is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
+    /// orbit is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
     /// an orbit is one, too, and counts to its branch unless a branch holds it.
     ///
     /// * `model`: that of the study.
@@ -138,9 +138,8 @@ impl StoredBranches {
             for pair in rows.windows(2) {
                 let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
                 if (a < frequency_hz) != (b < frequency_hz) {
-                    let share = (frequency_hz - a) / (b - a);
-                    let guess = self.between(record, pair, share, frequency_hz)?;
-                    let orbit = corrected(model, guess).filter(|orbit| fits(pair, orbit));
+                    let orbit = self.orbit_between(model, record, pair, frequency_hz)?;
+                    let orbit = orbit.filter(|orbit| fits(pair, orbit));
                     orbits.extend(orbit.map(|orbit| (record.id, orbit)));
                 }
             }
@@ -150,7 +149,7 @@ impl StoredBranches {
                 let Some((end, beside)) = end.zip(beside) else { continue };
                 if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
                     let guess = self.store.solution(record.start, end.side, end.number)?;
-                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                    orbits.extend(corrected(model, &guess).map(|orbit| (record.id, orbit)));
                 }
             }
         }
@@ -211,24 +210,31 @@ impl StoredBranches {
         Ok(twice)
     }
 
-    /// The state between two rows, as a guess at a frequency.
-    fn between(
+    /// The orbit between two rows at a frequency: from all their nodes, interpolated, or else from those of the
+    /// nearer row. Beside a large multiplier one may lead there and the other not.
+    fn orbit_between(
         &self,
+        model: &Model,
         record: &BranchRecord,
         pair: &[PlacedRow],
-        share: f64,
         frequency_hz: f64,
-    ) -> Result<PeriodicSolution, StoreError> {
+    ) -> Result<Option<PeriodicSolution>, StoreError> {
         let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
-        if first.phase != second.phase {
-            // The orbits were cut anew between the rows: the nearer one is the guess.
-            let nearer = if share < 0.5 { first } else { second };
-            return Ok(PeriodicSolution { frequency_hz, ..nearer });
+        let share = (frequency_hz - first.frequency_hz) / (second.frequency_hz - first.frequency_hz);
+        // Where the orbits were cut anew between the rows, their nodes do not belong together.
+        let are_cut_alike = first.phase == second.phase && first.nodes.len() == second.nodes.len();
+        if are_cut_alike {
+            let nodes = first.nodes.iter().zip(&second.nodes);
+            let nodes =
+                nodes.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()).collect();
+            let orbit = corrected(model, &PeriodicSolution { frequency_hz, nodes, ..first.clone() });
+            if orbit.is_some() {
+                return Ok(orbit);
+            }
         }
-        let states = first.nodes[0].iter().zip(&second.nodes[0]);
-        let state = states.map(|(a, b)| a + share * (b - a)).collect();
-        Ok(PeriodicSolution { frequency_hz, nodes: vec![state], ..first })
+        let nearer = if share < 0.5 { first } else { second };
+        Ok(corrected(model, &PeriodicSolution { frequency_hz, ..nearer }))
     }
 }
 
@@ -239,11 +245,6 @@ fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
 }
 
 /// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.
-#[must_use]
-pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolution> {
-    let range_hz = (0.5 * guess.frequency_hz, 2.0 * guess.frequency_hz);
-    let (system, response) = (&model.system, &model.response);
-    let settings = OrbitSettings::default();
-    let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
-    Some(walk.ok()?.start_row().ok()?.solution)
+fn corrected(model: &Model, guess: &PeriodicSolution) -> Option<PeriodicSolution> {
+    correct_at_frequency(&model.system, &model.response, guess, &OrbitSettings::default()).ok()
 }
