@@ -9,8 +9,8 @@
 //! **Pseudo-arclength** (Keller 1977). From `z₀` with tangent `t₀` the next point is sought in the plane
 //! `⟨t₀, z − z₀⟩ = h`, which also meets the curve at folds. Newton's method solves `[R_x R_λ; (W t₀)ᵀ] d =
 //! −[R; 0]`, and the same factorisation gives `w` with `[R_x R_λ; (W t₀)ᵀ] w = e_last`, which has the
-//! direction of the curve. The prediction is the tangent, or the Hermite polynomial through two to four of the
-//! last points of the same smooth arc, whichever would have served the last step best, so that at short
+//! direction of the curve. The prediction is the tangent, or the cubic or quintic Hermite polynomial through
+//! the last points of the same smooth arc, whichever would have served the last step best, so that at short
 //! steps the first evaluation already is on the curve. A point is accepted where it was evaluated, with a
 //! correction still due that is below the tolerance; the correction is its error estimate and goes into the
 //! predictor.

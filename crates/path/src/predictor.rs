@@ -2,10 +2,11 @@
 //!
 //! Near `z₀` the path is a graph over its tangent: `z(σ)` with `⟨t₀, z(σ) − z₀⟩ = σ`. A point `z_k` with
 //! tangent `t_k` is the node `σ_k = ⟨t₀, z_k − z₀⟩` with slope `m_k = t_k / ⟨t₀, t_k⟩`; no arc length has to
-//! be guessed. One node gives the tangent predictor, two, three and four the Hermite polynomials of degree 3, 5
-//! and 7 (errors `h²`, `h⁴`, `h⁶`, `h⁸`).
+//! be guessed. One node gives the tangent predictor, two the cubic and three the quintic Hermite polynomial
+//! (errors `h²`, `h⁴`, `h⁶`).
 //!
-//! Points and tangents have errors of their own, of which each further node makes ten times as much. Where steps are short against these errors the tangent is the best predictor, and the
+//! Points and tangents have errors of their own, of which the cubic makes ten times and the quintic a hundred
+//! times as much. Where steps are short against these errors the tangent is the best predictor, and the
 //! others would keep the steps short. So every point that is reached is also predicted by all of them, and
 //! the next step takes the one that would have served best.
 //!
@@ -34,10 +35,10 @@ impl Node {
     }
 }
 
-/// How many earlier points a predictor may use: with none it is the tangent.
-pub(crate) const MOST_EARLIER_NODES: usize = 3;
+/// How many earlier points a predictor may use: 0 tangent, 1 cubic, 2 quintic.
+pub(crate) const MOST_EARLIER_NODES: usize = 2;
 
-/// Errors of the predictors with none, one, two, three earlier nodes.
+/// Errors of the predictors with none, one, two earlier nodes.
 pub(crate) type PredictorErrors = [f64; MOST_EARLIER_NODES + 1];
 
 /// Error order in `h` of the predictor with this many earlier nodes.
@@ -86,8 +87,8 @@ impl History {
         earlier
     }
 
-    /// Distances from a point of the path at which the predictors with none, one, two, three earlier nodes
-    /// would have put it; infinite where there are not so many.
+    /// Distances from a point of the path at which the predictors with none, one, two earlier nodes would
+    /// have put it; infinite where there are not so many.
     pub(crate) fn errors(&self, weights: &[f64], reached: &[f64], scratch: &mut [f64]) -> PredictorErrors {
         let sigma = progress(weights, &self.base().tangent, reached, &self.base().point);
         let usable = self.usable(weights, sigma);
@@ -117,8 +118,7 @@ impl History {
         match earlier {
             0 => hermite(weights, base, [], sigma, out),
             1 => hermite(weights, base, [&self.nodes[1]], sigma, out),
-            2 => hermite(weights, base, [&self.nodes[1], &self.nodes[2]], sigma, out),
-            _ => hermite(weights, base, [&self.nodes[1], &self.nodes[2], &self.nodes[3]], sigma, out),
+            _ => hermite(weights, base, [&self.nodes[1], &self.nodes[2]], sigma, out),
         }
     }
 }
@@ -173,7 +173,7 @@ mod tests {
 
     fn error_at(step: f64, most_earlier: usize) -> f64 {
         let mut history = History::new(2);
-        for k in [-3.0, -2.0, -1.0, 0.0] {
+        for k in [-2.0, -1.0, 0.0] {
             history.push(&on_circle(k * step));
         }
         let mut out = [0.0; 2];
@@ -182,27 +182,27 @@ mod tests {
     }
 
     #[test]
-    fn predictors_have_error_orders_two_four_six_eight() {
+    fn predictors_have_error_orders_two_four_six() {
         for earlier in 0..=MOST_EARLIER_NODES {
             let slope = (error_at(0.1, earlier) / error_at(0.05, earlier)).log2();
             assert_relative_eq!(slope, order(earlier), epsilon = 0.3);
         }
     }
 
-    /// Of errors `a h^2`, `b h^4`, `c h^6`, `d h^8` in the last step.
+    /// Of errors `a h^2`, `b h^4`, `c h^6` in the last step.
     #[test]
     fn the_best_predictor_is_the_one_with_the_least_error_in_the_next_step() {
         let unknown = f64::INFINITY;
-        // Twice the step: 4e-6, 1.6e-6, 6.4e-6, 2.6e-5.
-        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7, 1e-7], 2.0, 0.0), 1);
-        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7, 1e-7], 1.0, 0.0), 3);
-        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7, 1e-6], 1.0, 0.0), 0);
+        // Twice the step: 4e-6, 1.6e-6, 6.4e-6.
+        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7], 2.0, 0.0), 1);
+        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7], 1.0, 0.0), 2);
+        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7], 1.0, 0.0), 0);
         // Below what does no harm all are as good, and the highest order bears the longest steps.
-        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7, 1e-7], 1.0, 1e-6), 3);
+        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7], 1.0, 1e-6), 2);
         // Where the best of the known ones has the highest order, a higher one may be better still.
-        assert_eq!(best_predictor(&[1e-6, 1e-7, unknown, unknown], 1.0, 0.0), 3);
-        assert_eq!(best_predictor(&[1e-7, 1e-6, unknown, unknown], 1.0, 0.0), 0);
-        assert_eq!(best_predictor(&[1e-6, unknown, unknown, unknown], 1.0, 0.0), 3);
+        assert_eq!(best_predictor(&[1e-6, 1e-7, unknown], 1.0, 0.0), 2);
+        assert_eq!(best_predictor(&[1e-7, 1e-6, unknown], 1.0, 0.0), 0);
+        assert_eq!(best_predictor(&[1e-6, unknown, unknown], 1.0, 0.0), 2);
     }
 
     #[test]
