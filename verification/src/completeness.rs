@@ -4,11 +4,12 @@
 //! orbits in which the branches of its period cross that frequency. What is not found is what a run misses,
 //! or where simulation and shooting disagree.
 
+use hammerbeam_jobs::corrected;
 use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, ExactSettings},
 };
-use hammerbeam_orbit::{OrbitMaxima, OrbitSettings, PeriodicSolution, correct_at_frequency, states_at_phase};
+use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
 
 use crate::{
     attractors::{Random, SimulationEffort, Simulator, SurveyedAttractor, attractors, distance},
@@ -158,9 +159,7 @@ fn shortest(results: &Results, attractor: SurveyedAttractor) -> SurveyedAttracto
     };
     let period = attractor.period();
     for shorter in (1..period).filter(|shorter| period.is_multiple_of(*shorter)) {
-        let guess = guess(&attractor.states[0], shorter);
-        let (system, response) = (&results.model.system, &results.model.response);
-        if let Ok(orbit) = correct_at_frequency(system, response, &guess, &OrbitSettings::default()) {
+        if let Some(orbit) = corrected(&results.model, guess(&attractor.states[0], shorter)) {
             let there = at_phase_0(&results.model.system, &orbit);
             let off = distance(&results.model.system, &attractor.states[0], &there);
             if off < SAME {

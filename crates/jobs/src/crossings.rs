@@ -9,7 +9,9 @@ use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, correct_at_frequency, states_at_phase};
+use hammerbeam_orbit::{
+    BranchWalk, OrbitSettings, PeriodicSolution, Side, neighbouring_orbit, states_at_phase,
+};
 use hammerbeam_results::{
     Store, StoreError,
     store::{BranchRecord, PlacedRow},
@@ -94,7 +96,7 @@ impl StoredBranches {
     }
 
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the
-    /// orbit is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
+    /// state is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
     /// an orbit is one, too, and counts to its branch unless a branch holds it.
     ///
     /// * `model`: that of the study.
@@ -138,7 +140,8 @@ impl StoredBranches {
             for pair in rows.windows(2) {
                 let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
                 if (a < frequency_hz) != (b < frequency_hz) {
-                    let orbit = self.orbit_between(model, record, pair, frequency_hz)?;
+                    let share = (frequency_hz - a) / (b - a);
+                    let orbit = self.orbit_between(model, record, pair, (share, frequency_hz))?;
                     let orbit = orbit.filter(|orbit| fits(pair, orbit));
                     orbits.extend(orbit.map(|orbit| (record.id, orbit)));
                 }
@@ -149,7 +152,7 @@ impl StoredBranches {
                 let Some((end, beside)) = end.zip(beside) else { continue };
                 if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
                     let guess = self.store.solution(record.start, end.side, end.number)?;
-                    orbits.extend(corrected(model, &guess).map(|orbit| (record.id, orbit)));
+                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
                 }
             }
         }
@@ -210,31 +213,41 @@ impl StoredBranches {
         Ok(twice)
     }
 
-    /// The orbit between two rows at a frequency: from all their nodes, interpolated, or else from those of the
-    /// nearer row. Beside a large multiplier one may lead there and the other not.
+    /// The orbit between two rows at a frequency, a share of the way from the first.
+    ///
+    /// From the state between the rows, as a walk starts; or else from all nodes between them: beside a large
+    /// multiplier the motion from one state leads far away.
     fn orbit_between(
         &self,
         model: &Model,
         record: &BranchRecord,
         pair: &[PlacedRow],
-        frequency_hz: f64,
+        (share, frequency_hz): (f64, f64),
     ) -> Result<Option<PeriodicSolution>, StoreError> {
         let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
-        let share = (frequency_hz - first.frequency_hz) / (second.frequency_hz - first.frequency_hz);
-        // Where the orbits were cut anew between the rows, their nodes do not belong together.
-        let are_cut_alike = first.phase == second.phase && first.nodes.len() == second.nodes.len();
-        if are_cut_alike {
-            let nodes = first.nodes.iter().zip(&second.nodes);
-            let nodes =
-                nodes.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()).collect();
-            let orbit = corrected(model, &PeriodicSolution { frequency_hz, nodes, ..first.clone() });
-            if orbit.is_some() {
-                return Ok(orbit);
-            }
+        if first.phase != second.phase {
+            // The orbits were cut anew between the rows: the nearer one is the guess.
+            let nearer = if share < 0.5 { first } else { second };
+            return Ok(corrected(model, PeriodicSolution { frequency_hz, ..nearer }));
         }
-        let nearer = if share < 0.5 { first } else { second };
-        Ok(corrected(model, &PeriodicSolution { frequency_hz, ..nearer }))
+        let between = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>()
+        };
+        let nodes: Vec<Vec<f64>> = first.nodes.iter().zip(&second.nodes).map(between).collect();
+        let guess = PeriodicSolution { frequency_hz, nodes: nodes[..1].to_vec(), ..first.clone() };
+        let found = corrected(model, guess);
+        if found.is_some() || first.nodes.len() != second.nodes.len() {
+            return Ok(found);
+        }
+        let scales = state_scales(&model.system, frequency_hz);
+        let apart = distance(&scales, &first.nodes[0], &second.nodes[0]);
+        let guess = PeriodicSolution { frequency_hz, nodes, ..first };
+        let near =
+            |orbit: &PeriodicSolution| distance(&scales, &guess.nodes[0], &orbit.nodes[0]) <= apart.max(SAME);
+        let (system, response) = (&model.system, &model.response);
+        let found = neighbouring_orbit(system, response, &guess, &OrbitSettings::default());
+        Ok(found.ok().flatten().filter(near))
     }
 }
 
@@ -245,6 +258,11 @@ fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
 }
 
 /// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.
-fn corrected(model: &Model, guess: &PeriodicSolution) -> Option<PeriodicSolution> {
-    correct_at_frequency(&model.system, &model.response, guess, &OrbitSettings::default()).ok()
+#[must_use]
+pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolution> {
+    let range_hz = (0.5 * guess.frequency_hz, 2.0 * guess.frequency_hz);
+    let (system, response) = (&model.system, &model.response);
+    let settings = OrbitSettings::default();
+    let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
+    Some(walk.ok()?.start_row().ok()?.solution)
 }

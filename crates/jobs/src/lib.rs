@@ -79,7 +79,7 @@ mod walk;
 pub use basins_part::basins_part;
 pub use branch::BranchRows;
 pub use counted::counted;
-pub use crossings::{MirrorImage, StoredBranch, StoredBranches};
+pub use crossings::{MirrorImage, StoredBranch, StoredBranches, corrected};
 pub use error::JobError;
 pub use failure_kind::FailureKind;
 pub use initial::InitialState;

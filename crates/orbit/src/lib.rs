@@ -153,7 +153,7 @@ pub use neighbour::neighbouring_orbit;
 pub use output::{OrbitSignal, SignalStatistics, TimeDerivative, read_orbit};
 pub use probe::{ProbeStarts, probe};
 pub use reach::reach_orbit;
-pub use recompute::{correct_at_frequency, recompute};
+pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
 pub use spectrum::Stability;

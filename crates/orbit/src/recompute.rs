@@ -1,5 +1,4 @@
-//! The same point of a branch, computed with other segments or tolerances; and the orbit near a guess at its
-//! frequency.
+//! The same point of a branch, computed with other segments or tolerances.
 //!
 //! At a fold the frequency does not tell where on its branch an orbit is, and beside it badly: `dz/df` is
 //! unbounded. The orbit is therefore held in the plane through its first node `z_0` and frequency `f` that is
@@ -16,7 +15,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     shooting::ShootingProblem,
     size::orbit_scale,
-    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_from, orbit_near, solution},
+    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_from, solution},
 };
 
 /// So many more corrections of an accepted orbit at most; they end where rounding keeps them from shrinking.
@@ -59,22 +58,6 @@ pub fn recompute(
         }
     }
     solution(&mut problem, &point, correction)
-}
-
-/// The orbit at the frequency of a guess that has a node for each of its segments.
-///
-/// # Errors
-/// [`OrbitError::NotConverged`] if the guess is not near an orbit, [`OrbitError::Motion`],
-/// [`OrbitError::Eigenvalues`].
-pub fn correct_at_frequency(
-    system: &System,
-    response: &Response,
-    guess: &PeriodicSolution,
-    settings: &OrbitSettings,
-) -> Result<PeriodicSolution, OrbitError> {
-    let integrator = integrator(system, response, settings)?;
-    let orbit = (guess.frequency_hz, guess.period_multiple);
-    Ok(orbit_near(integrator, (guess.phase, &guess.nodes), orbit, settings)?.0)
 }
 
 /// Border of the plane at the point evaluated last: the tangent at the first node, zero at the others.

@@ -16,9 +16,8 @@ use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new
 /// units.
 const OUTGROWN: f64 = 4.0;
-/// At every so many accepted points the motion is gone through for its size. In the longest step that is usual
-/// it changes by a twenty-fifth, and so by less than [`OUTGROWN`] from one look to the next.
-const LOOK: u64 = 24;
+/// At every so many accepted points the motion is gone through for its size.
+const LOOK: u64 = 8;
 
 /// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more
 /// segments. A segment of 3e6 makes steps of a millionth of a hertz.
