@@ -121,7 +121,13 @@ fn panic_unless_not_yet(error: &rusqlite::Error) -> bool {
         rusqlite::Error::QueryReturnedNoRows => true,
         error => matches!(
             error.sqlite_error_code(),
-            Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked | ErrorCode::CannotOpen)
+            Some(
+                ErrorCode::DatabaseBusy
+                    | ErrorCode::DatabaseLocked
+                    // A command that was stopped while it opened the log beside the database.
+                    | ErrorCode::FileLockingProtocolFailed
+                    | ErrorCode::CannotOpen
+            )
         ),
     };
     assert!(not_yet, "{error}");
