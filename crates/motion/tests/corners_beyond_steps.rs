@@ -22,11 +22,34 @@ fn system() -> System {
     System::new(free, &load, vec![stop]).unwrap()
 }
 
+const STATE: [f64; 4] = [-2.097_725_111_6, 0.252_226_719_9, 0.864_204_528_0, 0.261_254_488_2];
+
+/// A touch lies within rounding of its level, on either side of it. With a turn just in front of it, its
+/// first step must not depend on which side that is.
+#[test]
+fn steps_from_a_slow_touch_do_not_depend_on_rounding() {
+    let system = system();
+    let mut slow = 0;
+    for off in [-2e-2, -1e-2, -3e-3, -1e-3, 1e-3, 3e-3, 1e-2, 2e-2] {
+        let steps = (0..20).map(|number| {
+            let frequency_hz = 0.174_236_8 * (1.0 + off) * (1.0 + 1e-14 * f64::from(number));
+            let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+            let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 5e-12 }).unwrap();
+            exact.flow(&stretch, &STATE).unwrap();
+            slow += i32::from(exact.touches().iter().sum::<u32>() > 1);
+            exact.counts().steps
+        });
+        let steps: Vec<u64> = steps.collect();
+        assert!(steps.iter().all(|count| *count == steps[0]), "{off}: {steps:?}");
+    }
+    assert!(slow > 40, "{slow} motions touch twice");
+}
+
 /// Against the general integrator, in turns of 1e-7 to 1e-2 m, of contacts that press 0.3 m deep.
 #[test]
 fn sensitivities_do_not_depend_on_how_little_a_hertz_contact_is_pressed_between_two_presses() {
     let system = system();
-    let state = [-2.097_725_111_6, 0.252_226_719_9, 0.864_204_528_0, 0.261_254_488_2];
+    let state = STATE;
     let (mut shallow, mut deep) = (0, 0);
     for number in 0..120 {
         // Densely about the frequency at which it opens.

@@ -70,7 +70,7 @@ impl ExactIntegrator {
         let mut aim = self.first_aim(run, touched, remaining);
         for _ in 0..MAX_TRIES {
             // Half the way to a release may lie behind the end of the stretch.
-            aim.length = self.up_to_hidden_turn(run, aim.length.min(remaining));
+            aim.length = self.up_to_hidden_turn(run, touched, aim.length.min(remaining));
             if aim.length < 1e-16 * end || aim.length.is_nan() {
                 break;
             }

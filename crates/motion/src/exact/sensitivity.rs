@@ -191,9 +191,10 @@ impl Sensitivity {
     /// Largest `sqrt(k p^2 + s^2)/scale` of block i over the columns of initial states.
     pub fn largest_energy_norm(&self, i: usize, stiffness: f64, scale: &impl Fn(usize) -> f64) -> f64 {
         let (positions, velocities) = self.values.split_at(self.values.len() / 2);
-        let row = |half: &'_ [f64]| half[i * self.columns..][..self.rows].to_vec();
-        let columns = row(positions).into_iter().zip(row(velocities)).enumerate();
-        columns.map(|(j, (p, s))| (stiffness * p * p + s * s).sqrt() / scale(j)).fold(0.0, f64::max)
+        let row = i * self.columns..i * self.columns + self.rows;
+        let columns = positions[row.clone()].iter().zip(&velocities[row]).enumerate();
+        let squares = columns.map(|(j, (p, s))| (stiffness * p * p + s * s) / scale(j).powi(2));
+        squares.fold(0.0, f64::max).sqrt()
     }
 
     /// Largest `sqrt(k p^2 + s^2)` over the blocks of one column: the largest velocity that it can reach.
