@@ -6,7 +6,7 @@
 
 mod texts;
 
-use std::{collections::BTreeSet, env, fs, path::Path, process::Command};
+use std::{collections::BTreeSet, env, fs, path::Path};
 
 const HEAD: &str = "# Third-party code\n\n\
     What is built into the program besides this repository, with its licence; made by the test `licences`\n\
@@ -30,12 +30,8 @@ fn is_allowed(expression: &str, allowed: &[String]) -> bool {
 
 /// Package, version and licence of everything that is linked or runs while building.
 fn packages(root: &Path) -> BTreeSet<[String; 3]> {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["tree", "--locked", "--offline", "--workspace", "--no-dedupe", "-e", "normal,build"]);
-    cargo.args(["--prefix", "none", "--format", "{p}|{l}"]).current_dir(root);
-    let output = cargo.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let all = ["tree", "--locked", "--offline", "--workspace", "--no-dedupe", "-e", "normal,build"];
+    let text = texts::cargo(root, &[&all[..], &["--prefix", "none", "--format", "{p}|{l}"]].concat());
     let package = |line: &str| {
         let (package, licence) = line.split_once('|').unwrap();
         let mut words = package.split_whitespace();

@@ -65,12 +65,20 @@ pub fn texts(root: &Path, wanted: &BTreeSet<[String; 3]>) -> String {
     format!("{HEAD}{}\n{rule}\n{heading}\n\n{without}", parts.collect::<String>())
 }
 
-fn packages(root: &Path, wanted: &BTreeSet<[String; 3]>) -> Vec<Package> {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["metadata", "--locked", "--offline", "--format-version", "1"]).current_dir(root);
-    let output = cargo.output().unwrap();
+/// What cargo prints in the project's folder.
+pub fn cargo(root: &Path, arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let all: Value = serde_json::from_slice(&output.stdout).unwrap();
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The wanted ones, as cargo describes them. It is asked for this machine's packages alone: those of other systems
+/// are not here unless something has fetched them.
+fn packages(root: &Path, wanted: &BTreeSet<[String; 3]>) -> Vec<Package> {
+    let about = cargo(root, &["-vV"]);
+    let system = about.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
+    let here = ["metadata", "--locked", "--offline", "--format-version", "1", "--filter-platform", system];
+    let all: Value = serde_json::from_str(&cargo(root, &here)).unwrap();
     let package = |package: &Value| {
         let text = |key: &str| package[key].as_str().unwrap_or_default().to_owned();
         let (name, version) = (text("name"), text("version"));
