@@ -171,34 +171,47 @@ fn odd_pages(workshop: &Workshop) -> Value {
         branches: (1..10).map(straight).collect(),
         ..Page::default()
     };
+    let (none, two) = (OrbitRecords::default(), two_orbits());
     let pages = [
-        ("nine periods", periods, 9, vec!["1/9 subharmonic"], "No orbit of this branch"),
+        ("nine periods", (periods, &none), 9, vec!["1/9 subharmonic"], "No orbit of this branch"),
         (
             "a branch of one point",
-            lone,
+            (lone, &none),
             2,
             vec!["& <nothing> else", "1/2 subharmonic"],
             "No orbit of this branch",
         ),
         (
             "an empty page",
-            empty,
+            (empty, &none),
             0,
             vec!["No periodic solution is stored.", "The run was not finished"],
             "No periodic solution",
         ),
         (
             "everything at once",
-            everything(),
+            (everything(), &two),
             1,
             vec!["measured, periodic", "chaotic motion", "Poincaré section", "50 points at phase 0"],
             "the orbit of",
         ),
-        ("a mesh", of_a_mesh(), 1, vec!["Displacements are drawn", "larger than lengths"], "the orbit of"),
+        (
+            "a mesh",
+            (of_a_mesh(), &two),
+            1,
+            vec!["Displacements are drawn", "larger than lengths"],
+            "the orbit of",
+        ),
     ];
-    let write = |(name, page, branches, says, orbit): (&str, Page, usize, Vec<&str>, &str)| {
+    let write = |(name, (page, orbits), branches, says, orbit): (
+        &str,
+        (Page, &OrbitRecords),
+        usize,
+        Vec<&str>,
+        &str,
+    )| {
         let path = workshop.path(&format!("{}.html", name.replace(' ', "-")));
-        fs::write(&path, page.html()).unwrap();
+        fs::write(&path, page.pack().html(orbits)).unwrap();
         json!({ "name": name, "path": path, "branches": branches, "says": says, "orbit": orbit })
     };
     pages.into_iter().map(write).collect()
@@ -232,19 +245,8 @@ fn straight(period_multiple: u32) -> PageBranch {
     PageBranch { id: period_multiple, period_multiple, solutions, ..PageBranch::default() }
 }
 
-/// Masses with stops on both sides, two orbits with multipliers that are not finite, a section, measured
-/// points.
-fn everything() -> Page {
-    let solution = |k: u32| PageSolution {
-        frequency_hz: 10.0 + f64::from(k),
-        displacement_m: 1e-3 * f64::from(k + 1),
-        leading_multiplier: [f64::NAN, 0.0],
-        stable: k > 5,
-        fold: k == 5,
-        ..PageSolution::default()
-    };
-    let over_the_gap =
-        |k: u32| PageSolution { frequency_hz: 20.0, parameter: 1e-8 * f64::from(k), ..solution(k) };
+/// Orbits of the first two solutions of that page, the second one with impacts.
+fn two_orbits() -> OrbitRecords {
     let wave = |count: u32, size: f64| -> Vec<f64> {
         (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
     };
@@ -268,15 +270,31 @@ fn everything() -> Page {
         modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
         spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
     };
-    let mut multipliers = MultiplierRecords::default();
-    (0..20).for_each(|_| {
-        multipliers.push(&[[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]]);
-    });
     let mut orbits = OrbitRecords::default();
     assert!(orbits.insert(0, orbit.record(), usize::MAX));
     let forces_n = vec![vec![[0.0; 2]; 60]; 2];
     let rigid = PageOrbit { impulses: vec![impulse; 5], forces_n, ..orbit };
     assert!(orbits.insert(1, rigid.record(), usize::MAX));
+    orbits
+}
+
+/// Masses with stops on both sides, solutions with multipliers that are not finite, a section, measured
+/// points.
+fn everything() -> Page {
+    let solution = |k: u32| PageSolution {
+        frequency_hz: 10.0 + f64::from(k),
+        displacement_m: 1e-3 * f64::from(k + 1),
+        leading_multiplier: [f64::NAN, 0.0],
+        stable: k > 5,
+        fold: k == 5,
+        ..PageSolution::default()
+    };
+    let over_the_gap =
+        |k: u32| PageSolution { frequency_hz: 20.0, parameter: 1e-8 * f64::from(k), ..solution(k) };
+    let mut multipliers = MultiplierRecords::default();
+    (0..20).for_each(|_| {
+        multipliers.push(&[[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]]);
+    });
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
         name: name.to_owned(),
         at,
@@ -315,7 +333,6 @@ fn everything() -> Page {
                 solutions: (0..5).map(over_the_gap).collect(),
             },
         ],
-        orbits,
         multipliers,
         structure: Some(PageStructure {
             is_beam: false,

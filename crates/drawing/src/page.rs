@@ -54,13 +54,13 @@ pub fn draw(
         figures: gallery::figures(store, (file, model), drawn)?,
         ..Page::default()
     };
-    energies(store, (&records, &stored), &model.system.model().natural_frequencies, &mut page.branches)?;
+    energies(store, &records, &model.system.model().natural_frequencies, &mut page.branches)?;
     varied::add(store, &mut page)?;
     page.outputs = outputs::of_branches(store, file, &page.branches)?;
-    let most = page.room_for_orbits();
-    page.orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
+    let page = page.pack();
+    let orbits = orbits::carried(store, model, (&records, &stored), (page.room_for_orbits(), drawn))?;
     if !drawn.is_stopped() {
-        drawn.write(NAME, move || page.html());
+        drawn.write(NAME, move || page.html(&orbits));
     }
     Ok(())
 }
@@ -107,21 +107,19 @@ fn multipliers(
 /// structure's springs, without the stops [J].
 fn energies(
     store: &Store,
-    (records, stored): (&[BranchRecord], &[Vec<PlacedRow>]),
+    records: &[BranchRecord],
     rates: &[f64],
     branches: &mut [PageBranch],
 ) -> Result<(), StoreError> {
-    for ((record, placed), branch) in records.iter().zip(stored).zip(branches) {
-        for (placed, solution) in placed.iter().zip(&mut branch.solutions) {
-            match store.solution(record.start, placed.side, placed.number) {
-                Err(error) if error.is_of_solutions() => {}
-                found => {
-                    let found = found?;
-                    let state = found.nodes.first().filter(|_| found.phase == 0.0);
-                    solution.energy_j = state.map_or(f64::NAN, |state| energy(state, rates));
-                }
+    for (record, branch) in records.iter().zip(branches) {
+        let mut solutions = branch.solutions.iter_mut();
+        store.each_beginning::<StoreError>(record, |found| {
+            let Some(solution) = solutions.next() else { return Ok(()) };
+            if let Ok((0.0, state)) = found {
+                solution.energy_j = energy(&state, rates);
             }
-        }
+            Ok(())
+        })?;
     }
     Ok(())
 }

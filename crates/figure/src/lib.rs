@@ -126,9 +126,9 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample};
 pub use page::{
-    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageImpulse,
-    PageLink, PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageOutput, PageParameter,
-    PagePlace, PageSection, PageSolution, PageStop, PageStructure, SectionPlane,
+    MultiplierRecords, OrbitRecord, OrbitRecords, PackedPage, Page, PageBranch, PageFigure, PageFigures,
+    PageImpulse, PageLink, PageMeasured, PageMeasuredPoint, PageMesh, PageMotion, PageOrbit, PageOutput,
+    PageParameter, PagePlace, PageSection, PageSolution, PageStop, PageStructure, SectionPlane,
 };
 pub use parameter_axis::ParameterAxis;
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};

@@ -24,29 +24,17 @@ pub use content::{
     Page, PageBranch, PageLink, PageMesh, PageOutput, PageParameter, PagePlace, PageSolution, PageStop,
     PageStructure,
 };
+pub use document::PackedPage;
 pub use figures::{PageFigure, PageFigures};
 pub use measured::{PageMeasured, PageMeasuredPoint};
 pub use motions::{PageMotion, PageSection, SectionPlane};
 pub use multipliers::MultiplierRecords;
 pub use orbits::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
 
-/// Largest length of a page (bytes).
-const MOST_BYTES: usize = 14_400_000;
-
 impl Page {
-    /// The whole file.
-    ///
-    /// Equal pages give equal bytes. Numbers that are not finite are kept where the format allows; the page
-    /// leaves them out.
+    /// Everything but the orbits, which are chosen for the room that this leaves.
     #[must_use]
-    pub fn html(&self) -> String {
-        document::html(self)
-    }
-
-    /// Largest length of the records of orbits (bytes) that fits on the page with its other data.
-    #[must_use]
-    pub fn room_for_orbits(&self) -> usize {
-        // Three bytes are four letters in base64.
-        (MOST_BYTES.saturating_sub(self.html().len()) / 4 * 3).max(orbits::LEAST_BYTES)
+    pub fn pack(&self) -> PackedPage {
+        PackedPage::of(self)
     }
 }

@@ -5,11 +5,10 @@ use super::{
     measured::PageMeasured,
     motions::{PageMotion, PageSection},
     multipliers::MultiplierRecords,
-    orbits::OrbitRecords,
 };
 use crate::parameter_axis::ParameterAxis;
 
-/// Data of the whole page.
+/// Data of the page, besides the orbits of some of its solutions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Page {
     /// Title of the study.
@@ -28,8 +27,6 @@ pub struct Page {
     pub parameters: Vec<PageParameter>,
     /// Numbers that were read off the solutions besides.
     pub outputs: Vec<PageOutput>,
-    /// Orbits of some of their solutions.
-    pub orbits: OrbitRecords,
     /// Multipliers of all solutions, or of none.
     pub multipliers: MultiplierRecords,
     /// The structure; `None` if it is unknown.

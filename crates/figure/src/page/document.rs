@@ -6,6 +6,7 @@ use super::{
     columns,
     content::{Page, PageMesh, PageOutput, PageParameter, PageStop, PageStructure},
     measured, motions,
+    orbits::{LEAST_BYTES, OrbitRecords},
 };
 use crate::{base64, style};
 
@@ -13,36 +14,72 @@ const SCRIPT: &str = include_str!("../../page/dist/page.js");
 const LOOK: &str = include_str!("../../page/dist/page.css");
 const LICENCE: &str = include_str!("../../page/dist/LICENCE-uPlot.txt");
 
-/// The page as a file.
-pub(super) fn html(page: &Page) -> String {
-    let title = escaped(&page.title);
-    let meta = in_script(&meta(page).to_string());
-    let solutions = base64::encode(&columns::pack(&page.branches, &page.outputs));
-    let multipliers = base64::encode(&page.multipliers.bytes());
-    let orbits = base64::encode(&page.orbits.bytes());
-    let figures = in_script(&page.figures.documents().to_string());
-    [
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
-        "<link rel=\"icon\" href=\"data:,\">\n",
-        &format!("<title>{title}</title>\n"),
-        "<!-- This page holds uPlot under this licence:\n",
-        LICENCE,
-        "-->\n<style>\n",
-        LOOK,
-        "</style>\n</head>\n<body>\n<div id=\"page\"></div>\n",
-        "<noscript>This page draws with a script that it holds itself; ",
-        "scripts are switched off in this browser.</noscript>\n",
-        &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
-        &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
-        &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
-        &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
-        &format!("<script id=\"drawings\" type=\"application/json\">{figures}</script>\n"),
-        "<script>\n",
-        SCRIPT,
-        "</script>\n</body>\n</html>\n",
-    ]
-    .concat()
+/// Largest length of a page (bytes).
+const MOST_BYTES: usize = 14_400_000;
+
+/// A page without its orbits, whose numbers are packed.
+#[derive(Debug, Clone)]
+pub struct PackedPage {
+    title: String,
+    meta: Value,
+    solutions: String,
+    multipliers: String,
+    figures: String,
+}
+
+impl PackedPage {
+    pub(super) fn of(page: &Page) -> Self {
+        Self {
+            title: escaped(&page.title),
+            meta: meta(page),
+            solutions: base64::encode(&columns::pack(&page.branches, &page.outputs)),
+            multipliers: base64::encode(&page.multipliers.bytes()),
+            figures: in_script(&page.figures.documents().to_string()),
+        }
+    }
+
+    /// Largest length of the records of orbits (bytes) that fits on the page.
+    #[must_use]
+    pub fn room_for_orbits(&self) -> usize {
+        // Three bytes are four letters in base64.
+        let without = self.html(&OrbitRecords::default()).len();
+        (MOST_BYTES.saturating_sub(without) / 4 * 3).max(LEAST_BYTES)
+    }
+
+    /// The whole file, with these orbits.
+    ///
+    /// Equal pages give equal bytes. Numbers that are not finite are kept where the format allows; the page
+    /// leaves them out.
+    #[must_use]
+    pub fn html(&self, orbits: &OrbitRecords) -> String {
+        let Self { title, meta, solutions, multipliers, figures } = self;
+        let mut meta = meta.clone();
+        meta["orbits"] = json!({ "solutions": orbits.solutions(), "lengths": orbits.lengths() });
+        let meta = in_script(&meta.to_string());
+        let orbits = base64::encode(&orbits.bytes());
+        [
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
+            "<link rel=\"icon\" href=\"data:,\">\n",
+            &format!("<title>{title}</title>\n"),
+            "<!-- This page holds uPlot under this licence:\n",
+            LICENCE,
+            "-->\n<style>\n",
+            LOOK,
+            "</style>\n</head>\n<body>\n<div id=\"page\"></div>\n",
+            "<noscript>This page draws with a script that it holds itself; ",
+            "scripts are switched off in this browser.</noscript>\n",
+            &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
+            &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
+            &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
+            &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
+            &format!("<script id=\"drawings\" type=\"application/json\">{figures}</script>\n"),
+            "<script>\n",
+            SCRIPT,
+            "</script>\n</body>\n</html>\n",
+        ]
+        .concat()
+    }
 }
 
 /// Everything but solutions, multipliers, orbits and figures.
@@ -70,10 +107,6 @@ fn meta(page: &Page) -> Value {
         "parameters": parameters(page),
         "outputs": page.outputs.iter().map(output).collect::<Vec<_>>(),
         "folder": page.folder_name,
-        "orbits": {
-            "solutions": page.orbits.solutions(),
-            "lengths": page.orbits.lengths(),
-        },
         "multipliers": { "solutions": page.multipliers.count(), "most": page.multipliers.most() },
         "structure": page.structure.as_ref().map(structure),
         "motions": page.motions.iter().map(motions::motion).collect::<Vec<_>>(),
@@ -163,7 +196,7 @@ mod tests {
     #[test]
     fn a_title_cannot_break_out_of_its_place() {
         let page = Page { title: "</script><b>&".to_owned(), ..Page::default() };
-        let html = page.html();
+        let html = page.pack().html(&OrbitRecords::default());
         assert!(html.contains("<title>&lt;/script&gt;&lt;b&gt;&amp;</title>"));
         assert!(html.contains(r#""title":"\u003c/script>\u003cb>&""#));
     }

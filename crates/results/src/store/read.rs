@@ -198,21 +198,49 @@ impl Store {
     pub fn each_multipliers<E: From<StoreError>>(
         &self,
         branch: &BranchRecord,
-        mut take: impl FnMut(Result<Vec<[f64; 2]>, StoreError>) -> Result<(), E>,
+        take: impl FnMut(Result<Vec<[f64; 2]>, StoreError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let read = |row: &SqlRow<'_>| read_multipliers(row, 0);
+        self.each_solution(branch, "multiplier_count, multipliers", read, take)
+    }
+
+    /// Hands over where the orbits of the solutions of a branch begin, in the same order: the phase (cycles)
+    /// and the state `[q; q']` there. Where they are damaged it says so.
+    ///
+    /// # Errors
+    /// The database refuses, or `take` does.
+    pub fn each_beginning<E: From<StoreError>>(
+        &self,
+        branch: &BranchRecord,
+        take: impl FnMut(Result<(f64, Vec<f64>), StoreError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let read = |row: &SqlRow<'_>| {
+            let (length, bytes): (u32, Vec<u8>) = (row.get(1)?, row.get(2)?);
+            let first = bytes.get(..8 * length as usize).unwrap_or(&bytes);
+            Ok((finite("phase", row.get(0)?)?, blob::unpack("nodes", first, length as usize)?))
+        };
+        self.each_solution(branch, "phase_cycles, state_length, nodes", read, take)
+    }
+
+    /// Hands over what `read` makes of these columns of each solution of a branch, end to end.
+    fn each_solution<T, E: From<StoreError>>(
+        &self,
+        branch: &BranchRecord,
+        columns: &str,
+        read: impl Fn(&SqlRow<'_>) -> Result<T, StoreError>,
+        mut take: impl FnMut(Result<T, StoreError>) -> Result<(), E>,
     ) -> Result<(), E> {
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             let walk = walk_id(branch.start, side);
-            let select = format!(
-                "SELECT multiplier_count, multipliers, id FROM solution
-                WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
-            );
+            let select =
+                format!("SELECT {columns}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
             let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
             let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
             while let Some(row) = rows.next().map_err(failed)? {
-                let key = row.get(2).map_err(failed)?;
-                let read = self.check_solution(key).and_then(|()| read_multipliers(row, 0));
-                take(read.map_err(|error| self.damaged(key, error)))?;
+                let key = row.get("id").map_err(failed)?;
+                let found = self.check_solution(key).and_then(|()| read(row));
+                take(found.map_err(|error| self.damaged(key, error)))?;
             }
         }
         Ok(())
