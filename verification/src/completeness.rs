@@ -159,7 +159,7 @@ fn shortest(results: &Results, attractor: SurveyedAttractor) -> SurveyedAttracto
     };
     let period = attractor.period();
     for shorter in (1..period).filter(|shorter| period.is_multiple_of(*shorter)) {
-        if let Some(orbit) = corrected(&results.model, guess(&attractor.states[0], shorter)) {
+        if let Some(orbit) = corrected(&results.model, &guess(&attractor.states[0], shorter)) {
             let there = at_phase_0(&results.model.system, &orbit);
             let off = distance(&results.model.system, &attractor.states[0], &there);
             if off < SAME {

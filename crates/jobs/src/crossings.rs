@@ -9,9 +9,7 @@ use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
-use hammerbeam_orbit::{
-    BranchWalk, OrbitSettings, PeriodicSolution, Side, neighbouring_orbit, states_at_phase,
-};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, neighbouring_orbit, states_at_phase};
 use hammerbeam_results::{
     Store, StoreError,
     store::{BranchRecord, PlacedRow},
@@ -152,7 +150,7 @@ impl StoredBranches {
                 let Some((end, beside)) = end.zip(beside) else { continue };
                 if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
                     let guess = self.store.solution(record.start, end.side, end.number)?;
-                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                    orbits.extend(corrected(model, &guess).map(|orbit| (record.id, orbit)));
                 }
             }
         }
@@ -213,10 +211,8 @@ impl StoredBranches {
         Ok(twice)
     }
 
-    /// The orbit between two rows at a frequency, a share of the way from the first.
-    ///
-    /// From the state between the rows, as a walk starts; or else from all nodes between them: beside a large
-    /// multiplier the motion from one state leads far away.
+    /// The orbit between two rows at a frequency, a share of the way from the first: from all nodes between
+    /// them, or, if they were chosen anew there, from those of the nearer row.
     fn orbit_between(
         &self,
         model: &Model,
@@ -226,28 +222,17 @@ impl StoredBranches {
     ) -> Result<Option<PeriodicSolution>, StoreError> {
         let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
-        if first.phase != second.phase {
-            // The orbits were cut anew between the rows: the nearer one is the guess.
-            let nearer = if share < 0.5 { first } else { second };
-            return Ok(corrected(model, PeriodicSolution { frequency_hz, ..nearer }));
-        }
-        let between = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>()
+        let nodes = if first.phase == second.phase && first.nodes.len() == second.nodes.len() {
+            let between =
+                |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
+            first.nodes.iter().zip(&second.nodes).map(between).collect()
+        } else if share < 0.5 {
+            first.nodes.clone()
+        } else {
+            second.nodes.clone()
         };
-        let nodes: Vec<Vec<f64>> = first.nodes.iter().zip(&second.nodes).map(between).collect();
-        let guess = PeriodicSolution { frequency_hz, nodes: nodes[..1].to_vec(), ..first.clone() };
-        let found = corrected(model, guess);
-        if found.is_some() || first.nodes.len() != second.nodes.len() {
-            return Ok(found);
-        }
-        let scales = state_scales(&model.system, frequency_hz);
-        let apart = distance(&scales, &first.nodes[0], &second.nodes[0]);
-        let guess = PeriodicSolution { frequency_hz, nodes, ..first };
-        let near =
-            |orbit: &PeriodicSolution| distance(&scales, &guess.nodes[0], &orbit.nodes[0]) <= apart.max(SAME);
-        let (system, response) = (&model.system, &model.response);
-        let found = neighbouring_orbit(system, response, &guess, &OrbitSettings::default());
-        Ok(found.ok().flatten().filter(near))
+        let nearer = if share < 0.5 { first } else { second };
+        Ok(corrected(model, &PeriodicSolution { frequency_hz, nodes, ..nearer }))
     }
 }
 
@@ -257,12 +242,10 @@ fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
     pair.iter().any(|placed| placed.row.maxima.contacts == orbit.maxima.contacts)
 }
 
-/// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.
+/// The orbit near a guess at its frequency, with the segments of the guess; `None` if there is none of its
+/// period that Newton's method finds.
 #[must_use]
-pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolution> {
-    let range_hz = (0.5 * guess.frequency_hz, 2.0 * guess.frequency_hz);
+pub fn corrected(model: &Model, guess: &PeriodicSolution) -> Option<PeriodicSolution> {
     let (system, response) = (&model.system, &model.response);
-    let settings = OrbitSettings::default();
-    let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
-    Some(walk.ok()?.start_row().ok()?.solution)
+    neighbouring_orbit(system, response, guess, &OrbitSettings::default()).ok().flatten()
 }

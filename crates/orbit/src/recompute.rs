@@ -15,7 +15,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     shooting::ShootingProblem,
     size::orbit_scale,
-    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_from, solution},
+    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_of, solution},
 };
 
 /// So many more corrections of an accepted orbit at most; they end where rounding keeps them from shrinking.
@@ -35,16 +35,14 @@ pub fn recompute(
 ) -> Result<PeriodicSolution, OrbitError> {
     let mut integrator = integrator(system, response, settings)?;
     let (frequency_hz, multiple) = (given.frequency_hz, given.period_multiple);
-    let nodes = match settings.segments {
-        Segments::Fixed(count) if count.max(1) != given.nodes.len() => {
-            let begin = (given.phase, given.nodes[0].as_slice());
-            nodes_from(&mut integrator, begin, frequency_hz, multiple, count.max(1))?
-        }
-        _ => given.nodes.clone(),
+    let segments = match settings.segments {
+        Segments::Fixed(count) => count.max(1),
+        Segments::Automatic => given.nodes.len(),
     };
+    let nodes = nodes_of(&mut integrator, given, segments)?;
     let scale = orbit_scale(&mut integrator, given)?;
     let mut problem =
-        ShootingProblem::new(integrator, (multiple, nodes.len()), scale, 1.0).beginning_at(given.phase);
+        ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(given.phase);
     let mut point = problem.point(&nodes, frequency_hz);
     evaluate(&mut problem, &point)?;
     let row = plane(&mut problem, frequency_hz)?;

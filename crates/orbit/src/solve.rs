@@ -285,6 +285,29 @@ pub(crate) fn nodes_from(
     Ok(nodes)
 }
 
+/// Nodes of an orbit at so many equal phases, each from the stored one at or before it: also of an orbit that
+/// is left fast they lie on it.
+pub(crate) fn nodes_of(
+    integrator: &mut ExactIntegrator,
+    orbit: &PeriodicSolution,
+    segments: usize,
+) -> Result<Vec<Vec<f64>>, OrbitError> {
+    let (count, periods) = (orbit.nodes.len(), f64::from(orbit.period_multiple));
+    // In parts of a period of which both the stored nodes and the new ones are whole numbers.
+    let phase = |part: usize| orbit.phase + periods * part as f64 / (count * segments) as f64;
+    let mut nodes: Vec<Vec<f64>> = Vec::with_capacity(segments);
+    for k in 0..segments {
+        let (stored, at) = (k * count / segments, k * count);
+        let (from, state) = match nodes.last() {
+            Some(last) if (k - 1) * count > stored * segments => ((k - 1) * count, last),
+            _ => (stored * segments, &orbit.nodes[stored]),
+        };
+        let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: phase(from), end: phase(at) };
+        nodes.push(if from == at { state.clone() } else { integrator.advance(&stretch, state)? });
+    }
+    Ok(nodes)
+}
+
 /// Whether the orbit closes only after all its excitation periods.
 pub(crate) fn has_minimal_period(
     integrator: &mut ExactIntegrator,
@@ -314,4 +337,39 @@ pub(crate) fn orbit_near(
     let (point, correction) = approach(&mut problem, nodes, frequency_hz, (Wanted::Any, settings))?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use hammerbeam_motion::{Law, law::PowerSpring};
+
+    use super::*;
+    use crate::test_oscillator::oscillator;
+
+    /// On the hill of `x'' + 0.1 x' + x - x^3/10 = 1e-3 cos(0.2 pi t)` at `x = sqrt(10)` the larger multiplier
+    /// is `exp(10 l)` with `l^2 + 0.1 l - 2 = 0`, 8e5.
+    #[test]
+    fn nodes_of_an_orbit_that_is_left_fast_lie_on_it() {
+        let (system, response) = oscillator(0.1, 1e-3, Law::Power(PowerSpring::cubic(-0.1).unwrap()));
+        let settings = OrbitSettings::default();
+        let found = |count: usize| {
+            let guess = vec![vec![10.0_f64.sqrt(), 0.0]; count];
+            let motion = integrator(&system, &response, &settings).unwrap();
+            orbit_near(motion, (0.0, &guess), (0.1, 1), &settings).unwrap().0
+        };
+        let (orbit, other) = (found(12), found(5));
+        assert!(orbit.largest_multiplier() > 1e5);
+        let mut motion = integrator(&system, &response, &settings).unwrap();
+        let apart = |nodes: &[Vec<f64>]| {
+            let pairs = nodes.iter().flatten().zip(other.nodes.iter().flatten());
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        let nodes = nodes_of(&mut motion, &orbit, 5).unwrap();
+        assert!(nodes.len() == 5 && apart(&nodes) < 1e-9, "{:e}", apart(&nodes));
+        let from_first = nodes_from(&mut motion, (0.0, &orbit.nodes[0]), 0.1, 1, 5).unwrap();
+        assert!(apart(&from_first) > 1e2 * apart(&nodes), "{:e}", apart(&from_first));
+        assert_eq!(nodes_of(&mut motion, &orbit, 12).unwrap(), orbit.nodes);
+    }
 }

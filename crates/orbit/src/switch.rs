@@ -18,7 +18,7 @@ use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     shooting::ShootingProblem,
     size::orbit_scale,
-    solve::{evaluate, integrator, nodes_from, solution},
+    solve::{evaluate, integrator, solution},
     walk::{OrbitPath, hertz_per_norm, path_settings},
 };
 
@@ -104,8 +104,7 @@ impl Crossing {
         let mut integrator = integrator(system, response, settings)?;
         let (frequency_hz, multiple) = (self.orbit.frequency_hz, self.orbit.period_multiple * self.factor);
         let (segments, phase) = (self.orbit.nodes.len() * self.factor as usize, self.orbit.phase);
-        let nodes =
-            nodes_from(&mut integrator, (phase, &self.orbit.nodes[0]), frequency_hz, multiple, segments)?;
+        let nodes = vec![self.orbit.nodes.as_slice(); self.factor as usize].concat();
         let scale = orbit_scale(&mut integrator, &self.orbit)?;
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(phase);

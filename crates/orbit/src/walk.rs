@@ -26,7 +26,7 @@ use crate::{
     continuation_parameter::ContinuationParameter,
     shooting::ShootingProblem,
     size::orbit_scale,
-    solve::{evaluate, integrator, nodes_from},
+    solve::{evaluate, integrator, nodes_of},
 };
 pub(crate) use effort::{Effort, counted_operations};
 pub(crate) use growth::Growth;
@@ -105,8 +105,7 @@ impl BranchWalk {
         let scale = orbit_scale(&mut integrator, start)?;
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(system, start, settings);
-        let begin = (start.phase, start.nodes[0].as_slice());
-        let nodes = nodes_from(&mut integrator, begin, frequency, multiple, segments)?;
+        let nodes = nodes_of(&mut integrator, start, segments)?;
         let length = hertz_per_norm(range_hz);
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(start.phase);
