@@ -348,8 +348,8 @@ mod tests {
     use super::*;
     use crate::test_oscillator::oscillator;
 
-    /// On the hill of `x'' + 0.1 x' + x - x^3/10 = 1e-3 cos(0.2 pi t)` at `x = sqrt(10)` the larger multiplier
-    /// is `exp(10 l)` with `l^2 + 0.1 l - 2 = 0`, 8e5.
+    /// On the hill of `x'' + 0.1 x' + x - x^3/10 = 1e-3 cos(0.2 pi t)` at `x = sqrt(10)` the larger
+    /// multiplier is `exp(10 l)` with `l^2 + 0.1 l - 2 = 0`, 8e5.
     #[test]
     fn nodes_of_an_orbit_that_is_left_fast_lie_on_it() {
         let (system, response) = oscillator(0.1, 1e-3, Law::Power(PowerSpring::cubic(-0.1).unwrap()));

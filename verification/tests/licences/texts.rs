@@ -72,8 +72,8 @@ pub fn cargo(root: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The wanted ones, as cargo describes them. It is asked for this machine's packages alone: those of other systems
-/// are not here unless something has fetched them.
+/// The wanted ones, as cargo describes them. It is asked for this machine's packages alone: those of other
+/// systems are not here unless something has fetched them.
 fn packages(root: &Path, wanted: &BTreeSet<[String; 3]>) -> Vec<Package> {
     let about = cargo(root, &["-vV"]);
     let system = about.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
