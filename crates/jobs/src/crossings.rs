@@ -222,16 +222,12 @@ impl StoredBranches {
     ) -> Result<Option<PeriodicSolution>, StoreError> {
         let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
-        let nodes = if first.phase == second.phase && first.nodes.len() == second.nodes.len() {
-            let between =
-                |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
-            first.nodes.iter().zip(&second.nodes).map(between).collect()
-        } else if share < 0.5 {
-            first.nodes.clone()
-        } else {
-            second.nodes.clone()
-        };
+        let is_cut_alike = first.phase == second.phase && first.nodes.len() == second.nodes.len();
+        let between =
+            |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
+        let nodes = is_cut_alike.then(|| first.nodes.iter().zip(&second.nodes).map(between).collect());
         let nearer = if share < 0.5 { first } else { second };
+        let nodes = nodes.unwrap_or_else(|| nearer.nodes.clone());
         Ok(corrected(model, &PeriodicSolution { frequency_hz, nodes, ..nearer }))
     }
 }

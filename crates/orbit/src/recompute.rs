@@ -14,7 +14,7 @@ use hammerbeam_path::PathProblem;
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     shooting::ShootingProblem,
-    size::orbit_scale,
+    size::{Cut, orbit_scale},
     solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_of, solution},
 };
 
@@ -39,7 +39,7 @@ pub fn recompute(
         Segments::Fixed(count) => count.max(1),
         Segments::Automatic => given.nodes.len(),
     };
-    let nodes = nodes_of(&mut integrator, given, segments)?;
+    let nodes = nodes_of(&mut integrator, &Cut::of(given), segments)?;
     let scale = orbit_scale(&mut integrator, given)?;
     let mut problem =
         ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(given.phase);

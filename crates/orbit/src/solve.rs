@@ -271,38 +271,33 @@ pub(crate) fn observe(
 /// Nodes at equal phases of the motion from `state` at the phase `begin`.
 pub(crate) fn nodes_from(
     integrator: &mut ExactIntegrator,
-    (begin, state): (f64, &[f64]),
+    (phase, state): (f64, &[f64]),
     frequency_hz: f64,
     period_multiple: u32,
     segments: usize,
 ) -> Result<Vec<Vec<f64>>, OrbitError> {
-    let phase = |k: usize| begin + f64::from(period_multiple) * k as f64 / segments as f64;
-    let mut nodes = vec![state.to_vec()];
-    for k in 1..segments {
-        let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
-        nodes.push(integrator.advance(&stretch, &nodes[k - 1])?);
-    }
-    Ok(nodes)
+    let nodes = &[state.to_vec()];
+    nodes_of(integrator, &Cut { phase, nodes, frequency_hz, period_multiple }, segments)
 }
 
-/// Nodes of an orbit at so many equal phases, each from the stored one at or before it: also of an orbit that
+/// Nodes of a motion at so many equal phases, each from the given one at or before it: also of an orbit that
 /// is left fast they lie on it.
 pub(crate) fn nodes_of(
     integrator: &mut ExactIntegrator,
-    orbit: &PeriodicSolution,
+    cut: &Cut<'_>,
     segments: usize,
 ) -> Result<Vec<Vec<f64>>, OrbitError> {
-    let (count, periods) = (orbit.nodes.len(), f64::from(orbit.period_multiple));
-    // In parts of a period of which both the stored nodes and the new ones are whole numbers.
-    let phase = |part: usize| orbit.phase + periods * part as f64 / (count * segments) as f64;
+    let (count, periods) = (cut.nodes.len(), f64::from(cut.period_multiple));
+    // In parts of a period of which both the given nodes and the new ones are whole numbers.
+    let phase = |part: usize| cut.phase + periods * part as f64 / (count * segments) as f64;
     let mut nodes: Vec<Vec<f64>> = Vec::with_capacity(segments);
     for k in 0..segments {
-        let (stored, at) = (k * count / segments, k * count);
+        let (given, at) = (k * count / segments, k * count);
         let (from, state) = match nodes.last() {
-            Some(last) if (k - 1) * count > stored * segments => ((k - 1) * count, last),
-            _ => (stored * segments, &orbit.nodes[stored]),
+            Some(last) if (k - 1) * count > given * segments => ((k - 1) * count, last),
+            _ => (given * segments, &cut.nodes[given]),
         };
-        let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: phase(from), end: phase(at) };
+        let stretch = Stretch { frequency_hz: cut.frequency_hz, start: phase(from), end: phase(at) };
         nodes.push(if from == at { state.clone() } else { integrator.advance(&stretch, state)? });
     }
     Ok(nodes)
@@ -366,10 +361,10 @@ mod tests {
             let pairs = nodes.iter().flatten().zip(other.nodes.iter().flatten());
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
-        let nodes = nodes_of(&mut motion, &orbit, 5).unwrap();
+        let nodes = nodes_of(&mut motion, &Cut::of(&orbit), 5).unwrap();
         assert!(nodes.len() == 5 && apart(&nodes) < 1e-9, "{:e}", apart(&nodes));
         let from_first = nodes_from(&mut motion, (0.0, &orbit.nodes[0]), 0.1, 1, 5).unwrap();
         assert!(apart(&from_first) > 1e2 * apart(&nodes), "{:e}", apart(&from_first));
-        assert_eq!(nodes_of(&mut motion, &orbit, 12).unwrap(), orbit.nodes);
+        assert_eq!(nodes_of(&mut motion, &Cut::of(&orbit), 12).unwrap(), orbit.nodes);
     }
 }

@@ -25,7 +25,7 @@ use crate::{
     BranchRow, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     continuation_parameter::ContinuationParameter,
     shooting::ShootingProblem,
-    size::orbit_scale,
+    size::{Cut, orbit_scale},
     solve::{evaluate, integrator, nodes_of},
 };
 pub(crate) use effort::{Effort, counted_operations};
@@ -105,7 +105,7 @@ impl BranchWalk {
         let scale = orbit_scale(&mut integrator, start)?;
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(system, start, settings);
-        let nodes = nodes_of(&mut integrator, start, segments)?;
+        let nodes = nodes_of(&mut integrator, &Cut::of(start), segments)?;
         let length = hertz_per_norm(range_hz);
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(start.phase);
