@@ -259,3 +259,51 @@ impl Agenda {
         self.starts().map(|start| (start.up.rows.len() + start.down.rows.len()) as u64).sum()
     }
 }
+
+/// Jobs and starts for tests.
+#[cfg(test)]
+pub(super) mod examples {
+    use hammerbeam_results::store::JobKind;
+    use hammerbeam_study::StudyFile;
+
+    use super::{Job, JobRecord, Plan, Sketch, Start, WalkState};
+
+    pub fn plan() -> Plan {
+        let text = include_str!("../../../../studies/duffing.toml").to_owned();
+        Plan::of(&StudyFile::parse("study.toml", text).expect("a study").study)
+    }
+
+    /// A job that is not finished.
+    pub fn job(id: u32, kind: JobKind, evaluated: bool) -> Job {
+        let record = JobRecord {
+            id,
+            kind,
+            frequency_hz: 50.0,
+            source: None,
+            depth: 0,
+            evaluated,
+            message: None,
+            outcome: None,
+        };
+        Job { record, starts: Vec::new(), on_branch: None, running: false }
+    }
+
+    /// A start with rows of its upper side.
+    pub fn start(key: u32, branch: Option<u32>, rows: Vec<Sketch>) -> Start {
+        let up = WalkState { rows, ..WalkState::default() };
+        Start { key, period_multiple: 1, branch, doubtful: false, up, down: WalkState::default() }
+    }
+
+    /// A stable row without an event.
+    pub fn row(frequency_hz: f64) -> Sketch {
+        let (displacement, acceleration) = (1.0, 1.0);
+        Sketch {
+            frequency_hz,
+            displacement,
+            acceleration,
+            flip: false,
+            else_stable: true,
+            branch_point: false,
+        }
+    }
+}

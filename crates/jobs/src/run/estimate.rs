@@ -302,47 +302,16 @@ fn covered(agenda: &Agenda, plan: &Plan) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::agenda::{Sketch, WalkState};
-    use hammerbeam_results::store::{JobOutcome, JobRecord};
+    use crate::run::agenda::examples::{self, job, row, start};
+    use hammerbeam_results::store::JobOutcome;
 
     fn plan() -> Plan {
-        let text = include_str!("../../../../studies/duffing.toml").to_owned();
-        let study = hammerbeam_study::StudyFile::parse("study.toml", text).expect("a study").study;
-        Plan { range_hz: [0.0, 100.0], survey_hz: vec![], ..Plan::of(&study) }
-    }
-
-    fn job(id: u32, kind: JobKind, evaluated: bool) -> Job {
-        let record = JobRecord {
-            id,
-            kind,
-            frequency_hz: 50.0,
-            source: None,
-            depth: 0,
-            evaluated,
-            message: None,
-            outcome: None,
-        };
-        Job { record, starts: Vec::new(), on_branch: None, running: false }
+        Plan { range_hz: [0.0, 100.0], survey_hz: vec![], ..examples::plan() }
     }
 
     /// A harmonic branch that is walked from 0 Hz up to there, 10 solutions a hertz.
     fn walked_to(hertz: u32) -> Start {
-        let sketch = |number: u32| Sketch {
-            frequency_hz: f64::from(number) / 10.0,
-            displacement: 1.0,
-            acceleration: 1.0,
-            flip: false,
-            else_stable: true,
-            branch_point: false,
-        };
-        Start {
-            key: 0,
-            period_multiple: 1,
-            branch: Some(1),
-            doubtful: false,
-            up: WalkState { rows: (0..10 * hertz).map(sketch).collect(), ..WalkState::default() },
-            down: WalkState::default(),
-        }
+        start(0, Some(1), (0..10 * hertz).map(|number| row(f64::from(number) / 10.0)).collect())
     }
 
     /// Where a walk is all that there is to do, the part that is done is that of the range, almost.

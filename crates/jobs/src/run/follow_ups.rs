@@ -75,29 +75,15 @@ fn at_row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::agenda::{Sketch, WalkState};
+    use crate::run::agenda::{
+        Sketch,
+        examples::{self, row},
+    };
 
     fn jobs(unstable: bool) -> Vec<(JobKind, f64, Option<i64>, u32)> {
-        let text = include_str!("../../../../studies/duffing.toml");
-        let study = hammerbeam_study::StudyFile::parse("study.toml", text.to_owned()).expect("a study").study;
-        let plan = Plan { unstable, multiples: vec![1, 2], ..Plan::of(&study) };
-        let row = |frequency_hz, flip, else_stable| Sketch {
-            frequency_hz,
-            displacement: 1.0,
-            acceleration: 1.0,
-            flip,
-            else_stable,
-            branch_point: false,
-        };
-        let rows = vec![row(1.0, false, true), row(2.0, true, true), row(3.0, true, false)];
-        let start = Start {
-            key: 0,
-            period_multiple: 1,
-            branch: Some(1),
-            doubtful: false,
-            up: WalkState { rows, ..WalkState::default() },
-            down: WalkState::default(),
-        };
+        let plan = Plan { unstable, multiples: vec![1, 2], ..examples::plan() };
+        let flip = |frequency_hz, else_stable| Sketch { flip: true, else_stable, ..row(frequency_hz) };
+        let start = examples::start(0, Some(1), vec![row(1.0), flip(2.0, true), flip(3.0, false)]);
         of_branch(&start, 0, &plan)
     }
 

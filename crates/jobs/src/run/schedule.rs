@@ -2,9 +2,12 @@
 //! that are likely to be new.
 //!
 //! Walking ahead of a decision may be wasted. It is done only where the start lies on nothing that was
-//! walked so far, and first for period multiples that nobody is walking, then far from the starts of the
-//! walks under way: the other end of a branch is often near. The second side of a branch waits for the first
-//! one, which may close the branch, as long as there is anything else to do.
+//! walked so far. Of walks from searches those come first whose period multiple nobody is walking, then those
+//! far from the starts of the walks under way: the other end of a branch is often near. A branch that leaves
+//! another one mostly comes back to it at the next flip or branch point along it. So the first of them in
+//! order is walked, since it is the one that will be kept, and meanwhile the one behind it waits as long as
+//! there is another walk to begin. The second side of a branch waits for the first one, which may close the branch,
+//! as long as there is anything else to do.
 //!
 //! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So
 //! walks of branches that leave another one, awaited or not, go on in turns: always the one that has the
@@ -37,9 +40,9 @@ pub(super) fn next_task(
     if let Some(job) = job_to_evaluate(agenda, first) {
         return Ok(Some(begin_evaluation(agenda, store, plan, job)?));
     }
-    for kind in [Ahead::NewMultiple, Ahead::Leaving, Ahead::Search] {
+    for kind in [Ahead::NewMultiple, Ahead::Leaving, Ahead::Search, Ahead::Behind] {
         if let Some(walk) = walk_ahead(agenda, store, solver, plan, kind)? {
-            let share = (kind == Ahead::Leaving).then_some(plan.turn);
+            let share = kind.takes_turns().then_some(plan.turn);
             return Ok(Some(begin_walk(agenda, store, plan, walk, share)?));
         }
     }
@@ -107,6 +110,14 @@ enum Ahead {
     Leaving,
     /// From a search.
     Search,
+    /// A branch that leaves another one just behind one that is walked.
+    Behind,
+}
+
+impl Ahead {
+    fn takes_turns(self) -> bool {
+        matches!(self, Self::Leaving | Self::Behind)
+    }
 }
 
 /// A walk from a start that lies on nothing that was walked so far.
@@ -136,25 +147,38 @@ fn candidate<'a>(agenda: &'a Agenda, plan: &Plan, kind: Ahead) -> Option<(&'a St
         .filter(|start| start.up.running.is_some() || start.down.running.is_some())
         .map(|start| (start.period_multiple, begins_at(start)))
         .collect();
-    let leaving = kind == Ahead::Leaving;
+    let leaving = kind.takes_turns();
     let jobs = agenda.jobs.iter().filter(|job| is_open(job) && takes_turns(job) == leaving);
     let mut open = jobs
+        .filter(|job| !leaving || is_behind_a_walk(agenda, plan, job) == (kind == Ahead::Behind))
         .flat_map(|job| &job.starts)
         .filter(|start| if start.branch.is_some() { leaving } else { !start.doubtful })
         .filter_map(|start| Some((start, open_side(start, plan)?)));
     let apart = |start: &Start| {
         walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
     };
-    let farther = |a: &Start, b: &Start| apart(a).total_cmp(&apart(b));
     let turns = |start: &Start| (start.up.rows.len() + start.down.rows.len()) as u64 / plan.turn.max(1);
     match kind {
         Ahead::NewMultiple => {
             let is_new = |start: &Start| walked.iter().all(|(n, _)| *n != start.period_multiple);
             open.find(|(start, _)| is_new(start))
         }
-        Ahead::Leaving => open.min_by(|(a, _), (b, _)| turns(a).cmp(&turns(b)).then(farther(b, a))),
-        Ahead::Search => open.max_by(|(a, _), (b, _)| farther(a, b)),
+        Ahead::Leaving | Ahead::Behind => open.min_by_key(|(start, _)| turns(start)),
+        Ahead::Search => open.max_by(|(a, _), (b, _)| apart(a).total_cmp(&apart(b))),
     }
+}
+
+/// Whether the job just before this one has a branch that leaves another one and is not at its end: jobs of
+/// one branch are in order along it.
+fn is_behind_a_walk(agenda: &Agenda, plan: &Plan, job: &Job) -> bool {
+    let before = job.record.id.checked_sub(1).map(|id| &agenda.jobs[id as usize]);
+    let is_under_way = |start: &Start| is_begun(start) && !start.is_finished(plan);
+    before.is_some_and(|before| takes_turns(before) && before.starts.iter().any(is_under_way))
+}
+
+/// Whether more of a branch than its start is known, or a thread is at it.
+fn is_begun(start: &Start) -> bool {
+    [&start.up, &start.down].iter().any(|walk| walk.rows.len() > 1 || walk.running.is_some())
 }
 
 /// Frequency of a start [Hz].
@@ -246,5 +270,37 @@ fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<BranchOrigin, Stor
             Ok(BranchOrigin::Crossing(crossing(store, &job.record)?))
         }
         _ => Ok(BranchOrigin::Found(store.solution(key, Side::Up, 0)?)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::agenda::examples::{job, plan, row, start};
+
+    /// Four branches that leave another one, in order along it: no two neighbours are walked at once where
+    /// there is a choice, and the first comes first.
+    #[test]
+    fn branches_that_leave_another_one_are_walked_in_order_but_for_neighbours() {
+        let plan = plan();
+        let leaving = |id: u32| Job {
+            starts: vec![start(id, None, vec![row(f64::from(id))])],
+            ..job(id, JobKind::Doubling, true)
+        };
+        let mut agenda = Agenda { jobs: (0..4).map(leaving).collect() };
+        let next = |agenda: &Agenda, kind| candidate(agenda, &plan, kind).map(|(start, _)| start.key);
+        let set_running = |agenda: &mut Agenda, key: u32| {
+            let start = agenda.start_mut(key).expect("a start");
+            start.up.running = Some(Arc::default());
+        };
+        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (Some(0), None));
+        set_running(&mut agenda, 0);
+        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (Some(2), Some(1)));
+        set_running(&mut agenda, 2);
+        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (None, Some(1)));
+        agenda.jobs[0].starts[0].up.rows.push(row(0.5));
+        agenda.rest(0, Side::Up);
+        assert_eq!(next(&agenda, Ahead::Leaving), Some(0), "a walk that takes turns goes on");
+        assert_eq!(next(&agenda, Ahead::Behind), Some(1), "and its neighbour waits");
     }
 }
