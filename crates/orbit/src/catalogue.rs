@@ -88,6 +88,14 @@ impl<'a> Catalogue<'a> {
     /// # Errors
     /// [`OrbitError::Motion`] if it cannot be computed.
     pub fn scale_of_motion(&mut self, state: &[f64]) -> Result<StateScale, OrbitError> {
+        Ok(self.scale_and_next(state)?.0)
+    }
+
+    /// The same, and the state with which that period ends, unless laws remember their impacts.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if it cannot be computed.
+    pub fn scale_and_next(&mut self, state: &[f64]) -> Result<(StateScale, Option<Vec<f64>>), OrbitError> {
         let frequency_hz = self.frequency_hz;
         Ok(scale_from(self.integrator(), state, frequency_hz)?)
     }

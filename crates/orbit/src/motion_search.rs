@@ -47,6 +47,15 @@ pub(crate) struct Extent {
     pub wanted: Wanted,
 }
 
+/// A motion that is followed.
+struct Motion {
+    /// Its last states at successive excitation periods.
+    states: Vec<Vec<f64>>,
+    /// The state after those, if it is known.
+    next: Option<Vec<f64>>,
+    approach: Approach,
+}
+
 /// What a motion has come to after some periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Advanced {
@@ -134,21 +143,22 @@ impl<'a> MotionSearch<'a> {
 
     /// Follows a motion until it is seen where it goes.
     fn follow(&mut self, state: Vec<f64>, interrupted: Interruption<'_>) -> Result<(), OrbitError> {
-        let mut states = vec![state];
-        let mut approach = self.reached.approached();
+        let mut motion = Motion { states: vec![state], next: None, approach: self.reached.approached() };
         let (mut left, mut joined, mut has_repeated) = (self.extent.most, false, false);
-        while left > 0 {
+        let (mut states, scale) = loop {
             let more = (BETWEEN_LOOKS + self.largest).min(left);
-            if self.advance((&mut states, &mut approach), more, &mut *interrupted)? == Advanced::ToKnownOrbit
-            {
+            if self.advance(&mut motion, more, &mut *interrupted)? == Advanced::ToKnownOrbit {
                 return Ok(());
             }
             left -= more;
-            let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
+            let Motion { states, next, .. } = &mut motion;
+            let last = &states[states.len() - 1];
+            let scale;
+            (scale, *next) = self.catalogue.scale_and_next(last)?;
             // From an unstable orbit, where symmetry holds it, rounding takes it away in time.
-            if !has_repeated && let Some(period) = repeats_after(&states, &scale, self.largest) {
+            if !has_repeated && let Some(period) = repeats_after(states, &scale, self.largest) {
                 has_repeated = true;
-                if self.settle(&states[states.len() - 1], period as u32)? == Led::ToStable {
+                if self.settle(last, period as u32)? == Led::ToStable {
                     return Ok(());
                 }
             }
@@ -159,8 +169,10 @@ impl<'a> MotionSearch<'a> {
                 joined = true;
                 left = left.min(self.extent.kept);
             }
-        }
-        let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
+            if left == 0 {
+                break (motion.states, scale);
+            }
+        };
         if let Some(period) = nearly_repeats_after(&states, &scale, self.largest)
             && self.settle(&states[states.len() - 1], period as u32)? != Led::Nowhere
         {
@@ -177,7 +189,7 @@ impl<'a> MotionSearch<'a> {
     /// Whether the latest states of a motion are where another one wandered.
     fn has_joined(&self, latest: &[Vec<f64>], scale: &StateScale) -> bool {
         let is_there =
-            |state: &Vec<f64>| self.wandered.iter().any(|other| scale.distance(state, other) < SAME_PLACE);
+            |state: &Vec<f64>| self.wandered.iter().any(|other| scale.are_within(state, other, SAME_PLACE));
         latest.iter().filter(|state| is_there(state)).count() >= AMONG_WANDERED
     }
 
@@ -220,16 +232,20 @@ impl<'a> MotionSearch<'a> {
     /// Goes on by some periods and keeps the last states.
     fn advance(
         &mut self,
-        (states, approach): (&mut Vec<Vec<f64>>, &mut Approach),
+        motion: &mut Motion,
         periods: usize,
         interrupted: Interruption<'_>,
     ) -> Result<Advanced, OrbitError> {
+        let Motion { states, next, approach } = motion;
         let stretch = Stretch { frequency_hz: self.catalogue.frequency_hz, start: 0.0, end: 1.0 };
         for _ in 0..periods {
             if interrupted() {
                 return Err(OrbitError::Interrupted);
             }
-            let next = self.catalogue.integrator().advance(&stretch, &states[states.len() - 1])?;
+            let next = match next.take() {
+                Some(next) => next,
+                None => self.catalogue.integrator().advance(&stretch, &states[states.len() - 1])?,
+            };
             if approach.has_arrived(&self.reached, &next) {
                 return Ok(Advanced::ToKnownOrbit);
             }

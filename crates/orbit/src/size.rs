@@ -70,9 +70,7 @@ impl<'a> Cut<'a> {
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn size(&self, integrator: &mut ExactIntegrator, scale: &StateScale) -> Result<f64, MotionError> {
-        let states = self.states(integrator)?;
-        let scaled = states.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
-        Ok(scale.size_of_scaled(scaled, states.len()))
+        Ok(scale.size_of_motion(&self.states(integrator)?))
     }
 
     /// Largest magnitude of `shape . q` over the states that the size is made of.
@@ -90,10 +88,7 @@ impl<'a> Cut<'a> {
     /// [`MotionError`] if the motion cannot be computed.
     pub fn scale(&self, integrator: &mut ExactIntegrator) -> Result<StateScale, MotionError> {
         let mut scale = unit_scale(integrator.system(), self.frequency_hz);
-        let size = self.size(integrator, &scale)?;
-        if size > 0.0 {
-            scale.multiply(size);
-        }
+        scale.fit_to(&self.states(integrator)?);
         Ok(scale)
     }
 
@@ -118,8 +113,7 @@ impl<'a> Cut<'a> {
         let stretch = Stretch { frequency_hz: self.frequency_hz, start, end: phases[count - 1] };
         let states = integrator.trace(&stretch, &self.nodes[0], &phases)?.samples;
         let first = &states[..PER_PERIOD];
-        let scaled = first.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
-        let size = scale.size_of_scaled(scaled, PER_PERIOD).max(1e-3);
+        let size = scale.size_of_motion(first).max(1e-3);
         let distance = |periods: usize| {
             let later = &states[periods * PER_PERIOD..];
             let squares = first.iter().zip(later).map(|(a, b)| scale.distance(a, b).powi(2));
@@ -130,8 +124,9 @@ impl<'a> Cut<'a> {
 }
 
 /// The units in which the motion over the excitation period that begins with a state at phase 0 has the size
-/// one; those of the state alone where laws remember their impacts: the integrator knows what it has
-/// remembered for one motion only, which has yet to go on.
+/// one, and the state with which that period ends; those of the state alone, and no other state, where laws
+/// remember their impacts: the integrator knows what it has remembered for one motion only, which has yet to
+/// go on.
 ///
 /// # Errors
 /// [`MotionError`] if the motion cannot be computed.
@@ -139,12 +134,16 @@ pub(crate) fn scale_from(
     integrator: &mut ExactIntegrator,
     state: &[f64],
     frequency_hz: f64,
-) -> Result<StateScale, MotionError> {
+) -> Result<(StateScale, Option<Vec<f64>>), MotionError> {
     if integrator.system().remembers_impacts() {
-        return Ok(state_scale(integrator.system(), state, frequency_hz));
+        return Ok((state_scale(integrator.system(), state, frequency_hz), None));
     }
-    let nodes = [state.to_vec()];
-    Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 }.scale(integrator)
+    let phases: Vec<f64> = (1..PER_PERIOD).map(|k| k as f64 / PER_PERIOD as f64).collect();
+    let trace = integrator.trace(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, state, &phases)?;
+    let states: Vec<&[f64]> = std::iter::once(state).chain(trace.samples.iter().map(Vec::as_slice)).collect();
+    let mut scale = unit_scale(integrator.system(), frequency_hz);
+    scale.fit_to(&states);
+    Ok((scale, Some(trace.state)))
 }
 
 /// The units in which an orbit has the size one.

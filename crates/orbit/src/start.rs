@@ -182,7 +182,7 @@ fn settle(
         if found.is_some() {
             return Ok(found);
         }
-        let scale = scale_from(&mut simulation, &state, frequency_hz)?;
+        let (scale, _) = scale_from(&mut simulation, &state, frequency_hz)?;
         if scale.distance(&before, &state) < SETTLED {
             return Ok(None);
         }

@@ -54,6 +54,35 @@ impl StateScale {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
     }
 
+    /// Whether two states are nearer to one another than that: no more of them is looked at than tells it.
+    pub fn are_within(&self, a: &[f64], b: &[f64], distance: f64) -> bool {
+        // Beyond rounding of the square.
+        let enough = distance * distance * (1.0 + 8.0 * f64::EPSILON);
+        let mut square = 0.0;
+        for ((a, b), s) in a.iter().zip(b).zip(&self.scales) {
+            square += ((a - b) / s).powi(2);
+            if square > enough {
+                return false;
+            }
+        }
+        square.sqrt() < distance
+    }
+
+    /// Multiplies the scales by the size of a motion, if it has one.
+    pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) {
+        let size = self.size_of_motion(states);
+        if size > 0.0 {
+            self.multiply(size);
+        }
+    }
+
+    /// Size of a motion relative to the scale, from its states.
+    pub fn size_of_motion(&self, states: &[impl AsRef<[f64]>]) -> f64 {
+        let scaled =
+            states.iter().flat_map(|state| state.as_ref().iter().zip(&self.scales).map(|(z, s)| z / s));
+        self.size_of_scaled(scaled, states.len())
+    }
+
     /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the
     /// origin, whichever is less.
     pub fn size(&self, state: &[f64]) -> f64 {
@@ -83,10 +112,7 @@ pub(crate) fn unit_scale(system: &System, frequency_hz: f64) -> StateScale {
 /// them, are measured by their motion (`size.rs`).
 pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
     let mut scale = unit_scale(system, frequency_hz);
-    let size = scale.size(state);
-    if size > 0.0 {
-        scale.multiply(size);
-    }
+    scale.fit_to(&[state]);
     scale
 }
 
@@ -119,6 +145,17 @@ mod tests {
         assert_eq!(scale(40.0).size(&[3.0, 8.0]), 10.0, "a stop carries the weight");
         let nodes = [86.0, 8.0, 74.0, 8.0];
         assert_eq!(scale(40.0).size_of_scaled(nodes.into_iter(), 2), 10.0);
+    }
+
+    #[test]
+    fn states_are_within_a_distance_of_one_another_if_their_distance_is_less() {
+        let scale = StateScale::from_values(vec![0.5, 2.0, 1.0]);
+        let (a, b) = ([1.0, -3.0, 0.25], [1.5, 1.0, 0.5]);
+        let distance = scale.distance(&a, &b);
+        for (bound, is_within) in [(0.5, false), (distance, false), (distance.next_up(), true), (9.0, true)] {
+            assert_eq!(scale.are_within(&a, &b, bound), is_within, "{bound}");
+        }
+        assert!(!scale.are_within(&a, &[f64::NAN; 3], 9.0));
     }
 
     #[test]
