@@ -76,7 +76,7 @@ impl StateScale {
         }
     }
 
-    /// Size of a motion relative to the scale, from its states.
+    /// [`StateScale::size`] of the root of the mean square over states.
     pub fn size_of_motion(&self, states: &[impl AsRef<[f64]>]) -> f64 {
         let scaled =
             states.iter().flat_map(|state| state.as_ref().iter().zip(&self.scales).map(|(z, s)| z / s));
@@ -86,12 +86,10 @@ impl StateScale {
     /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the
     /// origin, whichever is less.
     pub fn size(&self, state: &[f64]) -> f64 {
-        let scaled = state.iter().zip(&self.scales).map(|(z, s)| z / s);
-        self.size_of_scaled(scaled, 1)
+        self.size_of_motion(&[state])
     }
 
-    /// [`StateScale::size`] of the root of the mean square over nodes, given one after the other in scaled
-    /// states.
+    /// [`StateScale::size_of_motion`] of nodes, given one after the other in scaled states.
     pub fn size_of_scaled(&self, scaled: impl Iterator<Item = f64>, nodes: usize) -> f64 {
         let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| z / s).cycle();
         let squares = scaled.zip(rest).map(|(x, rest)| [x * x, (x - rest).powi(2)]);

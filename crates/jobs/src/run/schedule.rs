@@ -6,8 +6,8 @@
 //! far from the starts of the walks under way: the other end of a branch is often near. A branch that leaves
 //! another one mostly comes back to it at the next flip or branch point along it. So the first of them in
 //! order is walked, since it is the one that will be kept, and meanwhile the one behind it waits as long as
-//! there is another walk to begin. The second side of a branch waits for the first one, which may close the branch,
-//! as long as there is anything else to do.
+//! there is another walk to begin. The second side of a branch waits for the first one, which may close the
+//! branch, as long as there is anything else to do.
 //!
 //! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So
 //! walks of branches that leave another one, awaited or not, go on in turns: always the one that has the
