@@ -21,7 +21,7 @@
 //! that direction.
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm};
+use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm, weighed};
 
 use crate::shooting::ShootingProblem;
 
@@ -219,8 +219,7 @@ fn contact_scale(problem: &ShootingProblem) -> [f64; 2] {
 /// Largest length by which a closure error of one moves the orbit, as two of them show.
 fn response_to_closure(problem: &mut ShootingProblem, point: &ContinuationPoint) -> Option<f64> {
     let weights = problem.weights().to_vec();
-    let row: Vec<f64> = point.tangent.iter().zip(&weights).map(|(t, w)| t * w).collect();
-    problem.factorise(&row).ok()?;
+    problem.factorise(&weighed(&weights, &point.tangent)).ok()?;
     let last = weights.len() - 1;
     let response = |sign: f64| {
         let mut vector: Vec<f64> = (0..weights.len()).map(|i| sign.powi(i as i32)).collect();
@@ -305,8 +304,7 @@ fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
 /// Direction in which the other branch leaves a branch point, orthogonal to the present one.
 fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) -> Option<Vec<f64>> {
     let weights = problem.weights().to_vec();
-    let row: Vec<f64> = point.tangent.iter().zip(&weights).map(|(t, w)| t * w).collect();
-    problem.factorise(&row).ok()?;
+    problem.factorise(&weighed(&weights, &point.tangent)).ok()?;
     let last = weights.len() - 1;
     let mut vector = vec![1.0; weights.len()];
     for _ in 0..3 {

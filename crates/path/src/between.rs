@@ -6,7 +6,7 @@ use crate::{
     point::{ContinuationPoint, Counters, PathEvents},
     predictor::{Node, hermite},
     problem::PathProblem,
-    product::{distance, product, progress, weigh},
+    product::{distance, product, progress, weighed},
     settings::Settings,
 };
 
@@ -40,8 +40,7 @@ pub fn solve_between(
     let step = distance(&weights, &second.point, &first.point);
     let mut candidate = Candidate::new(weights.len());
     hermite(&weights, &first, [&second], sigma, &mut candidate.point);
-    let mut row = vec![0.0; weights.len()];
-    weigh(&weights, &first.tangent, &mut row);
+    let row = weighed(&weights, &first.tangent);
     let mut counters = Counters::default();
     candidate
         .correct(problem, &weights, &row, settings.limits(step), &mut counters)

@@ -104,7 +104,7 @@ pub use judge::{Judge, Outside, RootCorner};
 pub use point::{ContinuationPoint, Counters, PathEvents};
 pub use predictor::{History, Node};
 pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestKind, TestValue};
-pub use product::{distance, norm};
+pub use product::{distance, norm, weighed};
 pub use settings::{ParameterRange, Settings};
 pub use state::PathState;
 pub use test_record::TestRecord;

@@ -34,7 +34,13 @@ pub(crate) fn scale(a: &mut [f64], factor: f64) {
     }
 }
 
-/// `row ← W t`, so that `row · a = ⟨t, a⟩`.
+/// `W t`, the row with which `row · a = ⟨t, a⟩`.
+#[must_use]
+pub fn weighed(weights: &[f64], t: &[f64]) -> Vec<f64> {
+    weights.iter().zip(t).map(|(w, x)| w * x).collect()
+}
+
+/// `row ← W t`.
 pub(crate) fn weigh(weights: &[f64], t: &[f64], row: &mut [f64]) {
     for ((r, w), x) in row.iter_mut().zip(weights).zip(t) {
         *r = w * x;

@@ -1,6 +1,6 @@
 //! The rows of a walk.
 
-use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance};
+use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance, weighed};
 
 use super::{
     last_rows::{LastRows, RowPlace},
@@ -109,7 +109,7 @@ pub(super) fn row_at(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
 /// Norm of the correction normal to a direction that is due where the problem was evaluated last.
 fn correction_due(path: &mut OrbitPath, direction: &[f64]) -> f64 {
     let problem = &mut path.problem;
-    let border: Vec<f64> = direction.iter().zip(problem.weights()).map(|(t, w)| t * w).collect();
+    let border = weighed(problem.weights(), direction);
     update_here(problem, &border).map_or(f64::INFINITY, |(_, size)| size)
 }
 

@@ -7,7 +7,7 @@ use crate::{
     error::{PathError, PathStop},
     point::{ContinuationPoint, Counters, PathEvents},
     problem::PathProblem,
-    product::{norm, scale, weigh},
+    product::{norm, scale, weighed},
     settings::{ParameterRange, Settings},
     state::PathState,
     test_record::TestRecord,
@@ -70,14 +70,14 @@ fn check_inside(parameter: f64, range: ParameterRange) -> Result<(), PathError> 
 
 pub(super) fn first_border(direction: StartDirection<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
     let length = weights.len();
-    let mut row = vec![0.0; length];
-    if let StartDirection::Along(vector) = direction {
-        check_length(vector.len(), length)?;
-        weigh(weights, vector, &mut row);
-        scale(&mut row, 1.0 / norm(weights, vector));
-    } else {
+    let StartDirection::Along(vector) = direction else {
+        let mut row = vec![0.0; length];
         row[length - 1] = 1.0;
-    }
+        return Ok(row);
+    };
+    check_length(vector.len(), length)?;
+    let mut row = weighed(weights, vector);
+    scale(&mut row, 1.0 / norm(weights, vector));
     Ok(row)
 }
 
