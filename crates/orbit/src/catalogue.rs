@@ -91,7 +91,7 @@ impl<'a> Catalogue<'a> {
         Ok(self.scale_and_next(state)?.0)
     }
 
-    /// The same, and the state with which that period ends, unless laws remember their impacts.
+    /// Scale of that motion, and the state with which it ends, where it is known (`size.rs`).
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if it cannot be computed.

@@ -153,8 +153,8 @@ impl<'a> MotionSearch<'a> {
             left -= more;
             let Motion { states, next, .. } = &mut motion;
             let last = &states[states.len() - 1];
-            let scale;
-            (scale, *next) = self.catalogue.scale_and_next(last)?;
+            let (scale, after) = self.catalogue.scale_and_next(last)?;
+            *next = after;
             // From an unstable orbit, where symmetry holds it, rounding takes it away in time.
             if !has_repeated && let Some(period) = repeats_after(states, &scale, self.largest) {
                 has_repeated = true;

@@ -124,9 +124,9 @@ impl<'a> Cut<'a> {
 }
 
 /// The units in which the motion over the excitation period that begins with a state at phase 0 has the size
-/// one, and the state with which that period ends; those of the state alone, and no other state, where laws
-/// remember their impacts: the integrator knows what it has remembered for one motion only, which has yet to
-/// go on.
+/// one, and the state with which that period ends, unless the motion fails behind the last of the states that
+/// tell the size. Where laws remember their impacts the units are those of the state alone: the integrator
+/// knows what it has remembered for one motion only, which has yet to go on.
 ///
 /// # Errors
 /// [`MotionError`] if the motion cannot be computed.
@@ -139,7 +139,11 @@ pub(crate) fn scale_from(
         return Ok((state_scale(integrator.system(), state, frequency_hz), None));
     }
     let phases: Vec<f64> = (1..PER_PERIOD).map(|k| k as f64 / PER_PERIOD as f64).collect();
-    let trace = integrator.trace(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, state, &phases)?;
+    let Ok(trace) = integrator.trace(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, state, &phases) else {
+        let nodes = [state.to_vec()];
+        let begin = Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 };
+        return Ok((begin.scale(integrator)?, None));
+    };
     let states: Vec<&[f64]> = std::iter::once(state).chain(trace.samples.iter().map(Vec::as_slice)).collect();
     let mut scale = unit_scale(integrator.system(), frequency_hz);
     scale.fit_to(&states);

@@ -280,8 +280,8 @@ pub(crate) fn nodes_from(
     nodes_of(integrator, &Cut { phase, nodes, frequency_hz, period_multiple }, segments)
 }
 
-/// Nodes of a motion at so many equal phases, each from the given one at or before it: also of an orbit that
-/// is left fast they lie on it.
+/// Nodes of a motion at so many equal phases, at least one, each from the given one at or before it: they lie
+/// on an orbit also where it is left fast.
 pub(crate) fn nodes_of(
     integrator: &mut ExactIntegrator,
     cut: &Cut<'_>,

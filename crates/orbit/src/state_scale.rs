@@ -54,10 +54,10 @@ impl StateScale {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Whether two states are nearer to one another than that: no more of them is looked at than tells it.
-    pub fn are_within(&self, a: &[f64], b: &[f64], distance: f64) -> bool {
+    /// Whether the distance of two states is less than a bound: no more of them is looked at than tells it.
+    pub fn are_within(&self, a: &[f64], b: &[f64], bound: f64) -> bool {
         // Beyond rounding of the square.
-        let enough = distance * distance * (1.0 + 8.0 * f64::EPSILON);
+        let enough = bound * bound * (1.0 + 8.0 * f64::EPSILON);
         let mut square = 0.0;
         for ((a, b), s) in a.iter().zip(b).zip(&self.scales) {
             square += ((a - b) / s).powi(2);
@@ -65,7 +65,7 @@ impl StateScale {
                 return false;
             }
         }
-        square.sqrt() < distance
+        square.sqrt() < bound
     }
 
     /// Multiplies the scales by the size of a motion, if it has one.

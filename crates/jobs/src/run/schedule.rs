@@ -5,8 +5,8 @@
 //! walked so far. Of walks from searches those come first whose period multiple nobody is walking, then those
 //! far from the starts of the walks under way: the other end of a branch is often near. A branch that leaves
 //! another one mostly comes back to it at the next flip or branch point along it. So the first of them in
-//! order is walked, since it is the one that will be kept, and meanwhile the one behind it waits as long as
-//! there is another walk to begin. The second side of a branch waits for the first one, which may close the
+//! order is walked, since it is the one that will be kept, and meanwhile the one behind it is not begun as
+//! long as there is another walk. The second side of a branch waits for the first one, which may close the
 //! branch, as long as there is anything else to do.
 //!
 //! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So
@@ -17,7 +17,7 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use hammerbeam_orbit::{Crossing, Side};
-use hammerbeam_results::store::{JobKind, JobRecord, Store, StoreError};
+use hammerbeam_results::store::{JobKind, JobRecord, Store, StoreError, start_of_key};
 
 use super::{
     BranchOrigin, Plan, Solver,
@@ -110,7 +110,7 @@ enum Ahead {
     Leaving,
     /// From a search.
     Search,
-    /// A branch that leaves another one just behind one that is walked.
+    /// A branch that leaves another one, in turns, to be begun just behind one that is under way.
     Behind,
 }
 
@@ -144,15 +144,15 @@ fn walk_ahead(
 fn candidate<'a>(agenda: &'a Agenda, plan: &Plan, kind: Ahead) -> Option<(&'a Start, (u32, Side))> {
     let walked: Vec<(u32, f64)> = agenda
         .starts()
-        .filter(|start| start.up.running.is_some() || start.down.running.is_some())
+        .filter(|start| is_walked(start))
         .map(|start| (start.period_multiple, begins_at(start)))
         .collect();
-    let leaving = kind.takes_turns();
-    let jobs = agenda.jobs.iter().filter(|job| is_open(job) && takes_turns(job) == leaving);
+    let in_turns = kind.takes_turns();
+    let jobs = agenda.jobs.iter().filter(|job| is_open(job) && takes_turns(job) == in_turns);
     let mut open = jobs
-        .filter(|job| !leaving || is_behind_a_walk(agenda, plan, job) == (kind == Ahead::Behind))
+        .filter(|job| !in_turns || is_behind_a_walk(agenda, plan, job) == (kind == Ahead::Behind))
         .flat_map(|job| &job.starts)
-        .filter(|start| if start.branch.is_some() { leaving } else { !start.doubtful })
+        .filter(|start| if start.branch.is_some() { in_turns } else { !start.doubtful })
         .filter_map(|start| Some((start, open_side(start, plan)?)));
     let apart = |start: &Start| {
         walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
@@ -168,17 +168,30 @@ fn candidate<'a>(agenda: &'a Agenda, plan: &Plan, kind: Ahead) -> Option<(&'a St
     }
 }
 
-/// Whether the job just before this one has a branch that leaves another one and is not at its end: jobs of
-/// one branch are in order along it.
+/// Whether nothing of a job's branches is walked yet while the branch that leaves the same one just before it
+/// is under way: jobs of one branch are in order along it.
 fn is_behind_a_walk(agenda: &Agenda, plan: &Plan, job: &Job) -> bool {
-    let before = job.record.id.checked_sub(1).map(|id| &agenda.jobs[id as usize]);
-    let is_under_way = |start: &Start| is_begun(start) && !start.is_finished(plan);
-    before.is_some_and(|before| takes_turns(before) && before.starts.iter().any(is_under_way))
+    let leaves = |job: &Job| (job.record.kind, job.record.source.map(start_of_key));
+    let earlier = &agenda.jobs[..job.record.id as usize];
+    let before = earlier.iter().rev().find(|before| leaves(before) == leaves(job));
+    !job.starts.iter().any(is_begun)
+        && before.is_some_and(|before| before.starts.iter().any(|start| is_under_way(start, plan)))
 }
 
 /// Whether more of a branch than its start is known, or a thread is at it.
 fn is_begun(start: &Start) -> bool {
-    [&start.up, &start.down].iter().any(|walk| walk.rows.len() > 1 || walk.running.is_some())
+    is_walked(start) || [&start.up, &start.down].iter().any(|walk| walk.rows.len() > 1)
+}
+
+/// Whether a thread is at a branch, or rests between two turns.
+fn is_under_way(start: &Start, plan: &Plan) -> bool {
+    let goes_on = || (start.branch.is_some() || !start.doubtful) && open_side(start, plan).is_some();
+    is_walked(start) || is_begun(start) && goes_on()
+}
+
+/// Whether a thread is at a branch.
+fn is_walked(start: &Start) -> bool {
+    start.up.running.is_some() || start.down.running.is_some()
 }
 
 /// Frequency of a start [Hz].
@@ -275,32 +288,61 @@ fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<BranchOrigin, Stor
 
 #[cfg(test)]
 mod tests {
+    use hammerbeam_orbit::StopReason;
+    use hammerbeam_results::store::solution_key;
+
     use super::*;
     use crate::run::agenda::examples::{job, plan, row, start};
 
-    /// Four branches that leave another one, in order along it: no two neighbours are walked at once where
-    /// there is a choice, and the first comes first.
-    #[test]
-    fn branches_that_leave_another_one_are_walked_in_order_but_for_neighbours() {
+    /// A flip at the row of this number of a branch, with a start of the doubled branch.
+    fn doubling(id: u32, source: i64) -> Job {
+        let mut doubled = start(id, None, vec![row(f64::from(id))]);
+        doubled.down.end = Some(StopReason::Closed.into());
+        let mut job = job(id, JobKind::Doubling, true);
+        job.record.source = Some(source);
+        job.starts.push(doubled);
+        job
+    }
+
+    fn begin(agenda: &mut Agenda, key: u32) {
+        agenda.start_mut(key).expect("a start").up.running = Some(Arc::default());
+    }
+
+    /// A thread leaves the walk after a turn.
+    fn rest(agenda: &mut Agenda, key: u32) {
+        agenda.start_mut(key).expect("a start").up.rows.push(row(0.5));
+        agenda.rest(key, Side::Up);
+    }
+
+    /// Branches to go on with next, not behind one under way and behind one.
+    fn next(agenda: &Agenda) -> [Option<u32>; 2] {
         let plan = plan();
-        let leaving = |id: u32| Job {
-            starts: vec![start(id, None, vec![row(f64::from(id))])],
-            ..job(id, JobKind::Doubling, true)
-        };
-        let mut agenda = Agenda { jobs: (0..4).map(leaving).collect() };
-        let next = |agenda: &Agenda, kind| candidate(agenda, &plan, kind).map(|(start, _)| start.key);
-        let set_running = |agenda: &mut Agenda, key: u32| {
-            let start = agenda.start_mut(key).expect("a start");
-            start.up.running = Some(Arc::default());
-        };
-        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (Some(0), None));
-        set_running(&mut agenda, 0);
-        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (Some(2), Some(1)));
-        set_running(&mut agenda, 2);
-        assert_eq!((next(&agenda, Ahead::Leaving), next(&agenda, Ahead::Behind)), (None, Some(1)));
-        agenda.jobs[0].starts[0].up.rows.push(row(0.5));
-        agenda.rest(0, Side::Up);
-        assert_eq!(next(&agenda, Ahead::Leaving), Some(0), "a walk that takes turns goes on");
-        assert_eq!(next(&agenda, Ahead::Behind), Some(1), "and its neighbour waits");
+        [Ahead::Leaving, Ahead::Behind].map(|kind| candidate(agenda, &plan, kind).map(|(start, _)| start.key))
+    }
+
+    #[test]
+    fn branches_that_leave_another_one_are_begun_in_order_but_for_the_one_behind() {
+        let mut agenda = Agenda { jobs: (0..4).map(|id| doubling(id, i64::from(id))).collect() };
+        assert_eq!(next(&agenda), [Some(0), None]);
+        begin(&mut agenda, 0);
+        assert_eq!(next(&agenda), [Some(2), Some(1)]);
+        begin(&mut agenda, 2);
+        assert_eq!(next(&agenda), [None, Some(1)]);
+        rest(&mut agenda, 0);
+        assert_eq!(next(&agenda), [Some(0), Some(1)], "a walk that takes turns goes on");
+        begin(&mut agenda, 1);
+        rest(&mut agenda, 2);
+        assert_eq!(next(&agenda), [Some(0), Some(3)], "also behind one that was begun later");
+    }
+
+    #[test]
+    fn a_branch_waits_for_none_that_leaves_elsewhere_or_will_not_go_on() {
+        let elsewhere = solution_key(7, Side::Up, 0);
+        let mut agenda = Agenda { jobs: vec![doubling(0, 0), doubling(1, elsewhere), doubling(2, 1)] };
+        begin(&mut agenda, 0);
+        assert_eq!(next(&agenda), [Some(1), Some(2)], "0 and 2 leave one branch, 1 another");
+        rest(&mut agenda, 0);
+        agenda.start_mut(0).expect("a start").doubtful = true;
+        assert_eq!(next(&agenda), [Some(1), None]);
     }
 }
