@@ -4,8 +4,8 @@ mod places;
 
 use hammerbeam_orbit::{
     BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
-    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, find_orbits, find_start_unless,
-    harmonic_trials, probe, reach_orbit, settled_orbit, survey,
+    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, Wanted, find_orbits,
+    find_start_unless, harmonic_trials, probe, reach_orbit, settled_orbit, survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -40,8 +40,6 @@ pub struct OrbitSolver<'m> {
     spacing_hz: f64,
     /// Trials without a new harmonic solution.
     trials: usize,
-    /// Whether unstable solutions are wanted.
-    unstable_starts: bool,
 }
 
 impl<'m> OrbitSolver<'m> {
@@ -49,21 +47,17 @@ impl<'m> OrbitSolver<'m> {
     #[must_use]
     pub fn new(model: &'m Model, study: &Study) -> Self {
         let [low, high] = study.excitation.range_hz();
-        let usual = SurveyEffort::default();
+        let unstable_starts = study.search.unstable_starts;
+        let wanted = if unstable_starts { Wanted::Any } else { Wanted::StableNearby };
         Self {
             model,
             range_hz: (low, high),
             settings: settings(&study.continuation),
             budget: study.continuation.budget_solutions,
-            effort: SurveyEffort {
-                starts: study.search.starts as usize,
-                settling: study.search.settling_periods as usize,
-                ..usual
-            },
+            effort: effort(&study.search, wanted),
             multiples: study.response.period_multiples.clone(),
             spacing_hz: (high - low) / f64::from(study.search.frequencies.max(1)),
-            trials: if study.search.unstable_starts { study.search.trials as usize } else { 0 },
-            unstable_starts: study.search.unstable_starts,
+            trials: if unstable_starts { study.search.trials as usize } else { 0 },
         }
     }
 
@@ -156,6 +150,16 @@ pub(crate) fn settings(continuation: &file::ContinuationTable) -> OrbitSettings 
     }
 }
 
+/// The effort of the surveys of a study.
+pub(crate) fn effort(search: &file::Search, wanted: Wanted) -> SurveyEffort {
+    SurveyEffort {
+        starts: search.starts as usize,
+        settling: search.settling_periods as usize,
+        wanted,
+        ..SurveyEffort::default()
+    }
+}
+
 fn surveyed(FoundOrbits { orbits, incomplete }: FoundOrbits) -> Surveyed {
     let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
     Surveyed { solutions: orbits, incomplete }
@@ -193,8 +197,6 @@ impl Solver for OrbitSolver<'_> {
                 .map_err(|error| error.to_string())?;
         let far = self.far((frequency_hz, multiples), &found, &mut *interrupted)?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found.found;
-        // What has not settled yet may be near a stable solution, too.
-        found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());
         if self.trials > 0 && multiples.contains(&1) {
             for part in 0..TRIED_IN_A_PART {
                 let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;

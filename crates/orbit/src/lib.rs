@@ -156,6 +156,7 @@ pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
+pub use solve::Wanted;
 pub use spectrum::Stability;
 pub use start::{Interruption, find_start, find_start_unless, settled_orbit};
 pub use stop::{ResonantMode, StopReason};

@@ -136,7 +136,7 @@ impl<'a> MotionSearch<'a> {
         let (multiples, wanted) = (self.multiples, self.extent.wanted);
         let known = self.catalogue.known.into_iter().map(|known| known.solution);
         let is_wanted = |orbit: &PeriodicSolution| {
-            multiples.contains(&orbit.period_multiple) && (wanted == Wanted::Any || orbit.stable())
+            multiples.contains(&orbit.period_multiple) && (wanted == Wanted::Any || orbit.may_be_stable())
         };
         FoundOrbits { orbits: known.filter(is_wanted).collect(), incomplete }
     }
@@ -206,7 +206,7 @@ impl<'a> MotionSearch<'a> {
                 is_near_stable |= self.look_from(nodes, multiple, &mut *interrupted)? == Led::ToStable;
                 // From all states and from the first one alone Newton's method goes different ways; either
                 // may arrive.
-                if multiple > 1 && self.extent.wanted == Wanted::Any {
+                if multiple > 1 {
                     let led = self.look_from(&nodes[..1], multiple, &mut *interrupted)?;
                     is_near_stable |= led == Led::ToStable;
                 }

@@ -38,7 +38,7 @@ const LEAST_ASTRAY: u64 = 4000;
 
 /// Which orbits Newton's method is to find.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wanted {
+pub enum Wanted {
     /// Whichever it comes to.
     Any,
     /// Stable ones near the guess: it ends early where it comes to none.

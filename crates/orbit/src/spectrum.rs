@@ -166,15 +166,11 @@ fn least_singular_value(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> f64
     if lu.factorise(width, &matrix).is_err() {
         return 0.0;
     }
-    let mut squares = 0.0;
-    let mut column = vec![0.0; width];
-    for k in 0..size {
-        column.fill(0.0);
-        column[k] = 1.0;
-        lu.solve(&mut column);
-        squares += column.iter().map(|entry| entry * entry).sum::<f64>();
-    }
-    1.0 / squares.sqrt()
+    // The other half of the inverse has the same entries.
+    let mut inverse = vec![0.0; width * size];
+    (0..size).for_each(|k| inverse[k * size + k] = 1.0);
+    lu.solve_rows(&mut inverse, size);
+    1.0 / norm(&inverse)
 }
 
 #[cfg(test)]

@@ -27,11 +27,13 @@ pub struct SurveyEffort {
     pub observed: usize,
     /// Near-returns tried for each start and period multiple.
     pub near_returns: usize,
+    /// What is looked for there.
+    pub wanted: Wanted,
 }
 
 impl Default for SurveyEffort {
     fn default() -> Self {
-        Self { starts: 7, settling: 128, observed: 96, near_returns: 2 }
+        Self { starts: 7, settling: 128, observed: 96, near_returns: 2, wanted: Wanted::Any }
     }
 }
 
@@ -68,7 +70,7 @@ pub fn survey(
         kept: observed,
         near_returns: effort.near_returns,
         fruitless: FRUITLESS,
-        wanted: Wanted::Any,
+        wanted: effort.wanted,
     };
     let starts = starting_states(system, response, frequency_hz, effort.starts, settings)?;
     let mut search = MotionSearch::new((system, response), (frequency_hz, multiples), extent, settings)?;

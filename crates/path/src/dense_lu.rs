@@ -69,6 +69,31 @@ impl DenseLu {
         }
     }
 
+    /// Solves `A X = B` in place for matrices of so many columns, stored row by row: much quicker than one
+    /// column after the other.
+    pub fn solve_rows(&self, right_hand_sides: &mut [f64], columns: usize) {
+        let n = self.size;
+        for (i, &j) in self.exchanges.iter().enumerate().filter(|(i, j)| i != *j) {
+            let (above, below) = right_hand_sides.split_at_mut(j * columns);
+            above[i * columns..(i + 1) * columns].swap_with_slice(&mut below[..columns]);
+        }
+        let subtract = |row: &mut [f64], factors: &[f64], known: &[f64]| {
+            for (&factor, known) in factors.iter().zip(known.chunks_exact(columns)) {
+                row.iter_mut().zip(known).for_each(|(entry, known)| *entry -= factor * known);
+            }
+        };
+        for i in 1..n {
+            let (known, open) = right_hand_sides.split_at_mut(i * columns);
+            subtract(&mut open[..columns], &self.factors[i * n..i * n + i], known);
+        }
+        for i in (0..n).rev() {
+            let (open, known) = right_hand_sides.split_at_mut((i + 1) * columns);
+            let (row, factors) = (&mut open[i * columns..], &self.factors[i * n..(i + 1) * n]);
+            subtract(row, &factors[i + 1..], known);
+            row.iter_mut().for_each(|entry| *entry /= factors[i]);
+        }
+    }
+
     /// Determinant of the last factorised matrix.
     #[must_use]
     pub fn determinant(&self) -> Determinant {
@@ -132,6 +157,26 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn columns_at_once_are_those_one_after_the_other() {
+        let matrix: Vec<f64> = (0..25)
+            .map(|k| f64::from((k * 7 + k * k * 3) % 11) - if k % 6 == 0 { 9.0 } else { 4.0 })
+            .collect();
+        let mut lu = DenseLu::new();
+        lu.factorise(5, &matrix).unwrap();
+        assert!(lu.exchanges.iter().enumerate().any(|(i, &j)| i != j));
+        let mut rows: Vec<f64> = (0..15).map(|k| f64::from(k * k % 13)).collect();
+        let columns = [0, 1, 2].map(|c| {
+            let mut column: Vec<f64> = (0..5).map(|i| rows[3 * i + c]).collect();
+            lu.solve(&mut column);
+            column
+        });
+        lu.solve_rows(&mut rows, 3);
+        for (k, found) in rows.iter().enumerate() {
+            assert_relative_eq!(*found, columns[k % 3][k / 3], max_relative = 1e-12);
+        }
+    }
 
     #[test]
     fn determinant_of_a_permuted_triangle_has_the_sign_of_the_permutation() {

@@ -1,6 +1,6 @@
 //! Orbits that are followed as parameters change.
 
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, SurveyEffort, neighbouring_orbit, survey};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, SurveyEffort, Wanted, neighbouring_orbit, survey};
 use hammerbeam_study::{Model, file::Study};
 
 use crate::{comparison::history::history, orbit_solver};
@@ -19,14 +19,9 @@ pub(super) struct Orbits {
 
 impl Orbits {
     pub fn new(study: &Study) -> Self {
-        let usual = SurveyEffort::default();
         Self {
             settings: orbit_solver::settings(&study.continuation),
-            effort: SurveyEffort {
-                starts: study.search.starts as usize,
-                settling: study.search.settling_periods as usize,
-                ..usual
-            },
+            effort: orbit_solver::effort(&study.search, Wanted::StableNearby),
         }
     }
 
@@ -60,9 +55,7 @@ impl Orbits {
         let found =
             survey(system, response, frequency_hz, &multiples, &self.effort, &self.settings, &mut || false);
         let found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?;
-        let mut found = found.found.orbits;
-        found.retain(PeriodicSolution::may_be_stable);
-        Ok(found)
+        Ok(found.found.orbits)
     }
 
     /// The orbits of a model from those of a model beside it.

@@ -17,7 +17,7 @@ use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 /// units.
 const OUTGROWN: f64 = 4.0;
 /// At every so many accepted points the motion is gone through for its size.
-const LOOK: u64 = 8;
+const LOOK: u64 = 16;
 
 /// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more
 /// segments. A segment of 3e6 makes steps of a millionth of a hertz.
