@@ -13,12 +13,13 @@ const MERGED: f64 = 1e-3;
 const SAME: f64 = 1e-7;
 
 /// Distance from an orbit of shorter period, relative to the orbit, within which a branch that goes there in
-/// steps far shorter than that has arrived, if its frequency has nothing left to change: then it is located
-/// as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the
-/// choice of contact steps: it is more than what the frequency still has to change.
-const NO_PROGRESS_NEAR: f64 = 1e-4;
-/// Nothing left: this part of the frequency, by the slope there times the distance.
-const STILL: f64 = 2e-9;
+/// steps far shorter than that has arrived, if its frequency has next to nothing left to change: the flip
+/// itself is then found from the other branch (`half_orbit.rs`). What holds the steps up is the error of the
+/// motion, which changes with the choice of contact steps: it is more than what the frequency changes in a
+/// step.
+const NO_PROGRESS_NEAR: f64 = 5e-3;
+/// Next to nothing left: this part of the frequency, by the slope there times the distance.
+const STILL: f64 = 2e-8;
 /// Far shorter: this part of the distance.
 const LITTLE: f64 = 0.02;
 
