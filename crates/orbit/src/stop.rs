@@ -63,8 +63,8 @@ pub enum StopReason {
         /// whole orbit.
         largest_multiplier: f64,
     },
-    /// The amplitude grows without bound while the parameter stands still: the branch goes to infinity, and
-    /// what lies beyond is another one.
+    /// The amplitude has no bound while the parameter stands still: the branch goes to infinity, and what
+    /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency.
     Unbounded {
         /// Where [Hz].
         frequency_hz: f64,

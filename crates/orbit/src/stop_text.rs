@@ -34,7 +34,7 @@ impl Display for StopReason {
                 {largest_multiplier:.1e}"
             ),
             Self::Unbounded { frequency_hz, .. } => {
-                write!(formatter, "the amplitude grows without bound at {frequency_hz}")
+                write!(formatter, "the amplitude has no bound at {frequency_hz}")
             }
             Self::TooMuchWork { frequency_hz, solutions, .. } => {
                 write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")

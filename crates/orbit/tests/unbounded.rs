@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, OrbitSettings, ResonantMode, Response, Side, StopReason, find_start,
+    BranchRow, BranchWalk, OrbitSettings, ResonantMode, Response, Side, StopReason, find_start, settled_orbit,
 };
 use hammerbeam_structure::ReducedModel;
 
@@ -93,6 +93,28 @@ fn a_weakly_damped_resonance_is_passed() {
     assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.1 });
     let largest = rows.iter().map(|row| row.solution.maxima.displacement).fold(0.0, f64::max);
     assert!((largest / 5e4 - 1.0).abs() < 1e-2, "{largest}");
+}
+
+/// At half the eigenfrequency `x = cos(w t)/(1 - w^2)` has the period of any free vibration, which may be
+/// added: orbits of two parameters at one frequency.
+#[test]
+fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
+    let (system, response) = oscillator(0.0, Some(10.0));
+    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    for free in [0.2, 3.0] {
+        let state = [4.0 / 3.0 + free, 0.0];
+        let orbit = (0.5 * NATURAL, 1);
+        let start = settled_orbit(&system, &response, &state, orbit, &settings).unwrap().unwrap();
+        for side in [Side::Up, Side::Down] {
+            let mut walk = BranchWalk::new(&system, &response, &start, side, RANGE, &settings).unwrap();
+            let mut rows = Vec::new();
+            let reason = (0..100).find_map(|_| walk.step(&mut rows).unwrap());
+            let Some(StopReason::Unbounded { frequency_hz, mode }) = reason else { panic!("{reason:?}") };
+            assert!(
+                (frequency_hz / NATURAL - 0.5).abs() < 1e-15 && mode.is_some_and(|mode| mode.number == 1)
+            );
+        }
+    }
 }
 
 /// The amplitude grows ten thousand times at the linear resonance until it meets the stop; then the frequency

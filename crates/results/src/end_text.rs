@@ -245,7 +245,7 @@ fn unbounded(mode: Option<ResonantMode>) -> String {
         }
         None => "nothing there takes energy out of the motion".to_owned(),
     };
-    format!("the amplitude grows without bound: {why}; with damping ([damping]) it stays finite")
+    format!("the amplitude has no bound: {why}; with damping ([damping]) it has one")
 }
 
 #[cfg(test)]

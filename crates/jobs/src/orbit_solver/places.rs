@@ -17,6 +17,11 @@ const PARTS_OF_RANGE: u32 = 8;
 const BEYOND: [f64; 2] = [0.1, 0.4];
 /// Parts of an eigenfrequency.
 const PARTS: [f64; 3] = [1.0, 2.0, 3.0];
+/// Relative distance from such a place at which is looked if nothing damps the mode: at the place itself it
+/// vibrates freely, and orbits of every amplitude belong to it.
+const BESIDE: f64 = 1e-3;
+/// Line width, relative to the frequency, up to which a mode counts as undamped here.
+const UNDAMPED: f64 = 2e-6;
 
 /// The frequencies of the survey: the middles of equal parts of the range.
 #[derive(Debug, Clone, Copy)]
@@ -72,7 +77,8 @@ fn of_mode([at, width]: [f64; 2], multiples: &[u32], surveyed: &Surveyed) -> Vec
         let [at, width] = [factor * at, factor * width];
         !surveyed.looks_within([at - width, at + width])
     };
-    parts.chain(multiples).filter(is_open).map(|factor| factor * at).collect()
+    let beside = if width <= UNDAMPED * at { 1.0 + BESIDE } else { 1.0 };
+    parts.chain(multiples).filter(is_open).map(|factor| factor * at * beside).collect()
 }
 
 #[cfg(test)]

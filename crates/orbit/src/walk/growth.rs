@@ -10,6 +10,10 @@
 //! - the amplitude has grown by [`FOR_ANY`], since an element that does not take part in the growth is never
 //!   reached.
 //!
+//! At a part of an undamped eigenfrequency nothing resonates, but the mode vibrates freely besides: orbits of
+//! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
+//! last points have the same parameter to rounding, no element acts, and a mode has such a frequency.
+//!
 //! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
 //! there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
@@ -17,6 +21,7 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_motion::LocalElement;
+use hammerbeam_path::Node;
 
 use super::orbit_path::OrbitPath;
 use crate::{ResonantMode, StopReason};
@@ -33,6 +38,8 @@ const OF_RANGE: f64 = 1e-4;
 const BEYOND: f64 = 1e3;
 /// Relative distance of a harmonic of the orbit from an eigenfrequency up to which that resonates.
 const RESONANT: f64 = 1e-6;
+/// Change of the parameter, relative to it, up to which points have the same one.
+const SAME: f64 = 4.0 * f64::EPSILON;
 /// Damping ratio up to which a mode counts as undamped here.
 const UNDAMPED: f64 = 1e-6;
 
@@ -65,9 +72,21 @@ impl Growth {
         let unit = path.problem.scale().values().last().copied().unwrap_or(1.0);
         let growth = self.note(size * unit, parameter, still);
         let unbounded = growth >= FOR_ANY || (growth >= GROWTH && is_beyond_all_levels(path));
-        unbounded
-            .then(|| StopReason::Unbounded { frequency_hz: parameter, mode: resonant_mode(path, touches) })
+        let ends = |mode| StopReason::Unbounded { frequency_hz: parameter, mode };
+        if unbounded {
+            return Some(ends(resonant_mode(path, touches)));
+        }
+        stands_still(path).then(|| resonant_mode(path, touches)).flatten().map(|mode| ends(Some(mode)))
     }
+}
+
+/// Whether the last points all have the same parameter.
+fn stands_still(path: &OrbitPath) -> bool {
+    let history = &path.follower.state().history;
+    let parameter = |point: &[f64]| point.last().copied().unwrap_or(f64::NAN);
+    let (present, size) = (path.parameter(), path.problem.parameter_size(&path.current().point));
+    let is_same = |node: &Node| (parameter(&node.point) - present).abs() <= SAME * size;
+    history.used == history.nodes.len() && history.nodes.iter().all(is_same)
 }
 
 /// Whether every element is linear for all that follows.
