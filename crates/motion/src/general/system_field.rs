@@ -14,9 +14,9 @@
 //! A hole has the force of `law/round_hole.rs`, with derivatives by both displacements, and its reading takes
 //! the place of r.
 //!
-//! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a
-//! law that depends on the velocity. In contact a law is continued below its level by its tangent there; out
-//! of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes earlier by
+//! Switching functions are `sign (r - level)`, one for each contact of each element, the same at the kink of a
+//! force, and the pressure of a law that depends on the velocity. In contact a law is continued below its
+//! level by its tangent there, and each piece of a force beyond its kink; out of contact the force is zero. Where a force sets in with the jump `-c r'`, the touch comes earlier by
 //! `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e .
 //! dq)`.
 
@@ -259,10 +259,11 @@ impl<'a> SystemField<'a> {
     }
 }
 
-/// Switching functions of an element: its contacts, and the pressure of a law that has one, beside one
-/// contact.
+/// Switching functions of an element: its contacts, and the pressure of a law that has one, or the kink of
+/// its force, beside one contact.
 pub(super) fn switches_of(element: &LocalElement) -> usize {
-    element.law.contacts().len() + usize::from(element.law.has_pressure())
+    let law = &element.law;
+    law.contacts().len() + usize::from(law.has_pressure()) + usize::from(law.has_kinks())
 }
 
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{SystemField, add_scaled, dot, linear_rates};
+use super::{SystemField, add_scaled, dot, linear_rates, region::kink_of};
 use crate::general::{Column, Point, VectorField};
 
 impl VectorField for SystemField<'_> {
@@ -122,6 +122,10 @@ impl VectorField for SystemField<'_> {
             };
             for contact in contacts {
                 values[k] = contact.sign * (r - contact.level);
+                k += 1;
+            }
+            if element.law.has_kinks() {
+                values[k] = contacts[0].sign * (r - kink_of(&element.law));
                 k += 1;
             }
             if let Some(pressure) = self.laws[e].pressure() {

@@ -12,6 +12,10 @@ pub(in crate::general) fn force_in_region(law: &Law, (r, speed): (f64, f64), ins
         let presses = inside.iter().all(|inside| *inside);
         return if presses { law.pressing_force(r, speed) } else { Force::ZERO };
     }
+    if law.has_kinks() {
+        let [is_closed, is_beyond] = [inside[0], inside[1]];
+        return if is_closed { force_of_piece(law, (r, speed), is_beyond) } else { Force::ZERO };
+    }
     let penetration = |contact: &Contact| contact.sign * (r - contact.level);
     let closed = contacts.iter().zip(inside).filter(|(_, inside)| **inside).map(|(contact, _)| contact);
     match closed.max_by(|a, b| penetration(a).total_cmp(&penetration(b))) {
@@ -19,6 +23,21 @@ pub(in crate::general) fn force_in_region(law: &Law, (r, speed): (f64, f64), ins
         Some(contact) if penetration(contact) > 0.0 => law.force(r, speed),
         Some(contact) => continued_force(law, r, contact),
     }
+}
+
+/// Displacement at the kink of a force of two pieces.
+pub(in crate::general) fn kink_of(law: &Law) -> f64 {
+    let first = law.in_piece(law.contacts()[0].level);
+    first.kinks()[1].expect("a law with kinks has one behind its first piece")
+}
+
+/// Force of a closed contact on one side of the kink, continued to the other one and below the level.
+fn force_of_piece(law: &Law, (r, speed): (f64, f64), is_beyond: bool) -> Force {
+    let contact = &law.contacts()[0];
+    if !is_beyond && contact.sign * (r - contact.level) <= 0.0 {
+        return continued_force(law, r, contact);
+    }
+    law.beyond_kink(is_beyond).force(r, speed)
 }
 
 /// The tangent of the law at the level of a contact, where the law itself has ended.
