@@ -97,13 +97,16 @@ fn a_mode_that_is_undamped_while_teeth_are_closed_is_named_with_its_frequency() 
     assert_eq!(found[0]["stops"], serde_json::json!(["teeth"]));
     assert!((found[0]["motion"]["wheel"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{found}");
     assert!(text.contains("with \"teeth\" closed") && text.contains("modal_ratio"), "{text}");
-    let damped = GEARS.replacen(
-        "damper = [",
-        "damper = [{ between = [\"pinion\", \"ground\"], damping_n_s_m = 0.1 }, ",
-        1,
-    );
-    let (text, found) = check(&damped);
+    let damped = |damping: f64| {
+        let damper =
+            format!("damper = [{{ between = [\"pinion\", \"ground\"], damping_n_s_m = {damping} }}, ");
+        GEARS.replacen("damper = [", &damper, 1)
+    };
+    let (text, found) = check(&damped(0.1));
     assert!(found.as_array().unwrap().is_empty() && !text.contains("undamped"), "{text}");
+    // A ratio of 3e-9; in a period of the excitation, a 200th of that of the mode, it takes off 3e-11.
+    let (_, found) = check(&damped(1e-8));
+    assert_eq!(found.as_array().unwrap().len(), 1, "{found}");
 }
 
 /// A stop that holds all that moves leaves no mode to be named.

@@ -43,7 +43,7 @@ pub fn check<'a>(study: &'a PreparedStudy, observer: &mut dyn Observer) -> Resul
         study: &file.study,
         eigenfrequencies_hz: model.system.model().natural_frequencies.iter().map(|w| w / TAU).collect(),
         undamped_modes: model.undamped_modes(),
-        undamped_in_contact: model.undamped_in_contact(),
+        undamped_in_contact: model.undamped_in_contact(file.study.excitation.range_hz()[1]),
         drifts,
         matrices: model.matrices.as_ref(),
     })

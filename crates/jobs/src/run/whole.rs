@@ -159,7 +159,7 @@ fn report(study: &PreparedStudy, store: &Store, outcome: RunOutcome) -> Result<R
         searches: store.jobs()?,
         outputs: OutputPass::default(),
         undamped_modes: model.undamped_modes(),
-        undamped_in_contact: model.undamped_in_contact(),
+        undamped_in_contact: model.undamped_in_contact(file.study.excitation.range_hz()[1]),
         figures: Vec::new(),
     })
 }

@@ -177,10 +177,13 @@ impl Model {
         undamped::undamped_modes(&self.system)
     }
 
-    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
+    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed: nothing
+    /// that shows in a period of the excitation.
+    ///
+    /// * `highest_hz`: highest frequency of the excitation.
     #[must_use]
-    pub fn undamped_in_contact(&self) -> Vec<UndampedInContact> {
-        undamped_in_contact::undamped_in_contact(&self.system)
+    pub fn undamped_in_contact(&self, highest_hz: f64) -> Vec<UndampedInContact> {
+        undamped_in_contact::undamped_in_contact(&self.system, highest_hz)
     }
 
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they

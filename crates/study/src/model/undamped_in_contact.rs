@@ -53,7 +53,10 @@ impl std::fmt::Display for UndampedInContact {
 
 /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed; none
 /// where nothing damps the open structure either.
-pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
+///
+/// * `highest_hz`: of the excitation.
+pub(super) fn undamped_in_contact(system: &System, highest_hz: f64) -> Vec<UndampedInContact> {
+    let excitation_rate = TAU * highest_hz;
     let opening: Vec<usize> = system
         .elements()
         .iter()
@@ -67,13 +70,13 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
     }
     let undamped = undamped_modes(system);
     // Where nothing damps any mode, that says it all: every stop would name every mode once more.
-    if undamped.len() == system.dof() || every_motion_is_damped(system) {
+    if undamped.len() == system.dof() || every_motion_is_damped(system, excitation_rate) {
         return Vec::new();
     }
     let mut known: Vec<f64> = undamped.iter().map(|mode| mode.frequency_hz).collect();
     let mut found = Vec::new();
     for elements in closed {
-        for mode in undamped_while_closed(system, &elements) {
+        for mode in undamped_while_closed(system, &elements, excitation_rate) {
             if known.iter().all(|hz| (hz / mode.frequency_hz - 1.0).abs() > SAME) {
                 known.push(mode.frequency_hz);
                 found.push(mode);
@@ -86,15 +89,26 @@ pub(super) fn undamped_in_contact(system: &System) -> Vec<UndampedInContact> {
 /// Whether the smallest eigenvalue of C alone damps any motion enough, at any frequency up to the highest: no
 /// N makes it smaller, as its columns are orthonormal. One eigenvalue problem takes the place of one for each
 /// stop.
-fn every_motion_is_damped(system: &System) -> bool {
+fn every_motion_is_damped(system: &System, excitation_rate: f64) -> bool {
     let (model, n) = (system.model(), system.dof());
     let symmetric = |i, j| 0.5 * (model.damping[(i, j)] + model.damping[(j, i)]);
     let highest = model.natural_frequencies.iter().copied().fold(0.0, f64::max);
     let losses = Mat::from_fn(n, n, symmetric).self_adjoint_eigenvalues(Side::Lower);
-    losses.is_ok_and(|losses| losses.first().is_some_and(|least| *least > 2.0 * NOTHING * highest))
+    losses
+        .is_ok_and(|losses| losses.first().is_some_and(|least| *least > least_loss(highest, excitation_rate)))
 }
 
-fn undamped_while_closed(system: &System, elements: &[usize]) -> Vec<UndampedInContact> {
+/// Rate at which a motion has to lose its amplitude [1/s] if a multiplier is to tell it from one that nothing
+/// damps: over a period of the motion, or of the excitation if that is shorter.
+fn least_loss(rate: f64, excitation_rate: f64) -> f64 {
+    2.0 * NOTHING * rate.max(excitation_rate)
+}
+
+fn undamped_while_closed(
+    system: &System,
+    elements: &[usize],
+    excitation_rate: f64,
+) -> Vec<UndampedInContact> {
     let model = system.model();
     let n = system.dof();
     let shapes = elements.iter().map(|&index| system.elements()[index].shape.as_slice());
@@ -115,7 +129,7 @@ fn undamped_while_closed(system: &System, elements: &[usize]) -> Vec<UndampedInC
         let loss: f64 = (0..shape.len())
             .map(|i| shape[i] * (0..shape.len()).map(|j| damping[(i, j)] * shape[j]).sum::<f64>())
             .sum();
-        if rate <= ROUNDING * highest || loss >= 2.0 * NOTHING * rate {
+        if rate <= ROUNDING * highest || loss >= least_loss(rate, excitation_rate) {
             continue;
         }
         let modal: Vec<f64> =
