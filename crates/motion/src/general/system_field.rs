@@ -14,11 +14,11 @@
 //! A hole has the force of `law/round_hole.rs`, with derivatives by both displacements, and its reading takes
 //! the place of r.
 //!
-//! Switching functions are `sign (r - level)`, one for each contact of each element, the same at the kink of a
-//! force, and the pressure of a law that depends on the velocity. In contact a law is continued below its
-//! level by its tangent there, and each piece of a force beyond its kink; out of contact the force is zero. Where a force sets in with the jump `-c r'`, the touch comes earlier by
-//! `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e .
-//! dq)`.
+//! Switching functions are `sign (r - level)`, one for each contact of each element, the same at the kink of
+//! a force, and the pressure of a law that depends on the velocity. In contact a law is continued below its
+//! level by its tangent there, and each piece of a force beyond its kink; out of contact the force is zero.
+//! Where a force sets in with the jump `-c r'`, the touch comes earlier by `dr/r'` and brings the impulse `-c
+//! dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e . dq)`.
 
 mod field;
 mod onset;

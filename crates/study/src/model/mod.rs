@@ -177,8 +177,8 @@ impl Model {
         undamped::undamped_modes(&self.system)
     }
 
-    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed: nothing
-    /// that shows in a period of the excitation.
+    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed:
+    /// nothing that shows in a period of the excitation.
     ///
     /// * `highest_hz`: highest frequency of the excitation.
     #[must_use]
