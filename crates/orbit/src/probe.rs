@@ -3,9 +3,9 @@
 //! Motions begin from the linear response, from states about it and from those of large amplitude that a
 //! backbone suggests, and are followed as in [`MotionSearch`]. Where there is little damping they have not
 //! repeated at last: then Newton's method begins where they have come back most closely after each of the
-//! multiples. What that finds is kept if it is stable. A motion that will not settle, a chaotic one, comes
-//! back near unstable orbits: there Newton's method ends as soon as that is seen, which is before it has
-//! converged.
+//! multiples. What that finds is kept if it may be stable. A motion that will not settle, a chaotic one,
+//! comes back near unstable orbits: there Newton's method ends as soon as that is seen, which is before it
+//! has converged.
 
 use hammerbeam_motion::System;
 
@@ -35,8 +35,8 @@ pub struct ProbeStarts<'a> {
     pub unsettled: &'a [Vec<f64>],
 }
 
-/// Finds further stable orbits at a frequency whose minimal periods are among `multiples`. A start from which
-/// no motion can be computed makes the search incomplete.
+/// Finds further orbits at a frequency, those that may be stable, whose minimal periods are among `multiples`.
+/// A start from which no motion can be computed makes the search incomplete.
 ///
 /// * `effort`: a motion has its settling periods, and as many as are kept behind them; no more of it is used.
 ///

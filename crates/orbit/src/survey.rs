@@ -2,7 +2,7 @@
 //!
 //! From each of many starts the motion is followed until it repeats, or has had time to settle and was
 //! observed over more excitation periods; see [`MotionSearch`]. Attractors are found so, and where motions
-//! are chaotic or slow, unstable orbits near them.
+//! are chaotic or slow, unstable orbits near them, if they are wanted.
 
 use hammerbeam_motion::System;
 
@@ -13,8 +13,9 @@ use crate::{
     start::starting_states,
 };
 
-/// Motions in a row that wander and show nothing new, after which others that come there end.
-const FRUITLESS: usize = 2;
+/// Motions in a row that wander and show nothing new, after which others that come there end: of any orbits,
+/// and of stable ones, of which a motion that wanders shows fewer.
+const FRUITLESS: [usize; 2] = [2, 4];
 
 /// How much is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +70,7 @@ pub fn survey(
         most: effort.settling + observed,
         kept: observed,
         near_returns: effort.near_returns,
-        fruitless: FRUITLESS,
+        fruitless: FRUITLESS[usize::from(effort.wanted == Wanted::StableNearby)],
         wanted: effort.wanted,
     };
     let starts = starting_states(system, response, frequency_hz, effort.starts, settings)?;

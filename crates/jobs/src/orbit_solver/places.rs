@@ -77,8 +77,15 @@ fn of_mode([at, width]: [f64; 2], multiples: &[u32], surveyed: &Surveyed) -> Vec
         let [at, width] = [factor * at, factor * width];
         !surveyed.looks_within([at - width, at + width])
     };
-    let beside = if width <= UNDAMPED * at { 1.0 + BESIDE } else { 1.0 };
-    parts.chain(multiples).filter(is_open).map(|factor| factor * at * beside).collect()
+    let beside = |place: f64| {
+        let above = place * (1.0 + BESIDE);
+        match width > UNDAMPED * at {
+            true => place,
+            false if above <= surveyed.range_hz.1 => above,
+            false => place * (1.0 - BESIDE),
+        }
+    };
+    parts.chain(multiples).filter(is_open).map(|factor| beside(factor * at)).collect()
 }
 
 #[cfg(test)]
@@ -108,7 +115,11 @@ mod tests {
     fn modes_are_looked_at_at_their_multiples_and_parts_unless_the_survey_is_there() {
         let of_mode = |width| of_mode([84.0, width], &[1, 2], &surveyed(2.0));
         let rounded = |places: Vec<f64>| places.iter().map(|at| at.round()).collect::<Vec<f64>>();
-        assert_eq!(rounded(of_mode(0.0)), [84.0, 42.0, 28.0, 168.0]);
+        // None is damped: a thousandth beside them, on the side that is in the range.
+        let expected = [84.0 * 1.001, 42.0 * 1.001, 28.0 * 1.001, 168.0 * 0.999];
+        let found = of_mode(0.0);
+        assert!(found.iter().zip(expected).all(|(at, hz)| (at / hz - 1.0).abs() < 1e-12), "{found:?}");
+        assert_eq!(rounded(of_mode(0.01)), [84.0, 42.0, 28.0, 168.0]);
         assert_eq!(rounded(of_mode(1.1)), [42.0, 28.0, 168.0], "the survey looks at 83 Hz and 85 Hz");
     }
 }

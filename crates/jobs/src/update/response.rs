@@ -21,7 +21,7 @@ impl Orbits {
     pub fn new(study: &Study) -> Self {
         Self {
             settings: orbit_solver::settings(&study.continuation),
-            effort: orbit_solver::effort(&study.search, Wanted::StableNearby),
+            effort: orbit_solver::effort(&study.search, Wanted::Any),
         }
     }
 
@@ -55,7 +55,9 @@ impl Orbits {
         let found =
             survey(system, response, frequency_hz, &multiples, &self.effort, &self.settings, &mut || false);
         let found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?;
-        Ok(found.found.orbits)
+        let mut found = found.found.orbits;
+        found.retain(PeriodicSolution::may_be_stable);
+        Ok(found)
     }
 
     /// The orbits of a model from those of a model beside it.

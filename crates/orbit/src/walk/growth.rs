@@ -12,7 +12,7 @@
 //!
 //! At a part of an undamped eigenfrequency nothing resonates, but the mode vibrates freely besides: orbits of
 //! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
-//! last points have the same parameter to rounding, no element acts, and a mode has such a frequency.
+//! last points have the same parameter to rounding, nothing is touched, and a mode has such a frequency.
 //!
 //! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
@@ -39,7 +39,7 @@ const BEYOND: f64 = 1e3;
 /// Relative distance of a harmonic of the orbit from an eigenfrequency up to which that resonates.
 const RESONANT: f64 = 1e-6;
 /// Change of the parameter, relative to it, up to which points have the same one.
-const SAME: f64 = 4.0 * f64::EPSILON;
+const SAME: f64 = 1e-13;
 /// Damping ratio up to which a mode counts as undamped here.
 const UNDAMPED: f64 = 1e-6;
 
@@ -109,7 +109,9 @@ fn is_beyond_all_levels(path: &mut OrbitPath) -> bool {
 
 /// The undamped mode that resonates, where no element acts.
 fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
-    let acts = touches.iter().any(|&touches| touches > 0);
+    let always_acts = |element: &LocalElement| element.law.contacts().is_empty();
+    let acts = touches.iter().any(|&touches| touches > 0)
+        || path.problem.system().elements().iter().any(always_acts);
     let point = &path.follower.current().point;
     let base_hz = path.problem.frequency(point) / f64::from(path.problem.period_multiple());
     let model = path.problem.system().model();
@@ -118,8 +120,9 @@ fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
         let harmonic = w / TAU / base_hz;
         w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
     };
-    let found = model.natural_frequencies.iter().position(|&w| resonates(w));
-    found.filter(|&i| !acts && ratio(i) <= UNDAMPED).map(|i| ResonantMode {
+    let is_free = |i: &usize| resonates(model.natural_frequencies[*i]) && ratio(*i) <= UNDAMPED;
+    let found = (0..model.natural_frequencies.len()).find(is_free);
+    found.filter(|_| !acts).map(|i| ResonantMode {
         number: i + 1,
         frequency_hz: model.natural_frequencies[i] / TAU,
         damping_ratio: ratio(i),

@@ -20,6 +20,9 @@ const SAME: f64 = 1e-7;
 const NO_PROGRESS_NEAR: f64 = 5e-3;
 /// Next to nothing left: this part of the frequency, by the slope there times the distance.
 const STILL: f64 = 2e-8;
+/// The same two where no orbit has half the period: nothing else finds the place then.
+const NO_PROGRESS_AT: f64 = 1e-4;
+const STILL_AT: f64 = 2e-9;
 /// Far shorter: this part of the distance.
 const LITTLE: f64 = 0.02;
 
@@ -40,7 +43,9 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
 /// Whether the last steps have led towards an orbit of shorter period, nearer than [`NO_PROGRESS_NEAR`] of
 /// the orbit, in a small part of the way that is left each.
 fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
-    let near = NO_PROGRESS_NEAR * path.hertz_per_norm();
+    let doubles = path.problem.period_multiple().is_multiple_of(2);
+    let (near, still) = if doubles { (NO_PROGRESS_NEAR, STILL) } else { (NO_PROGRESS_AT, STILL_AT) };
+    let near = near * path.hertz_per_norm();
     let OrbitPath { problem, follower, .. } = path;
     let history = &follower.state().history;
     let nodes = &history.nodes[..history.used];
@@ -48,11 +53,11 @@ fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
         return false;
     }
     let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_simpler(&node.point)).collect();
-    let still = |(node, left): (&Node, &f64)| {
+    let is_still = |(node, left): (&Node, &f64)| {
         let slope = node.tangent[node.tangent.len() - 1].abs();
-        slope * left < STILL * problem.parameter_size(&node.point)
+        slope * left < still * problem.parameter_size(&node.point)
     };
-    nodes.iter().zip(&left).all(still)
+    nodes.iter().zip(&left).all(is_still)
         && left.windows(2).all(|pair| (0.0..LITTLE * pair[0]).contains(&(pair[1] - pair[0])))
 }
 

@@ -160,7 +160,7 @@ impl BranchWalk {
     /// with them. Points are counted in the checkpoint.
     ///
     /// # Returns
-    /// Why the walk ends, if the orbit grows without bound.
+    /// Why the walk ends, if its amplitude has no bound.
     fn keep_to_scale(&mut self) -> Option<StopReason> {
         let path = &mut self.path;
         let due = path.follower.counters().accepted.is_multiple_of(LOOK);

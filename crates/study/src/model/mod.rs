@@ -174,7 +174,7 @@ impl Model {
     /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
     #[must_use]
     pub fn undamped_modes(&self) -> Vec<UndampedMode> {
-        undamped::undamped_modes(&self.system)
+        undamped::undamped_modes(&self.system, 0.0)
     }
 
     /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed:

@@ -16,6 +16,9 @@ use hammerbeam_motion::System;
 /// mode by less than it is known to.
 pub(super) const NOTHING: f64 = 1e-10;
 
+/// Damping ratio from which on a mode is damped, however fast the excitation is.
+const MOST: f64 = 1e-6;
+
 /// A mode that nothing damps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UndampedMode {
@@ -58,7 +61,10 @@ pub(super) fn resolved_hz(system: &System) -> Option<f64> {
 }
 
 /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
-pub(super) fn undamped_modes(system: &System) -> Vec<UndampedMode> {
+///
+/// * `excitation_rate`: 0 for modes that nothing damps at all, else also those that a period of the excitation
+///   does not tell from them [1/s].
+pub(super) fn undamped_modes(system: &System, excitation_rate: f64) -> Vec<UndampedMode> {
     let model = system.model();
     let modes = model.natural_frequencies.iter().enumerate().filter(|(_, rate)| **rate > 0.0);
     let ratios = modes.map(|(index, rate)| UndampedMode {
@@ -69,9 +75,17 @@ pub(super) fn undamped_modes(system: &System) -> Vec<UndampedMode> {
     let is_undamped = |mode: &UndampedMode| {
         let modal: Vec<f64> =
             (0..system.dof()).map(|i| if i + 1 == mode.number { 1.0 } else { 0.0 }).collect();
-        mode.ratio < NOTHING && !has_damping_force(system, &modal)
+        let rate = TAU * mode.frequency_hz;
+        2.0 * mode.ratio * rate < least_loss(rate, excitation_rate) && !has_damping_force(system, &modal)
     };
     ratios.filter(is_undamped).collect()
+}
+
+/// Rate at which a motion has to lose its amplitude [1/s] if a multiplier is to tell it from one that nothing
+/// damps: over a period of the motion, or of the excitation if that is shorter. A ratio of a millionth always
+/// tells.
+pub(super) fn least_loss(rate: f64, excitation_rate: f64) -> f64 {
+    2.0 * (NOTHING * excitation_rate).clamp(NOTHING * rate, MOST * rate)
 }
 
 /// Whether a force that always acts on a combination of the modes depends on the velocity.

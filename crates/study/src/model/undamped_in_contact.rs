@@ -17,7 +17,7 @@ use hammerbeam_motion::System;
 
 use super::{
     drift::complement,
-    undamped::{Digits, NOTHING, has_damping_force, undamped_modes},
+    undamped::{Digits, has_damping_force, least_loss, undamped_modes},
 };
 
 /// A mode has the frequency of another one within this part of it.
@@ -68,7 +68,7 @@ pub(super) fn undamped_in_contact(system: &System, highest_hz: f64) -> Vec<Undam
     if opening.len() > 1 {
         closed.push(opening);
     }
-    let undamped = undamped_modes(system);
+    let undamped = undamped_modes(system, excitation_rate);
     // Where nothing damps any mode, that says it all: every stop would name every mode once more.
     if undamped.len() == system.dof() || every_motion_is_damped(system, excitation_rate) {
         return Vec::new();
@@ -96,12 +96,6 @@ fn every_motion_is_damped(system: &System, excitation_rate: f64) -> bool {
     let losses = Mat::from_fn(n, n, symmetric).self_adjoint_eigenvalues(Side::Lower);
     losses
         .is_ok_and(|losses| losses.first().is_some_and(|least| *least > least_loss(highest, excitation_rate)))
-}
-
-/// Rate at which a motion has to lose its amplitude [1/s] if a multiplier is to tell it from one that nothing
-/// damps: over a period of the motion, or of the excitation if that is shorter.
-fn least_loss(rate: f64, excitation_rate: f64) -> f64 {
-    2.0 * NOTHING * rate.max(excitation_rate)
 }
 
 fn undamped_while_closed(

@@ -33,11 +33,11 @@ pub(in crate::general) fn kink_of(law: &Law) -> f64 {
 
 /// Force of a closed contact on one side of the kink, continued to the other one and below the level.
 fn force_of_piece(law: &Law, (r, speed): (f64, f64), is_beyond: bool) -> Force {
-    let contact = &law.contacts()[0];
+    let (piece, contact) = (law.beyond_kink(is_beyond), &law.contacts()[0]);
     if !is_beyond && contact.sign * (r - contact.level) <= 0.0 {
-        return continued_force(law, r, contact);
+        return continued_force(&piece, r, contact);
     }
-    law.beyond_kink(is_beyond).force(r, speed)
+    piece.force(r, speed)
 }
 
 /// The tangent of the law at the level of a contact, where the law itself has ended.
