@@ -81,3 +81,50 @@ pub fn survey(
     found.orbits.sort_by_key(|orbit| orbit.period_multiple);
     Ok(SurveyedMotions { found, unsettled })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use hammerbeam_motion::{Law, law::PowerSpring};
+
+    use super::*;
+    use crate::test_oscillator::oscillator;
+
+    /// `x'' + 0.05 x' + x + x^3 = F cos(2 pi f t)`, with several attractors at small forces, and chaos at large
+    /// ones.
+    #[test]
+    fn a_survey_for_stable_orbits_finds_those_that_one_for_all_finds() {
+        let (mut stable, mut unstable) = (0, 0);
+        for (force, frequency_hz) in
+            [(3.0, 0.3), (3.0, 0.6), (3.0, 0.9), (7.5, 0.16), (12.0, 0.16), (25.0, 0.22), (40.0, 0.3)]
+        {
+            let (system, response) = oscillator(0.05, force, Law::Power(PowerSpring::cubic(1.0).unwrap()));
+            let found = |wanted| {
+                let effort = SurveyEffort { wanted, ..SurveyEffort::default() };
+                let settings = OrbitSettings::default();
+                survey(&system, &response, frequency_hz, &[1, 2, 3], &effort, &settings, &mut || false)
+                    .unwrap()
+                    .found
+                    .orbits
+            };
+            let (all, chosen) = (found(Wanted::Any), found(Wanted::StableNearby));
+            assert!(chosen.iter().all(|orbit| orbit.may_be_stable()), "{frequency_hz} Hz");
+            let sizes = |orbits: &[crate::PeriodicSolution]| {
+                let stable = orbits.iter().filter(|orbit| orbit.may_be_stable());
+                let mut sizes: Vec<_> =
+                    stable.map(|orbit| (orbit.period_multiple, orbit.maxima.displacement)).collect();
+                sizes.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+                sizes
+            };
+            let (expected, sizes) = (sizes(&all), sizes(&chosen));
+            assert_eq!(expected.len(), sizes.len(), "{frequency_hz} Hz: {expected:?} and {sizes:?}");
+            for (a, b) in expected.iter().zip(&sizes) {
+                assert!(a.0 == b.0 && (a.1 / b.1 - 1.0).abs() < 1e-8, "{frequency_hz} Hz: {a:?} and {b:?}");
+            }
+            stable += sizes.len();
+            unstable += all.len() - sizes.len();
+        }
+        assert!(stable >= 6 && unstable >= 1, "{stable} {unstable}");
+    }
+}
