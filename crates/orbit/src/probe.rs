@@ -35,8 +35,8 @@ pub struct ProbeStarts<'a> {
     pub unsettled: &'a [Vec<f64>],
 }
 
-/// Finds further orbits at a frequency, those that may be stable, whose minimal periods are among `multiples`.
-/// A start from which no motion can be computed makes the search incomplete.
+/// Finds further orbits at a frequency, those that may be stable, whose minimal periods are among
+/// `multiples`. A start from which no motion can be computed makes the search incomplete.
 ///
 /// * `effort`: a motion has its settling periods, and as many as are kept behind them; no more of it is used.
 ///

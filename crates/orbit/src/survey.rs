@@ -91,8 +91,8 @@ mod tests {
     use super::*;
     use crate::test_oscillator::oscillator;
 
-    /// `x'' + 0.05 x' + x + x^3 = F cos(2 pi f t)`, with several attractors at small forces, and chaos at large
-    /// ones.
+    /// `x'' + 0.05 x' + x + x^3 = F cos(2 pi f t)`, with several attractors at small forces, and chaos at
+    /// large ones.
     #[test]
     fn a_survey_for_stable_orbits_finds_those_that_one_for_all_finds() {
         let (mut stable, mut unstable) = (0, 0);

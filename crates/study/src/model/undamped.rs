@@ -62,8 +62,8 @@ pub(super) fn resolved_hz(system: &System) -> Option<f64> {
 
 /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
 ///
-/// * `excitation_rate`: 0 for modes that nothing damps at all, else also those that a period of the excitation
-///   does not tell from them [1/s].
+/// * `excitation_rate`: 0 for modes that nothing damps at all, else also those that a period of the
+///   excitation does not tell from them [1/s].
 pub(super) fn undamped_modes(system: &System, excitation_rate: f64) -> Vec<UndampedMode> {
     let model = system.model();
     let modes = model.natural_frequencies.iter().enumerate().filter(|(_, rate)| **rate > 0.0);
