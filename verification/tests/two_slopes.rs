@@ -131,15 +131,20 @@ fn free_period_is_the_sum_of_its_arcs() {
     }
 }
 
+/// A free mass of 1 kg before the stop, which has no gap.
+fn free_mass(stop: Stop) -> System {
+    let model = masses(&[("mass", 1.0)], &[], &[], false);
+    let element = element_at(&model, "mass", Stop { gap: 0.0, ..stop }.law());
+    System::new(model, &Load::default(), vec![element]).unwrap()
+}
+
 /// A free mass comes with the speed v, stops at the depth d of the energy balance, and leaves with -v after
 /// twice the time of its arcs. It is one contact.
 #[test]
 fn an_impact_gives_back_its_energy_as_one_contact() {
-    for Stop { stiffness: k, second_gap: s, second_stiffness: k_2, .. } in [STIFFENING, SOFTENING] {
-        let model = masses(&[("mass", 1.0)], &[], &[], false);
-        let stop = TwoSlopeStop::with_gap(k, (s, k_2), 0.0).unwrap();
-        let element = element_at(&model, "mass", Law::TwoSlopes(stop));
-        let system = System::new(model, &Load::default(), vec![element]).unwrap();
+    for stop in [STIFFENING, SOFTENING] {
+        let Stop { stiffness: k, second_gap: s, second_stiffness: k_2, .. } = stop;
+        let system = free_mass(stop);
         for speed in [0.5 * k.sqrt() * s, 1.001 * k.sqrt() * s, 2.0] {
             // v^2 = k s^2 + 2 k s b + k_2 b^2.
             let left = speed * speed - k * s * s;
@@ -180,11 +185,9 @@ fn an_impact_gives_back_its_energy_as_one_contact() {
 /// there and back would be off by the part of the second slope.
 #[test]
 fn the_general_integrator_gives_back_the_energy_of_an_impact() {
-    for Stop { stiffness: k, second_gap: s, second_stiffness: k_2, .. } in [STIFFENING, SOFTENING] {
-        let model = masses(&[("mass", 1.0)], &[], &[], false);
-        let stop = TwoSlopeStop::with_gap(k, (s, k_2), 0.0).unwrap();
-        let element = element_at(&model, "mass", Law::TwoSlopes(stop));
-        let system = System::new(model, &Load::default(), vec![element]).unwrap();
+    for stop in [STIFFENING, SOFTENING] {
+        let Stop { stiffness: k, second_gap: s, second_stiffness: k_2, .. } = stop;
+        let system = free_mass(stop);
         for beyond in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.3, 3.0] {
             let speed = (1.0 + beyond) * k.sqrt() * s;
             let at_kink = (speed * speed - k * s * s).sqrt();
