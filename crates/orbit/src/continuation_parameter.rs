@@ -1,6 +1,6 @@
 //! What varies along a branch: the excitation frequency, or another parameter of the system.
 
-use hammerbeam_motion::Parameter;
+use hammerbeam_motion::{Flow, Parameter};
 
 /// What varies along a branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,5 +24,10 @@ impl ContinuationParameter {
             Self::Frequency => None,
             Self::Other { parameter, .. } => Some(parameter),
         }
+    }
+
+    /// The column of a flow that belongs to it.
+    pub(crate) fn column_of(self, flow: &Flow) -> &[f64] {
+        if self.parameter().is_some() { &flow.by_parameter } else { &flow.by_frequency }
     }
 }

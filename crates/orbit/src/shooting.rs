@@ -50,17 +50,20 @@
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 mod beside;
+mod carried;
 mod equations;
 mod flows;
+mod images;
 mod judge;
 
 use hammerbeam_motion::{
-    Flow, Stretch, System,
+    Stretch, System,
     exact::{AtEnd, ExactCounts, ExactIntegrator, MotionError},
 };
 use hammerbeam_path::{DenseLu, PathError};
 
 use beside::Beside;
+use images::KnownImages;
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
@@ -106,6 +109,8 @@ pub(crate) struct ShootingProblem {
     varied: ContinuationParameter,
     /// For motions beside the one that was evaluated, once one was asked for.
     beside: Option<Box<Beside>>,
+    /// The images of the orbit that was asked for last.
+    images: Option<Box<KnownImages>>,
 }
 
 impl ShootingProblem {
@@ -142,6 +147,7 @@ impl ShootingProblem {
             watches_stability: false,
             varied: ContinuationParameter::Frequency,
             beside: None,
+            images: None,
         };
         problem.set_segments(segments);
         problem
@@ -197,11 +203,6 @@ impl ShootingProblem {
         }
     }
 
-    /// The column of a flow that belongs to the last unknown.
-    pub fn by_last<'a>(&self, flow: &'a Flow) -> &'a [f64] {
-        if self.varied.parameter().is_some() { &flow.by_parameter } else { &flow.by_frequency }
-    }
-
     /// How many hertz of arc length a change of the orbit by its own size counts.
     pub fn hertz_per_norm(&self) -> f64 {
         self.hertz_per_norm
@@ -218,15 +219,13 @@ impl ShootingProblem {
     /// Cuts the orbit anew; the problem must be evaluated again.
     pub fn set_segments(&mut self, segments: usize) {
         let size = self.node_size();
-        let mut identity = vec![0.0; size * size];
-        (0..size).for_each(|i| identity[i * size + i] = 1.0);
         // The orbit counts once, whatever the number of nodes.
         let weight = self.hertz_per_norm * self.hertz_per_norm / segments as f64;
         self.segments = segments;
         self.weights = (0..segments * size).map(|_| weight).chain([1.0]).collect();
         self.residual = vec![0.0; segments * size];
         self.segment_matrices = vec![vec![0.0; size * size]; segments];
-        self.products = vec![identity; segments + 1];
+        self.products = vec![flows::identity(size); segments + 1];
         self.by_parameter = vec![vec![0.0; size]; segments];
         self.parameter_sums = vec![vec![0.0; size]; segments + 1];
         self.condensed = vec![0.0; (size + 1) * (size + 1)];

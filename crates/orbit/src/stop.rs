@@ -36,6 +36,15 @@ pub enum StopReason {
         /// What was wrong with it.
         doubt: String,
     },
+    /// The motion comes to infinitely many impacts on a rigid stop, ever slower.
+    Chatter {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Name of the local element.
+        element: String,
+        /// Impacts in a row, each slower than the one before, in the last motion.
+        impacts: usize,
+    },
     /// However short the step, the path went on along a stretch that was already walked.
     RunsBack {
         /// Where [Hz].
@@ -64,7 +73,8 @@ pub enum StopReason {
         largest_multiplier: f64,
     },
     /// The amplitude has no bound while the parameter stands still: the branch goes to infinity, and what
-    /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency.
+    /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency;
+    /// or the structure has no damping, and the amplitude went so far beyond all gaps that no step was found.
     Unbounded {
         /// Where [Hz].
         frequency_hz: f64,
@@ -111,6 +121,7 @@ impl StopReason {
             Self::RangeEnd { frequency_hz }
             | Self::ShorterPeriod { frequency_hz, .. }
             | Self::StepTooShort { frequency_hz, .. }
+            | Self::Chatter { frequency_hz, .. }
             | Self::RunsBack { frequency_hz, .. }
             | Self::ContactReopens { frequency_hz, .. }
             | Self::NoProgress { frequency_hz, .. }

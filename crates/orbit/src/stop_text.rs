@@ -19,6 +19,10 @@ impl Display for StopReason {
                 "no solution was accepted beyond {frequency_hz} (last step {step:.1e}, residual \
                 {residual:.1e}: {doubt})"
             ),
+            Self::Chatter { frequency_hz, element, impacts } => write!(
+                formatter,
+                "chatter at {element} beyond {frequency_hz}: {impacts} impacts in a row, each slower"
+            ),
             Self::RunsBack { frequency_hz, met_arc_length } => write!(
                 formatter,
                 "beyond {frequency_hz} every step led back to the branch (at arc length {met_arc_length:.6})"

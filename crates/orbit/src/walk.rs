@@ -1,6 +1,7 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
 mod between;
+mod chatter;
 mod density;
 mod effort;
 mod end;

@@ -4,7 +4,7 @@
 //! A follower asks it of one [`Judge`] that the problem hands over. Every question has an answer that
 //! stands for "nothing is known", which is the default: with it a path is followed by its equations alone.
 
-use crate::point::PathEvents;
+use crate::{point::PathEvents, predictor::Node};
 
 /// How many multipliers of the solution at the last evaluated point lie outside the unit circle: of a
 /// solution that is a fixed point of a map, say.
@@ -35,6 +35,15 @@ pub struct RootCorner {
     pub is_multiple: bool,
     /// Work that it took, in evaluations.
     pub evaluations: u64,
+}
+
+/// A point of a path with its unit tangent, seen otherwise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Point and unit tangent.
+    pub node: Node,
+    /// How many times as large as in the point an error may be in its image, 1 or more.
+    pub magnification: f64,
 }
 
 /// Answers what the equations `R(x, λ) = 0` do not say, at the point at which they were evaluated last
@@ -97,11 +106,11 @@ pub trait Judge {
         1
     }
 
-    /// A point or a tangent as its image `k`, from 1 to below [`images`](Self::images); a change of the
-    /// unknowns that keeps the inner product and the parameter.
-    fn image(&self, k: usize, vector: &[f64]) -> Vec<f64> {
-        let _ = k;
-        vector.to_vec()
+    /// A point of the path and its tangent as their image `k`, from 1 to below [`images`](Self::images);
+    /// `None` if it cannot be computed. What was evaluated last stays so.
+    fn image(&mut self, k: usize, of: &Node) -> Option<Image> {
+        let _ = (k, of);
+        None
     }
 
     /// Whether `R` may change like a square root behind a change of signature, so that its derivatives grow

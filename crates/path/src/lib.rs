@@ -100,7 +100,7 @@ pub use follower::{
     Branch, Follower, MOST_SHORT_STEPS, PassedCorner, StartDirection, StepOutcome, TwoSidedBranch, follow,
     follow_both,
 };
-pub use judge::{Judge, Outside, RootCorner};
+pub use judge::{Image, Judge, Outside, RootCorner};
 pub use point::{ContinuationPoint, Counters, PathEvents};
 pub use predictor::{History, Node};
 pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestKind, TestValue};

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::support::{range, steps_of};
-use hammerbeam_path::{DenseProblem, Judge, PathProblem, PathStop, StartDirection, follow};
+use hammerbeam_path::{DenseProblem, Image, Judge, Node, PathProblem, PathStop, StartDirection, follow};
 
 /// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`,
 /// half a turn later.
@@ -28,8 +28,10 @@ impl<P: PathProblem> Judge for Twofold<P> {
         2
     }
 
-    fn image(&self, _: usize, vector: &[f64]) -> Vec<f64> {
-        vec![-vector[0], -vector[1], vector[2]]
+    fn image(&mut self, _: usize, of: &Node) -> Option<Image> {
+        let turned = |vector: &[f64]| vec![-vector[0], -vector[1], vector[2]];
+        let node = Node { point: turned(&of.point), tangent: turned(&of.tangent) };
+        Some(Image { node, magnification: 1.0 })
     }
 }
 

@@ -158,6 +158,9 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         StopReason::StepTooShort { frequency_hz, step, residual, doubt } => {
             StoredEnd::at("step-too-short", *frequency_hz).with([*step, *residual]).saying(doubt)
         }
+        StopReason::Chatter { frequency_hz, element, impacts } => {
+            StoredEnd::at("chatter", *frequency_hz).with([*impacts as f64]).saying(element)
+        }
         StopReason::RunsBack { frequency_hz, met_arc_length } => {
             StoredEnd::at("runs-back", *frequency_hz).with([*met_arc_length])
         }
@@ -195,6 +198,9 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         }
         ("step-too-short", [step, residual], frequency_hz) => {
             StopReason::StepTooShort { frequency_hz, step: *step, residual: *residual, doubt: text()? }
+        }
+        ("chatter", [impacts], frequency_hz) => {
+            StopReason::Chatter { frequency_hz, element: text()?, impacts: *impacts as usize }
         }
         ("runs-back", [met], frequency_hz) => StopReason::RunsBack { frequency_hz, met_arc_length: *met },
         ("contact-reopens", [phase], frequency_hz) => {
@@ -289,6 +295,7 @@ pub(crate) mod tests {
             StopReason::ShorterPeriod { frequency_hz, grazes: false },
             StopReason::Budget { solutions: 3 },
             StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: f64::INFINITY, doubt: text() },
+            StopReason::Chatter { frequency_hz, element: "stop".to_owned(), impacts: 12 },
             StopReason::RunsBack { frequency_hz, met_arc_length: 3.0 },
             StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
             StopReason::NoProgress { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },

@@ -124,6 +124,11 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
                 {look} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
             at(*frequency_hz)
         ),
+        StopReason::Chatter { frequency_hz, element, impacts } => format!(
+            "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each slower \
+                than the one before, and towards the end there are ever more; {look}",
+            at(*frequency_hz)
+        ),
         StopReason::RunsBack { frequency_hz, met_arc_length } => format!(
             "beyond {} every step led back to motions that the branch already has; {look} (met again at \
                 arc length {met_arc_length:.6})",

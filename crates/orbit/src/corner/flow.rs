@@ -53,7 +53,7 @@ impl TouchEquations<'_> {
                 .map(|(i, j)| flow.by_state[(i, j)] / scales[i] * scales[j])
                 .collect();
             // A gap that is opened depends on nothing.
-            let by_part = self.problem.by_last(&flow);
+            let by_part = self.problem.varied().column_of(&flow);
             let own = |i: usize| by_part.get(i).map_or(0.0, |value| value / scales[i]);
             by_last =
                 times(&factor, &by_last).iter().enumerate().map(|(i, carried)| carried + own(i)).collect();

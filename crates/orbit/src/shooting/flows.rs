@@ -115,7 +115,7 @@ impl ShootingProblem {
         let flow = self.integrator.flow(&stretch, &node)?;
         let in_flight = self.integrator.counts().steps == steps
             && self.integrator.touches().iter().all(|touches| *touches == 0);
-        let by_last = self.by_last(&flow);
+        let by_last = self.varied.column_of(&flow);
         let next = (segment + 1) % self.segments;
         for i in 0..size {
             self.residual[segment * size + i] = flow.state[i] / scales[i] - point[next * size + i];
@@ -219,8 +219,15 @@ fn jumps(system: &System, contact: usize) -> bool {
     of_contacts.nth(contact).is_some_and(|law| law.onset_damping() > 0.0)
 }
 
+/// By rows.
+pub(super) fn identity(size: usize) -> Vec<f64> {
+    let mut identity = vec![0.0; size * size];
+    (0..size).for_each(|i| identity[i * size + i] = 1.0);
+    identity
+}
+
 /// `target = factor source` by rows.
-fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
+pub(super) fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
     target.fill(0.0);
     for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
         for (value, from) in row.iter().zip(source.chunks_exact(size)) {

@@ -1,13 +1,14 @@
 //! What only orbits know, and the path asks of its judge: multipliers, orbits of shorter period, the same
 //! orbit a period later, contacts, and grazing of rigid stops.
 
-use hammerbeam_path::{Judge, Outside, PathEvents, PathProblem, RootCorner};
+use hammerbeam_path::{Image, Judge, Node, Outside, PathEvents, PathProblem, RootCorner};
 
 use super::{
     ShootingProblem,
     beside::{Beginning, Beside},
 };
 use crate::{corner, stability};
+use hammerbeam_motion::exact::MotionError;
 
 impl Judge for ShootingProblem {
     /// The first node stays, however the orbit is cut.
@@ -60,16 +61,13 @@ impl Judge for ShootingProblem {
         }
     }
 
-    /// The orbit as it begins some whole excitation periods later, if nodes lie so far apart.
+    /// The orbit as it begins some whole excitation periods later.
     fn images(&self) -> usize {
-        let periods = self.period_multiple() as usize;
-        if self.segments().is_multiple_of(periods) { periods } else { 1 }
+        self.period_multiple() as usize
     }
 
-    fn image(&self, k: usize, vector: &[f64]) -> Vec<f64> {
-        let (last, shift) = (self.unknowns(), k * self.segments() / self.images() * self.node_size());
-        let nodes = vector[shift..last].iter().chain(&vector[..shift]);
-        nodes.chain(&vector[last..]).copied().collect()
+    fn image(&mut self, k: usize, of: &Node) -> Option<Image> {
+        self.image_by_periods(k, of)
     }
 
     /// Impacts on rigid stops have a speed that goes like the root of the depth.
@@ -100,9 +98,7 @@ impl ShootingProblem {
     /// Distance of a point from the orbits of shorter period by its motion; infinite where that cannot be
     /// computed.
     fn distance_by_motion(&mut self, point: &[f64]) -> f64 {
-        if self.beside.is_none() {
-            self.beside = Beside::new(self.system(), self.integrator.settings()).ok().map(Box::new);
-        }
+        let Ok(mut beside) = self.take_beside() else { return f64::INFINITY };
         let begin = Beginning {
             scaled: &point[..self.scale.values().len()],
             scales: self.scale.values(),
@@ -111,6 +107,16 @@ impl ShootingProblem {
             period_multiple: self.period_multiple,
             parameter: self.varied.parameter().map(|parameter| (parameter, point[point.len() - 1])),
         };
-        self.hertz_per_norm * self.beside.as_mut().map_or(f64::INFINITY, |beside| beside.distance(begin))
+        let distance = beside.distance(begin);
+        self.beside = Some(beside);
+        self.hertz_per_norm * distance
+    }
+
+    /// The motions beside; whoever takes them puts them back.
+    pub(super) fn take_beside(&mut self) -> Result<Box<Beside>, MotionError> {
+        match self.beside.take() {
+            Some(beside) => Ok(beside),
+            None => Beside::new(self.system(), self.integrator.settings()).map(Box::new),
+        }
     }
 }

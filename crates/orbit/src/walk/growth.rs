@@ -14,13 +14,18 @@
 //! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
 //! last points have the same parameter to rounding, nothing is touched, and a mode has such a frequency.
 //!
+//! Where a mode has no damping, a branch may climb at a part of the frequency with which the structure vibrates
+//! in contact: the slope there goes like a power of the amplitude, and the parameter never stands still. Such
+//! a walk goes on until no step is short enough. If the motion then goes [`BEYOND`] times as far as the gap of
+//! an element, nothing bounds it either.
+//!
 //! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
 //! there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
 
 use std::f64::consts::TAU;
 
-use hammerbeam_motion::LocalElement;
+use hammerbeam_motion::{LocalElement, System};
 use hammerbeam_path::Node;
 
 use super::orbit_path::OrbitPath;
@@ -107,6 +112,32 @@ fn is_beyond_all_levels(path: &mut OrbitPath) -> bool {
     least.is_some_and(|least| least >= BEYOND)
 }
 
+/// Whether a mode has no damping and the motion at an element goes [`BEYOND`] times as far as its gap.
+pub(super) fn is_far_beyond_gaps_undamped(path: &mut OrbitPath) -> bool {
+    let system = path.problem.system();
+    let frequencies = &system.model().natural_frequencies;
+    if !(0..frequencies.len()).any(|i| frequencies[i] > 0.0 && damping_ratio(system, i) <= UNDAMPED) {
+        return false;
+    }
+    let gap =
+        |element: &LocalElement| Some((element.shape.clone(), element.law.gap().filter(|gap| *gap > 0.0)?));
+    let gaps: Vec<(Vec<f64>, f64)> = system.elements().iter().filter_map(gap).collect();
+    let farthest = path.of_present(|orbit, integrator, _| {
+        let mut farthest = 0.0_f64;
+        for (shape, gap) in &gaps {
+            farthest = farthest.max(orbit.largest_along(integrator, shape)? / gap);
+        }
+        Ok(farthest)
+    });
+    farthest.is_some_and(|farthest| farthest >= BEYOND)
+}
+
+/// Ratio to critical damping of a mode, which vibrates.
+fn damping_ratio(system: &System, mode: usize) -> f64 {
+    let model = system.model();
+    model.damping[(mode, mode)] / (2.0 * model.natural_frequencies[mode])
+}
+
 /// The undamped mode that resonates, where no element acts.
 fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
     let always_acts = |element: &LocalElement| element.law.contacts().is_empty();
@@ -115,7 +146,7 @@ fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
     let point = &path.follower.current().point;
     let base_hz = path.problem.frequency(point) / f64::from(path.problem.period_multiple());
     let model = path.problem.system().model();
-    let ratio = |i: usize| model.damping[(i, i)] / (2.0 * model.natural_frequencies[i]);
+    let ratio = |i: usize| damping_ratio(path.problem.system(), i);
     let resonates = |w: f64| {
         let harmonic = w / TAU / base_hz;
         w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic

@@ -129,16 +129,10 @@ fn carried(
     }
     let (size, frequency_hz) = (problem.node_size(), problem.frequency(&point));
     problem.move_to(&point)?;
-    let scales = problem.scale().values().to_vec();
-    let state: Vec<f64> = point.iter().zip(&scales).map(|(x, s)| x * s).collect();
-    let slope: Vec<f64> = tangent.iter().zip(&scales).map(|(t, s)| t * s).collect();
     let stretch = Stretch { frequency_hz, start: from, end: from + offset };
-    let flow = problem.integrator().flow(&stretch, &state)?;
-    let by_last = problem.by_last(&flow);
-    for i in 0..size {
-        let carried: f64 = (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum();
-        point[i] = flow.state[i] / scales[i];
-        tangent[i] = (carried + by_last[i] * tangent[size]) / scales[i];
-    }
+    let first = problem.node_slope(&point, &tangent, 0);
+    let carried = problem.carried(&first, &stretch, tangent[size])?;
+    point[..size].copy_from_slice(&carried.node);
+    tangent[..size].copy_from_slice(&carried.slope);
     Ok(Node { point, tangent })
 }

@@ -12,29 +12,24 @@ pub(super) fn refine(
     factor: usize,
 ) -> Result<Node, OrbitError> {
     let (point, tangent) = (&at.point, &at.tangent);
-    let (size, old) = (problem.node_size(), problem.segments());
-    let (frequency_hz, last_tangent) = (problem.frequency(point), tangent[old * size]);
+    let (old, last) = (problem.segments(), problem.segments() * problem.node_size());
+    let frequency_hz = problem.frequency(point);
     problem.move_to(point)?;
-    let scales = problem.scale().values().to_vec();
-    let unscaled = |values: &[f64]| values.iter().zip(&scales).map(|(x, s)| x * s).collect::<Vec<f64>>();
     let (mut points, mut tangents) = (Vec::new(), Vec::new());
     for segment in 0..old {
         let stretch = problem.stretch(segment, frequency_hz);
-        let place = segment * size..(segment + 1) * size;
-        let (mut state, mut slope) = (unscaled(&point[place.clone()]), unscaled(&tangent[place]));
+        let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / factor as f64;
+        let mut node = problem.node_slope(point, tangent, segment);
         for part in 0..factor {
-            points.extend(state.iter().zip(&scales).map(|(z, s)| z / s));
-            tangents.extend(slope.iter().zip(&scales).map(|(z, s)| z / s));
-            let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / factor as f64;
-            let piece = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
-            let flow = problem.integrator().flow(&piece, &state)?;
-            let carried = |i: usize| (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum::<f64>();
-            let by_last = problem.by_last(&flow);
-            slope = (0..size).map(|i| carried(i) + by_last[i] * last_tangent).collect();
-            state = flow.state;
+            points.extend_from_slice(&node.node);
+            tangents.extend_from_slice(&node.slope);
+            if part + 1 < factor {
+                let piece = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
+                node = problem.carried(&node, &piece, tangent[last])?;
+            }
         }
     }
-    points.push(point[old * size]);
-    tangents.push(last_tangent);
+    points.push(point[last]);
+    tangents.push(tangent[last]);
     Ok(Node { point: points, tangent: tangents })
 }

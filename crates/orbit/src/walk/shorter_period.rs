@@ -36,7 +36,7 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
         (current.events, current.parameter())
     };
     let flips = events.branch_point && is_near_shorter_period(path) || tends_to_shorter_period(path);
-    let grazes = !flips && events.signature_change && distance_to_shorter_period(path) < SAME;
+    let grazes = !flips && events.signature_change && is_one_of_shorter_period(path);
     (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
 }
 
@@ -64,6 +64,15 @@ fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
 /// Whether the present orbit is, within [`MERGED`], one of shorter period.
 pub(super) fn is_near_shorter_period(path: &mut OrbitPath) -> bool {
     distance_to_shorter_period(path) < MERGED
+}
+
+/// Whether the present orbit is one of shorter period, by its motion or, beside a grazing impact, behind which
+/// the motion parts at once from any that begins next to it, by what it begins with.
+fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
+    let by_motion = distance_to_shorter_period(path);
+    let OrbitPath { problem, follower, .. } = path;
+    let by_begin = problem.distance_to_simpler(&follower.current().point) / problem.hertz_per_norm();
+    by_motion < SAME || by_motion < MERGED && by_begin < SAME
 }
 
 /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period

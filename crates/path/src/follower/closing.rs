@@ -3,6 +3,7 @@
 use super::{arrival::Arrival, attempt::Attempt, locator::Locator};
 use crate::{
     error::{PathStop, StepDoubt},
+    judge::Image,
     point::ContinuationPoint,
     predictor::Node,
     product::{distance, product},
@@ -25,19 +26,19 @@ pub(super) fn passes_start(attempt: &mut Attempt<'_>, locator: &mut Locator) -> 
     }
     let images = attempt.problem.judge().images();
     (0..images).find(|&image| {
-        let start = image_of_start(attempt, image);
-        passes(attempt, locator, &start)
+        image_of_start(attempt, image).is_some_and(|start| passes(attempt, locator, &start.node))
     })
 }
 
 /// The start as that image.
-fn image_of_start(attempt: &mut Attempt<'_>, image: usize) -> Node {
+fn image_of_start(attempt: &mut Attempt<'_>, image: usize) -> Option<Image> {
     let ContinuationPoint { point, tangent, .. } = &attempt.state.start;
+    let start = Node { point: point.clone(), tangent: tangent.clone() };
     if image == 0 {
-        return Node { point: point.clone(), tangent: tangent.clone() };
+        Some(Image { node: start, magnification: 1.0 })
+    } else {
+        attempt.problem.judge().image(image, &start)
     }
-    let judge = attempt.problem.judge();
-    Node { point: judge.image(image, point), tangent: judge.image(image, tangent) }
 }
 
 fn passes(attempt: &Attempt<'_>, locator: &mut Locator, start: &Node) -> bool {
@@ -62,7 +63,7 @@ pub(super) fn arrive_at_start(
     locator: &mut Locator,
     image: usize,
 ) -> Result<Arrival, StepDoubt> {
-    let start = image_of_start(attempt, image);
+    let Image { node: start, magnification } = image_of_start(attempt, image).ok_or(StepDoubt::NotLocated)?;
     let sigma = attempt.progress_of(&start);
     locator.probe_between(attempt, sigma, sigma)?;
     locator.probe.orient(attempt.state.orientation);
@@ -70,6 +71,7 @@ pub(super) fn arrive_at_start(
     let (weights, node) = (&attempt.frame.weights, &attempt.trial.node);
     let apart = distance(weights, &node.point, &start.point);
     let cosine = product(weights, &node.tangent, &start.tangent);
-    let closed = apart <= 10.0 * attempt.settings().correction_tolerance && cosine > ALIGNED;
+    let allowed = 10.0 * attempt.settings().correction_tolerance * magnification;
+    let closed = apart <= allowed && cosine > ALIGNED;
     Ok(Arrival { end: closed.then_some(PathStop::Closed), ..Arrival::default() })
 }
