@@ -64,6 +64,41 @@ gap_m = 1.0
 side = "below"
 "#;
 
+/// Two masses with 1 % of damping. A branch of period 3 passes a corner onto itself some periods later, and
+/// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes. Four
+/// walks end in chatter.
+const CHATTERING: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 1.0 }, { name = "b", mass_kg = 0.7 }]
+spring = [
+    { between = ["a", "ground"], stiffness_n_m = 700.0 },
+    { between = ["a", "b"], stiffness_n_m = 450.0 },
+]
+[damping]
+modal_ratio = 0.01
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 2.0
+frequency_hz = [1.8, 7.0]
+[[stop]]
+name = "stop"
+at = "b"
+law = "rigid"
+restitution = 0.7
+gap_m = 0.004
+side = "above"
+[search]
+frequencies = 8
+starts = 4
+trials = 6
+[continuation]
+max_step_hz = 0.005
+[response]
+period_multiples = [1, 2, 3]
+"#;
+
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
 
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
@@ -71,10 +106,12 @@ fn shares(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
 }
 
-/// Both sides of all branches end at an end of the range or close, and no orbit lies on two branches.
+/// Both sides of all branches end at an end of the range, close, meet another one, or chatter, and no orbit is
+/// stored twice.
 fn assert_whole(workshop: &Workshop, range_hz: (f64, f64)) {
     for end in workshop.table("results/export/ends.csv") {
-        let ends_well = ["range-end", "closed", "shorter-period"].contains(&end["end"].as_str());
+        let ends = ["range-end", "closed", "crossing", "shorter-period", "chatter"];
+        let ends_well = ends.contains(&end["end"].as_str());
         assert!(ends_well, "{end:?}");
     }
     let file = StudyFile::read(&workshop.path("study.toml")).unwrap();
@@ -95,6 +132,16 @@ fn a_branch_goes_on_across_corners_and_no_other_one_holds_its_orbits() {
 #[test]
 fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4));
+}
+
+#[test]
+fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_later() {
+    let workshop = Workshop::exported(CHATTERING);
+    assert_whole(&workshop, (1.8, 7.0));
+    let ends = workshop.table("results/export/ends.csv");
+    let chatter = ends.iter().filter(|end| end["end"] == "chatter");
+    assert!(chatter.clone().count() > 1, "{ends:?}");
+    assert!(chatter.clone().all(|end| end["message"].contains("stop chatters")), "{ends:?}");
 }
 
 /// `A = F/|1 - W^2 + i c W|` reaches the gap: `(1 - W^2)^2 + (c W)^2 = (F/g)^2`. Whether the impact comes or

@@ -183,8 +183,8 @@ impl StoredBranches {
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }
 
-    /// Pairs of branches that hold the same orbit at a frequency, as it is or started some excitation periods
-    /// later: there should be none.
+    /// Pairs of branches, or a branch with itself, that hold the same orbit at a frequency, as it is, started
+    /// some excitation periods later, or gone through several times: there should be none.
     ///
     /// * `model`: that of the study.
     ///
@@ -201,9 +201,9 @@ impl StoredBranches {
             .collect();
         let mut twice = Vec::new();
         for (place, (first, states)) in orbits.iter().enumerate() {
-            for (second, others) in orbits[place + 1..].iter().filter(|(second, _)| second != first) {
+            for (second, others) in &orbits[place + 1..] {
                 let same = |state: &Vec<f64>| distance(&scales, &states[0], state) < SAME;
-                if states.len() == others.len() && others.iter().any(same) {
+                if others.iter().any(same) {
                     twice.push([*first, *second]);
                 }
             }
