@@ -99,6 +99,42 @@ max_step_hz = 0.005
 period_multiples = [1, 2, 3]
 "#;
 
+/// A mass between a stop that gives nothing back and one that does: it leaves the first one without speed, which
+/// is no turn of its flight at the level of the stop. Taken as one, it held steps up to 1e-5 of the longest.
+const PLASTIC: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 0.719 }]
+spring = [{ between = ["a", "ground"], stiffness_n_m = 1971.0 }]
+[damping]
+modal_ratio = 0.01
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 2.04
+frequency_hz = [2.9, 18.3]
+[[stop]]
+name = "plastic"
+at = "a"
+law = "rigid"
+restitution = 0
+gap_m = 0.00105
+side = "above"
+[[stop]]
+name = "elastic"
+at = "a"
+law = "rigid"
+restitution = 0.7
+gap_m = 0.00514
+side = "below"
+[continuation]
+max_step_hz = 0.0257
+[search]
+frequencies = 8
+starts = 4
+trials = 4
+"#;
+
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
 
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
@@ -132,6 +168,16 @@ fn a_branch_goes_on_across_corners_and_no_other_one_holds_its_orbits() {
 #[test]
 fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4));
+}
+
+#[test]
+fn a_branch_at_a_plastic_stop_gets_on() {
+    let workshop = Workshop::exported(PLASTIC);
+    assert_whole(&workshop, (2.9, 18.3));
+    let rows = workshop.table("results/export/branches.csv");
+    // The range is 600 of the longest steps.
+    assert!(rows.len() < 4000, "{} solutions", rows.len());
+    assert!(rows.iter().any(|row| number(row, "max_impact_velocity_m_s") > 0.0));
 }
 
 #[test]

@@ -73,16 +73,22 @@ impl ExactIntegrator {
         for piece in 0..course.stretches.len() {
             self.let_go();
             self.drive_over(&course.stretches[piece].stretch);
+            let mut at_stop: Vec<usize> = Vec::new();
             for passage in course.of_stretch(piece) {
                 match *passage {
                     Passage::Touch { speed, .. } => {
                         put_among(&mut least.squared_touch_speeds, speed * speed);
                     }
-                    Passage::Flight { start, duration, state, held, .. } if course.held(held).is_empty() => {
-                        let flown = Flown { piece, start, duration, state: course.numbers(state), held: &[] };
-                        self.put_turns(&flown, &mut least.clearances);
+                    Passage::Flight { start, duration, state, held, .. } => {
+                        if course.held(held).is_empty() {
+                            let state = course.numbers(state);
+                            let flown = Flown { piece, start, duration, state, held: &[] };
+                            self.put_turns(&flown, &at_stop, &mut least.clearances);
+                        }
+                        at_stop = course.held(held).to_vec();
                     }
-                    _ => {}
+                    Passage::Step(step) => at_stop = course.held(step.held).to_vec(),
+                    Passage::Impact { element, .. } => at_stop.push(element),
                 }
             }
         }
@@ -121,14 +127,18 @@ impl ExactIntegrator {
     }
 
     /// Puts the clearance of the highest turn towards each contact in a flight among the smallest ones.
-    fn put_turns(&self, flown: &Flown, smallest: &mut [f64; NEAREST]) {
+    ///
+    /// * `let_go`: elements that were held on rigid stops until the flight began, or struck them then. They
+    ///   leave their stops, perhaps without speed, and do not turn there.
+    fn put_turns(&self, flown: &Flown, let_go: &[usize], smallest: &mut [f64; NEAREST]) {
         for (element, law) in self.laws.iter().enumerate().filter(|(_, law)| !law.contacts().is_empty()) {
             let flight = FlightReading::new(self, flown, element);
             let values = flight.on_grid(flight.places().min(MOST_PLACES));
             for contact in law.contacts() {
                 let clearances: Vec<f64> =
                     values.iter().map(|r| contact.sign * (contact.level - r)).collect();
-                if let Some(clearance) = nearest_turn(&flight, contact.sign, &clearances) {
+                let ends = if let_go.contains(&element) { Ends::Last } else { Ends::Both };
+                if let Some(clearance) = nearest_turn(&flight, contact.sign, &clearances, ends) {
                     put_among(smallest, clearance);
                 }
             }
@@ -212,11 +222,20 @@ struct Turn {
     shift: f64,
 }
 
+/// At which ends of a flight it may turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    Both,
+    Last,
+}
+
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
-fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64]) -> Option<f64> {
+fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64], ends: Ends) -> Option<f64> {
     let width = flight.duration() / (clearances.len() - 1) as f64;
     let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));
-    let outer = [0, clearances.len() - 1].into_iter().filter_map(|node| {
+    let last = clearances.len() - 1;
+    let ends: &[usize] = if ends == Ends::Both { &[0, last] } else { &[last] };
+    let outer = ends.iter().filter_map(|&node| {
         if !may_turn_at_end(clearances, node) {
             return None;
         }
