@@ -230,7 +230,22 @@ impl SystemField<'_> {
             self.strike_and_stick((e, speed), &thrown_off, time, (state, columns), inside);
         } else if speed > 0.0 {
             self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
+        } else {
+            self.put_before(e, time, state);
         }
+    }
+
+    /// Moves an element that leaves its stop to before it, as far as rounding goes: a stop that is left without
+    /// speed would be met again with each next step else.
+    fn put_before(&self, e: usize, time: f64, state: &mut [f64]) {
+        let n = self.system.dof();
+        let element = &self.system.elements()[e];
+        let level = self.laws[e].contacts()[0].level;
+        let parts = element.shape.iter().zip(&state[..n]).map(|(shape, q)| (shape * q).abs());
+        let rounding = AT_REST * parts.fold(level.abs(), |sum, part| sum + part);
+        let beyond = self.relative_displacement(element, &state[..n], time) - level + rounding;
+        let direction = self.free_direction(e);
+        add_scaled(&mut state[..n], -beyond.max(0.0) / dot(&element.shape, &direction), &direction);
     }
 
     /// Whether an impact is the end of a chatter, or without restitution and pressed on behind it, where

@@ -181,7 +181,7 @@ impl<'a> SystemField<'a> {
         motion
     }
 
-    fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
+    pub(super) fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
         dot(&element.shape, q) + self.carried(&element.support_ratios, phase)[0]
     }
 
