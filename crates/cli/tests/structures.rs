@@ -242,3 +242,31 @@ fn matrices_of_a_beam_in_two_planes_are_refused_with_what_is_allowed() {
     }
     assert!(!folder.path().join("tube").exists(), "nothing is written");
 }
+
+/// A chain of so many equal masses.
+fn chain(masses: usize) -> String {
+    let mass = |k: usize| format!("{{ name = \"m{k}\", mass_kg = 1.0 }}");
+    let before = |k: usize| if k == 0 { "ground".to_owned() } else { format!("m{}", k - 1) };
+    let spring = |k: usize| format!("{{ between = [\"{}\", \"m{k}\"], stiffness_n_m = 2500.0 }}", before(k));
+    let rows = |one: &dyn Fn(usize) -> String| (0..masses).map(one).collect::<Vec<_>>().join(", ");
+    format!(
+        "[structure]\nkind = \"lumped\"\nmass = [{}]\nspring = [{}]\n[damping]\nmodal_ratio = 0.01\n\
+         [excitation]\nkind = \"force\"\nat = \"m0\"\namplitude_n = 1.0\nfrequency_hz = [0.2, 2.0]\n",
+        rows(&mass),
+        rows(&spring)
+    )
+}
+
+#[test]
+fn a_structure_of_too_many_modes_is_told_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    for (masses, is_told) in [(100, false), (101, true)] {
+        let study = folder.path().join("study.toml");
+        std::fs::write(&study, chain(masses)).unwrap();
+        let output = hammerbeam().arg("check").arg(&study).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let messages = String::from_utf8(output.stderr).unwrap();
+        let told = messages.contains("101 modes are followed") && messages.contains("given as matrices");
+        assert_eq!(told, is_told, "{messages}");
+    }
+}

@@ -38,6 +38,7 @@ pub fn check<'a>(study: &'a PreparedStudy, observer: &mut dyn Observer) -> Resul
     }
     let drifts = model.drifts();
     drifts.iter().for_each(|drift| observer.notice(&format_args!("warning: {drift}")));
+    study.warn_of_many_modes(observer);
     study.check_range()?;
     Ok(CheckReport {
         study: &file.study,

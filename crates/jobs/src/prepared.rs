@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use hammerbeam_results::Store;
-use hammerbeam_study::{Model, StudyError, StudyFile};
+use hammerbeam_study::{Model, StudyError, StudyFile, file::StructureTable};
 
 use crate::{JobError, Observer};
+
+/// More modes than these make a run of some thousand solutions last for hours.
+const MANY_MODES: usize = 100;
 
 /// A study and the model that it describes.
 #[derive(Debug, Clone)]
@@ -58,7 +61,7 @@ impl PreparedStudy {
         self.model.system.dof()
     }
 
-    /// Reports directions in which only stops hold the structure.
+    /// Reports directions in which only stops hold the structure, and so many modes that the work is theirs.
     ///
     /// # Errors
     /// [`JobError::Drifts`]: nothing holds a direction, and then no periodic solution is isolated.
@@ -68,7 +71,29 @@ impl PreparedStudy {
             return Err(JobError::Drifts(drift.clone()));
         }
         drifts.iter().for_each(|drift| observer.notice(&format_args!("warning: {drift}")));
+        self.warn_of_many_modes(observer);
         Ok(())
+    }
+
+    /// Advises to reduce a structure of more than [`MANY_MODES`] modes.
+    pub(crate) fn warn_of_many_modes(&self, observer: &mut dyn Observer) {
+        let modes = self.dof();
+        if modes <= MANY_MODES {
+            return;
+        }
+        let advice = match &self.file.study.structure {
+            StructureTable::Lumped(_) => {
+                "a lumped structure keeps all of its modes; given as matrices ([structure] kind = \
+                \"matrices\") it can be reduced"
+            }
+            _ => {
+                "a cut_off_hz ([reduction]) of some times the highest frequency of the excitation keeps fewer"
+            }
+        };
+        observer.notice(&format_args!(
+            "warning: {modes} modes are followed; the work of each solution grows like the cube of their number, \
+            and with more than {MANY_MODES} a run takes hours: {advice}"
+        ));
     }
 
     /// Refuses a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
