@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use hammerbeam_jobs::StoredBranches;
 use hammerbeam_study::{Model, StudyFile};
 
-use crate::common::{Workshop, number};
+use crate::common::{Workshop, assert_success, number};
 
 /// Two masses in a row with 2 % of damping, one stop: coming down, a walk on states alone lost its way at the
 /// corner at 0.04695 Hz, and another branch held the same orbits.
@@ -65,7 +65,7 @@ side = "below"
 "#;
 
 /// Two masses with 1 % of damping. A branch of period 3 passes a corner onto itself some periods later, and
-/// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes. Four
+/// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes. Three
 /// walks end in chatter.
 const CHATTERING: &str = r#"
 [structure]
@@ -135,6 +135,38 @@ starts = 4
 trials = 4
 "#;
 
+/// Two masses at a plastic stop, which is left with hardly any speed beside 4.11608 Hz: the general integrator
+/// met it again with each step.
+const LEFT_WITHOUT_SPEED: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 0.360607 }, { name = "b", mass_kg = 1.59979 }]
+spring = [
+    { between = ["a", "ground"], stiffness_n_m = 984.172 },
+    { between = ["b", "a"], stiffness_n_m = 1346.13 },
+]
+[damping]
+modal_ratio = 0.04
+[excitation]
+kind = "force"
+at = "b"
+amplitude_n = 2.64051
+frequency_hz = [4.11607, 4.1161]
+[[stop]]
+name = "s0"
+at = "a"
+law = "rigid"
+restitution = 0
+gap_m = 0.000440634
+side = "above"
+[search]
+frequencies = 1
+starts = 1
+trials = 1
+[continuation]
+max_step_hz = 2e-7
+"#;
+
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
 
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
@@ -142,11 +174,12 @@ fn shares(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
 }
 
-/// Both sides of all branches end at an end of the range, close, meet another one, or chatter, and no orbit is
-/// stored twice.
-fn assert_whole(workshop: &Workshop, range_hz: (f64, f64)) {
+/// How a branch ends that is whole.
+const WHOLE: &[&str] = &["range-end", "closed", "crossing", "shorter-period"];
+
+/// Both sides of all branches end as they may, and no orbit is stored twice.
+fn assert_whole(workshop: &Workshop, range_hz: (f64, f64), ends: &[&str]) {
     for end in workshop.table("results/export/ends.csv") {
-        let ends = ["range-end", "closed", "crossing", "shorter-period", "chatter"];
         let ends_well = ends.contains(&end["end"].as_str());
         assert!(ends_well, "{end:?}");
     }
@@ -162,18 +195,18 @@ fn assert_whole(workshop: &Workshop, range_hz: (f64, f64)) {
 
 #[test]
 fn a_branch_goes_on_across_corners_and_no_other_one_holds_its_orbits() {
-    assert_whole(&Workshop::exported(LOST_WAY), (0.0376, 0.2348));
+    assert_whole(&Workshop::exported(LOST_WAY), (0.0376, 0.2348), WHOLE);
 }
 
 #[test]
 fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
-    assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4));
+    assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4), WHOLE);
 }
 
 #[test]
 fn a_branch_at_a_plastic_stop_gets_on() {
     let workshop = Workshop::exported(PLASTIC);
-    assert_whole(&workshop, (2.9, 18.3));
+    assert_whole(&workshop, (2.9, 18.3), WHOLE);
     let rows = workshop.table("results/export/branches.csv");
     // The range is 600 of the longest steps.
     assert!(rows.len() < 4000, "{} solutions", rows.len());
@@ -181,12 +214,19 @@ fn a_branch_at_a_plastic_stop_gets_on() {
 }
 
 #[test]
+fn solutions_at_a_stop_that_is_left_without_speed_are_verified() {
+    let workshop = Workshop::exported(LEFT_WITHOUT_SPEED);
+    assert!(workshop.table("results/export/branches.csv").len() > 100);
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
+}
+
+#[test]
 fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_later() {
     let workshop = Workshop::exported(CHATTERING);
-    assert_whole(&workshop, (1.8, 7.0));
+    assert_whole(&workshop, (1.8, 7.0), &[WHOLE, &["chatter"]].concat());
     let ends = workshop.table("results/export/ends.csv");
     let chatter = ends.iter().filter(|end| end["end"] == "chatter");
-    assert!(chatter.clone().count() > 1, "{ends:?}");
+    assert_eq!(chatter.clone().count(), 3, "{ends:?}");
     assert!(chatter.clone().all(|end| end["message"].contains("stop chatters")), "{ends:?}");
 }
 

@@ -45,6 +45,7 @@ pub fn orbits(
 ) -> Result<OrbitsReport, JobError> {
     study.file.forced()?;
     study.check_held(observer)?;
+    study.warn_of_many_modes(observer);
     let solver = OrbitSolver::new(&study.model, &study.file.study);
     let found = solver.find_orbits(frequency_hz, period_multiple, &mut || observer.interrupted());
     if observer.interrupted() {

@@ -61,7 +61,7 @@ impl PreparedStudy {
         self.model.system.dof()
     }
 
-    /// Reports directions in which only stops hold the structure, and so many modes that the work is theirs.
+    /// Reports directions in which only stops hold the structure.
     ///
     /// # Errors
     /// [`JobError::Drifts`]: nothing holds a direction, and then no periodic solution is isolated.
@@ -71,7 +71,6 @@ impl PreparedStudy {
             return Err(JobError::Drifts(drift.clone()));
         }
         drifts.iter().for_each(|drift| observer.notice(&format_args!("warning: {drift}")));
-        self.warn_of_many_modes(observer);
         Ok(())
     }
 

@@ -44,7 +44,8 @@
 //!
 //! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in
 //! `shooting/equations.rs`, and of what only orbits know in `shooting/judge.rs`; motions beside the one that
-//! was evaluated are in `shooting/beside.rs`.
+//! was evaluated are in `shooting/beside.rs`, the orbit some periods later in `shooting/images.rs`, nodes
+//! carried along the motion in `shooting/carried.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
@@ -219,13 +220,15 @@ impl ShootingProblem {
     /// Cuts the orbit anew; the problem must be evaluated again.
     pub fn set_segments(&mut self, segments: usize) {
         let size = self.node_size();
+        let mut identity = vec![0.0; size * size];
+        (0..size).for_each(|i| identity[i * size + i] = 1.0);
         // The orbit counts once, whatever the number of nodes.
         let weight = self.hertz_per_norm * self.hertz_per_norm / segments as f64;
         self.segments = segments;
         self.weights = (0..segments * size).map(|_| weight).chain([1.0]).collect();
         self.residual = vec![0.0; segments * size];
         self.segment_matrices = vec![vec![0.0; size * size]; segments];
-        self.products = vec![flows::identity(size); segments + 1];
+        self.products = vec![identity; segments + 1];
         self.by_parameter = vec![vec![0.0; size]; segments];
         self.parameter_sums = vec![vec![0.0; size]; segments + 1];
         self.condensed = vec![0.0; (size + 1) * (size + 1)];

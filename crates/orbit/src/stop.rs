@@ -36,7 +36,7 @@ pub enum StopReason {
         /// What was wrong with it.
         doubt: String,
     },
-    /// The motion comes to infinitely many impacts on a rigid stop, ever slower.
+    /// No step, however short, led to an acceptable solution, and the last motion chatters at a rigid stop.
     Chatter {
         /// Where [Hz].
         frequency_hz: f64,
@@ -74,7 +74,7 @@ pub enum StopReason {
     },
     /// The amplitude has no bound while the parameter stands still: the branch goes to infinity, and what
     /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency;
-    /// or the structure has no damping, and the amplitude went so far beyond all gaps that no step was found.
+    /// or nothing takes energy out of the motion, which went so far beyond all gaps that no step was found.
     Unbounded {
         /// Where [Hz].
         frequency_hz: f64,

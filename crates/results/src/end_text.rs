@@ -126,7 +126,7 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         ),
         StopReason::Chatter { frequency_hz, element, impacts } => format!(
             "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each slower \
-                than the one before, and towards the end there are ever more; {look}",
+                than the one before, and no motion next to it was found; {look}",
             at(*frequency_hz)
         ),
         StopReason::RunsBack { frequency_hz, met_arc_length } => format!(

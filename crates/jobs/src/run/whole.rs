@@ -72,6 +72,7 @@ pub fn run_study(
     let PreparedStudy { file, model } = study;
     file.forced()?;
     study.check_held(observer)?;
+    study.warn_of_many_modes(observer);
     study.check_range()?;
     let solver = OrbitSolver::new(model, &file.study);
     let mut met = Vec::new();

@@ -26,6 +26,8 @@ use crate::law::RoundHole;
 
 /// Turns within this share of the largest clearance of a flight are closed in.
 const NEAR: f64 = 0.1;
+/// Share of the size of a flight within which it begins at the level itself.
+const LEFT: f64 = 1e-12;
 /// Share of the largest clearance by which a turn may lie above the grid.
 const EXCESS: f64 = 0.01;
 const MOST_PLACES: usize = 256;
@@ -73,22 +75,16 @@ impl ExactIntegrator {
         for piece in 0..course.stretches.len() {
             self.let_go();
             self.drive_over(&course.stretches[piece].stretch);
-            let mut at_stop: Vec<usize> = Vec::new();
             for passage in course.of_stretch(piece) {
                 match *passage {
                     Passage::Touch { speed, .. } => {
                         put_among(&mut least.squared_touch_speeds, speed * speed);
                     }
-                    Passage::Flight { start, duration, state, held, .. } => {
-                        if course.held(held).is_empty() {
-                            let state = course.numbers(state);
-                            let flown = Flown { piece, start, duration, state, held: &[] };
-                            self.put_turns(&flown, &at_stop, &mut least.clearances);
-                        }
-                        at_stop = course.held(held).to_vec();
+                    Passage::Flight { start, duration, state, held, .. } if course.held(held).is_empty() => {
+                        let flown = Flown { piece, start, duration, state: course.numbers(state), held: &[] };
+                        self.put_turns(&flown, &mut least.clearances);
                     }
-                    Passage::Step(step) => at_stop = course.held(step.held).to_vec(),
-                    Passage::Impact { element, .. } => at_stop.push(element),
+                    _ => {}
                 }
             }
         }
@@ -127,18 +123,14 @@ impl ExactIntegrator {
     }
 
     /// Puts the clearance of the highest turn towards each contact in a flight among the smallest ones.
-    ///
-    /// * `let_go`: elements that were held on rigid stops until the flight began, or struck them then. They
-    ///   leave their stops, perhaps without speed, and do not turn there.
-    fn put_turns(&self, flown: &Flown, let_go: &[usize], smallest: &mut [f64; NEAREST]) {
+    fn put_turns(&self, flown: &Flown, smallest: &mut [f64; NEAREST]) {
         for (element, law) in self.laws.iter().enumerate().filter(|(_, law)| !law.contacts().is_empty()) {
             let flight = FlightReading::new(self, flown, element);
             let values = flight.on_grid(flight.places().min(MOST_PLACES));
             for contact in law.contacts() {
                 let clearances: Vec<f64> =
                     values.iter().map(|r| contact.sign * (contact.level - r)).collect();
-                let ends = if let_go.contains(&element) { Ends::Last } else { Ends::Both };
-                if let Some(clearance) = nearest_turn(&flight, contact.sign, &clearances, ends) {
+                if let Some(clearance) = nearest_turn(&flight, contact.sign, &clearances) {
                     put_among(smallest, clearance);
                 }
             }
@@ -162,6 +154,13 @@ impl<'a> FlightReading<'a> {
                 Self::Hole { hole, size, both: [function(element), function(element + 1)] }
             }
             None => Self::Output { size: size(element), function: function(element) },
+        }
+    }
+
+    /// Bound of what it reads.
+    fn size(&self) -> f64 {
+        match self {
+            Self::Output { size, .. } | Self::Hole { size, .. } => *size,
         }
     }
 
@@ -222,21 +221,16 @@ struct Turn {
     shift: f64,
 }
 
-/// At which ends of a flight it may turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ends {
-    Both,
-    Last,
-}
-
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
-fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64], ends: Ends) -> Option<f64> {
+///
+/// What is let go by a rigid stop, or has struck one that gives nothing back, leaves it without speed; that is no
+/// turn at its level.
+fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64]) -> Option<f64> {
     let width = flight.duration() / (clearances.len() - 1) as f64;
     let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));
-    let last = clearances.len() - 1;
-    let ends: &[usize] = if ends == Ends::Both { &[0, last] } else { &[last] };
-    let outer = ends.iter().filter_map(|&node| {
-        if !may_turn_at_end(clearances, node) {
+    let is_left = |node: usize| node == 0 && clearances[0].abs() <= LEFT * flight.size();
+    let outer = [0, clearances.len() - 1].into_iter().filter_map(|node| {
+        if is_left(node) || !may_turn_at_end(clearances, node) {
             return None;
         }
         let (_, slope, curvature) = flight.at(node as f64 * width);
@@ -323,12 +317,7 @@ mod tests {
             supports: vec![],
             uniform_acceleration: vec![1.0],
         };
-        let stop = LocalElement {
-            name: "stop".into(),
-            shape: vec![1.0],
-            support_ratios: vec![0.0],
-            law: Law::Linear(stop),
-        };
+        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
         let system = System::new(model, &Load::default(), vec![stop]).unwrap();
         let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end };

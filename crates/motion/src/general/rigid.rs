@@ -34,6 +34,9 @@ pub(super) const AT_START: f64 = 1e-10;
 /// Speed, relative to the usual one, below which it is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
 
+/// So many times rounding may move an element back to before its stop.
+const MOST_ROUNDINGS: f64 = 100.0;
+
 /// What is known of the rigid stops of a system.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RigidStops {
@@ -242,10 +245,14 @@ impl SystemField<'_> {
         let element = &self.system.elements()[e];
         let level = self.laws[e].contacts()[0].level;
         let parts = element.shape.iter().zip(&state[..n]).map(|(shape, q)| (shape * q).abs());
-        let rounding = AT_REST * parts.fold(level.abs(), |sum, part| sum + part);
-        let beyond = self.relative_displacement(element, &state[..n], time) - level + rounding;
-        let direction = self.free_direction(e);
-        add_scaled(&mut state[..n], -beyond.max(0.0) / dot(&element.shape, &direction), &direction);
+        let carried = self.carried(&element.support_ratios, time)[0].abs();
+        let rounding = AT_REST * parts.fold(level.abs() + carried, |sum, part| sum + part);
+        let beyond = self.relative_displacement(element, &state[..n], time) - level;
+        if (-rounding..MOST_ROUNDINGS * rounding).contains(&beyond) {
+            let direction = self.free_direction(e);
+            let back = (beyond + rounding) / dot(&element.shape, &direction);
+            add_scaled(&mut state[..n], -back, &direction);
+        }
     }
 
     /// Whether an impact is the end of a chatter, or without restitution and pressed on behind it, where

@@ -1,18 +1,12 @@
-//! Motions beside the one that was evaluated last, which an integrator of its own follows: how far an orbit is
-//! from those of shorter period, and how it is seen some periods later (`images.rs`), where its nodes do not
-//! tell, since no two of them lie whole excitation periods apart, as in one segment.
+//! Motions beside the one that was evaluated, by an integrator of their own, since the other one holds what
+//! was evaluated last: how far an orbit is from those of shorter period where its nodes do not tell, as no two
+//! of them lie whole excitation periods apart; and how it begins some periods later (`images.rs`).
 
 use hammerbeam_motion::{
     Parameter, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
 
-use hammerbeam_path::DenseLu;
-
-use super::{
-    carried::{Along, NodeSlope},
-    flows::{identity, multiply},
-};
 use crate::ContinuationParameter;
 
 /// Orbits whose distance is kept: a trial is the next current point.
@@ -69,12 +63,8 @@ impl Beside {
         Ok(&mut self.integrator)
     }
 
-    /// Distance from an orbit of k excitation periods, the least one over the proper divisors k of N; infinite
-    /// where the motion cannot be computed.
-    ///
-    /// With the state `Z` and its derivative `G` after k periods it is the length of `Z - z_0` or, where that
-    /// is less, of Newton's correction `(G - I)^-1 (Z - z_0)`: beside grazing impacts motions part so fast
-    /// that `Z - z_0` is large for a `z_0` that is the state of such an orbit to rounding.
+    /// Root of the sum of squares of `Z(z_0) - z_0` after k excitation periods, the least one over the proper
+    /// divisors k of N; infinite where the motion cannot be computed.
     pub fn distance(&mut self, begin: Beginning<'_>) -> f64 {
         let parameter = begin.parameter.map_or(0.0, |(_, value)| value);
         let place = [begin.phase, begin.frequency_hz, parameter];
@@ -93,41 +83,17 @@ impl Beside {
         if let Some((parameter, value)) = parameter {
             self.integrator.set_parameter(parameter, value)?;
         }
-        let along = Along { scales, varied: ContinuationParameter::Frequency, last_slope: 0.0 };
-        let size = scales.len();
-        let mut at = NodeSlope { node: scaled.to_vec(), slope: vec![0.0; size] };
-        let mut product = identity(size);
+        let mut state: Vec<f64> = scaled.iter().zip(scales).map(|(x, s)| x * s).collect();
         let mut least = f64::INFINITY;
-        for period in 1..=period_multiple / 2 {
+        for period in 1..period_multiple {
             let start = phase + f64::from(period - 1);
             let stretch = Stretch { frequency_hz, start, end: start + 1.0 };
-            let carried = at.carried(&mut self.integrator, &stretch, along)?;
-            let before = std::mem::replace(&mut product, vec![0.0; size * size]);
-            multiply(size, &carried.matrix, &before, &mut product);
-            at = carried.at;
+            state = self.integrator.advance(&stretch, &state)?;
             if period_multiple.is_multiple_of(period) {
-                let off: Vec<f64> = at.node.iter().zip(scaled).map(|(z, x)| z - x).collect();
-                least = least.min(length(&off)).min(length_of_correction(&product, off));
+                let off = scaled.iter().zip(&state).zip(scales).map(|((x, z), s)| z / s - x);
+                least = least.min(off.map(|off| off * off).sum::<f64>().sqrt());
             }
         }
         Ok(least)
     }
-}
-
-/// Euclidean norm.
-pub(super) fn length(vector: &[f64]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// Length of `(G - I)^-1 off`; infinite where there is none.
-fn length_of_correction(matrix: &[f64], mut off: Vec<f64>) -> f64 {
-    let size = off.len();
-    let mut less_one = matrix.to_vec();
-    (0..size).for_each(|i| less_one[i * size + i] -= 1.0);
-    let mut lu = DenseLu::new();
-    if lu.factorise(size, &less_one).is_err() {
-        return f64::INFINITY;
-    }
-    lu.solve(&mut off);
-    length(&off)
 }

@@ -36,7 +36,7 @@ impl ShootingProblem {
         last_slope: f64,
     ) -> Result<NodeSlope, MotionError> {
         let along = Along { scales: self.scale.values(), varied: self.varied, last_slope };
-        Ok(from.carried(&mut self.integrator, stretch, along)?.at)
+        Ok(from.flown(&mut self.integrator, stretch, along)?.at)
     }
 }
 
@@ -62,7 +62,7 @@ impl NodeSlope {
     ///
     /// # Errors
     /// [`MotionError`] where the motion cannot be computed.
-    pub(super) fn carried(
+    pub(super) fn flown(
         &self,
         integrator: &mut ExactIntegrator,
         stretch: &Stretch,

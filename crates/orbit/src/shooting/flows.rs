@@ -219,15 +219,8 @@ fn jumps(system: &System, contact: usize) -> bool {
     of_contacts.nth(contact).is_some_and(|law| law.onset_damping() > 0.0)
 }
 
-/// By rows.
-pub(super) fn identity(size: usize) -> Vec<f64> {
-    let mut identity = vec![0.0; size * size];
-    (0..size).for_each(|i| identity[i * size + i] = 1.0);
-    identity
-}
-
 /// `target = factor source` by rows.
-pub(super) fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
+fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
     target.fill(0.0);
     for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
         for (value, from) in row.iter().zip(source.chunks_exact(size)) {

@@ -4,16 +4,16 @@
 //! motion from the last one before it, by an integrator of its own.
 
 use hammerbeam_motion::exact::{ExactIntegrator, MotionError};
-use hammerbeam_path::{Image, Node, PathProblem, norm};
+use hammerbeam_path::{Image, Node, PathProblem, norm as weighed_norm};
 
 use super::{
     ShootingProblem,
-    beside::length,
     carried::{Along, Carried},
 };
+use crate::spectrum::norm;
 
 /// Images that are known less well tell nothing.
-const MOST_MAGNIFIED: f64 = 1e4;
+const MOST_MAGNIFIED: f64 = 1e3;
 
 /// The images of one orbit.
 #[derive(Debug)]
@@ -26,15 +26,16 @@ pub(super) struct KnownImages {
 
 impl ShootingProblem {
     /// The orbit and its tangent as they begin k excitation periods later; `None` where the motion cannot be
-    /// computed.
+    /// computed, or parts by more than [`MOST_MAGNIFIED`] until then: then a branch may be stored again some
+    /// periods later.
     pub(super) fn image_by_periods(&mut self, k: usize, of: &Node) -> Option<Image> {
         let (periods, m) = (self.period_multiple() as usize, self.segments());
         if (m * k).is_multiple_of(periods) {
             let node = Node { point: self.rotated(k, &of.point), tangent: self.rotated(k, &of.tangent) };
             return Some(Image { node, magnification: 1.0 });
         }
-        let is_same = |known: &&KnownImages| known.phase == self.phase && known.of == *of;
-        if !self.images.as_deref().is_some_and(|known| is_same(&known)) {
+        let known = self.images.as_ref().filter(|known| known.phase == self.phase && known.of == *of);
+        if known.is_none() {
             let images = self.carried_images(of).unwrap_or_else(|_| vec![None; periods - 1]);
             self.images = Some(Box::new(KnownImages { of: of.clone(), phase: self.phase, images }));
         }
@@ -50,13 +51,13 @@ impl ShootingProblem {
 
     fn carried_images(&mut self, of: &Node) -> Result<Vec<Option<Image>>, MotionError> {
         let mut beside = self.take_beside()?;
-        let integrator = beside.integrator_at(self.varied, &of.point)?;
-        let image = |k| self.carried_image(integrator, k, of).ok();
-        let images = (1..self.period_multiple() as usize).map(image);
-        let images =
-            images.map(|image| image.filter(|image| image.magnification <= MOST_MAGNIFIED)).collect();
+        let images = beside.integrator_at(self.varied, &of.point).map(|integrator| {
+            let image = |k| self.carried_image(integrator, k, of).ok();
+            let images = (1..self.period_multiple() as usize).map(image);
+            images.map(|image| image.filter(|image| image.magnification <= MOST_MAGNIFIED)).collect()
+        });
         self.beside = Some(beside);
-        Ok(images)
+        images
     }
 
     fn carried_image(
@@ -75,14 +76,14 @@ impl ShootingProblem {
             let mut stretch = self.stretch(segment, self.frequency(&of.point));
             stretch.end = stretch.start + offset;
             let from = self.node_slope(&of.point, &of.tangent, segment);
-            let Carried { at, matrix } = from.carried(integrator, &stretch, along)?;
+            let Carried { at, matrix } = from.flown(integrator, &stretch, along)?;
             node.point.extend(at.node);
             node.tangent.extend(at.slope);
-            magnification = magnification.max(length(&matrix));
+            magnification = magnification.max(norm(&matrix));
         }
         node.point.push(of.point[last]);
         node.tangent.push(of.tangent[last]);
-        let length = norm(self.weights(), &node.tangent);
+        let length = weighed_norm(self.weights(), &node.tangent);
         node.tangent.iter_mut().for_each(|entry| *entry /= length);
         Ok(Image { node, magnification })
     }

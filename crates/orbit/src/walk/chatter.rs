@@ -8,7 +8,9 @@
 
 use super::orbit_path::OrbitPath;
 
+/// Fewest impacts of a chatter.
 const IN_A_ROW: usize = 5;
+/// Largest speed of the last one relative to the first.
 const SLOWER: f64 = 0.2;
 
 /// The rigid stop that is struck most often in a row, each time slower than before, and how often; `None` if

@@ -3,7 +3,7 @@
 use hammerbeam_path::PathStop;
 
 use super::{
-    chatter::chatters, growth::is_far_beyond_gaps_undamped, orbit_path::OrbitPath, row::row_at,
+    chatter::chatters, growth::is_far_beyond_gaps_without_losses, orbit_path::OrbitPath, row::row_at,
     shorter_period::is_near_shorter_period, splits::splits_here,
 };
 use crate::{StopReason, solve::evaluate};
@@ -23,15 +23,12 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
 
 /// What happens to the motion where a walk gets no further.
 fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<StopReason> {
-    let gets_no_further = matches!(
-        reason,
-        StopReason::StepTooShort { .. } | StopReason::RunsBack { .. } | StopReason::NoProgress { .. }
-    );
+    let gets_no_further = matches!(reason, StopReason::StepTooShort { .. } | StopReason::RunsBack { .. });
     let frequency_hz = reason.place().filter(|_| gets_no_further)?;
     if let Some((element, impacts)) = chatters(path) {
         return Some(StopReason::Chatter { frequency_hz, element, impacts });
     }
-    is_far_beyond_gaps_undamped(path).then_some(StopReason::Unbounded { frequency_hz, mode: None })
+    is_far_beyond_gaps_without_losses(path).then_some(StopReason::Unbounded { frequency_hz, mode: None })
 }
 
 /// The reason of a path, in terms of orbits.

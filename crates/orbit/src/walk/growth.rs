@@ -14,10 +14,10 @@
 //! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
 //! last points have the same parameter to rounding, nothing is touched, and a mode has such a frequency.
 //!
-//! Where a mode has no damping, a branch may climb at a part of the frequency with which the structure vibrates
-//! in contact: the slope there goes like a power of the amplitude, and the parameter never stands still. Such
-//! a walk goes on until no step is short enough. If the motion then goes [`BEYOND`] times as far as the gap of
-//! an element, nothing bounds it either.
+//! Where nothing takes energy out of the motion, a branch may climb at a part of the frequency with which the
+//! structure vibrates in contact: the slope there goes like a power of the amplitude, and the parameter never
+//! stands still. Such a walk goes on until no step is short enough. If the motion at each element then goes
+//! [`BEYOND`] times as far as its gap, nothing bounds it either.
 //!
 //! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
@@ -25,7 +25,7 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_motion::{LocalElement, System};
+use hammerbeam_motion::{Law, LocalElement, System};
 use hammerbeam_path::Node;
 
 use super::orbit_path::OrbitPath;
@@ -101,35 +101,39 @@ fn is_beyond_all_levels(path: &mut OrbitPath) -> bool {
     let Some(levels) = elements.iter().map(level).collect::<Option<Vec<(Vec<f64>, f64)>>>() else {
         return false;
     };
-    let least = path.of_present(|orbit, integrator, _| {
+    goes_beyond(path, &levels).is_some_and(|least| least >= BEYOND)
+}
+
+/// How many times as far as its level the motion goes along each shape, the least of them; infinite where none
+/// is above zero. `None` if the motion cannot be computed.
+fn goes_beyond(path: &mut OrbitPath, levels: &[(Vec<f64>, f64)]) -> Option<f64> {
+    path.of_present(|orbit, integrator, _| {
         let mut least = f64::INFINITY;
         // Supports move as before, and do not count beside motion that grows.
         for (shape, level) in levels.iter().filter(|(_, level)| *level > 0.0) {
             least = least.min(orbit.largest_along(integrator, shape)? / level);
         }
         Ok(least)
-    });
-    least.is_some_and(|least| least >= BEYOND)
+    })
 }
 
-/// Whether a mode has no damping and the motion at an element goes [`BEYOND`] times as far as its gap.
-pub(super) fn is_far_beyond_gaps_undamped(path: &mut OrbitPath) -> bool {
+/// Whether nothing takes energy out of the motion, and it goes [`BEYOND`] times as far as the gap of each
+/// element.
+pub(super) fn is_far_beyond_gaps_without_losses(path: &mut OrbitPath) -> bool {
     let system = path.problem.system();
     let frequencies = &system.model().natural_frequencies;
-    if !(0..frequencies.len()).any(|i| frequencies[i] > 0.0 && damping_ratio(system, i) <= UNDAMPED) {
+    let is_damped = |i: usize| frequencies[i] > 0.0 && damping_ratio(system, i) > UNDAMPED;
+    let loses = |law: &Law| {
+        let gives_less = law.rigid().is_some_and(|stop| stop.restitution() < 1.0);
+        gives_less || law.depends_on_velocity() || law.remembers_impact()
+    };
+    let elements = system.elements();
+    if (0..frequencies.len()).any(is_damped) || elements.iter().any(|element| loses(&element.law)) {
         return false;
     }
-    let gap =
-        |element: &LocalElement| Some((element.shape.clone(), element.law.gap().filter(|gap| *gap > 0.0)?));
-    let gaps: Vec<(Vec<f64>, f64)> = system.elements().iter().filter_map(gap).collect();
-    let farthest = path.of_present(|orbit, integrator, _| {
-        let mut farthest = 0.0_f64;
-        for (shape, gap) in &gaps {
-            farthest = farthest.max(orbit.largest_along(integrator, shape)? / gap);
-        }
-        Ok(farthest)
-    });
-    farthest.is_some_and(|farthest| farthest >= BEYOND)
+    let gap = |element: &LocalElement| Some((element.shape.clone(), element.law.gap()?));
+    let gaps: Vec<(Vec<f64>, f64)> = elements.iter().filter_map(gap).collect();
+    goes_beyond(path, &gaps).is_some_and(|least| least.is_finite() && least >= BEYOND)
 }
 
 /// Ratio to critical damping of a mode, which vibrates.

@@ -66,13 +66,15 @@ pub(super) fn is_near_shorter_period(path: &mut OrbitPath) -> bool {
     distance_to_shorter_period(path) < MERGED
 }
 
-/// Whether the present orbit is one of shorter period, by its motion or, beside a grazing impact, behind which
-/// the motion parts at once from any that begins next to it, by what it begins with.
+/// Whether the present orbit is one of shorter period: by its motion, or, beside a grazing impact, behind which
+/// motions part so fast that its own does not tell, by its nodes, each of which Newton's method has found.
 fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
     let by_motion = distance_to_shorter_period(path);
+    if !(SAME..MERGED).contains(&by_motion) {
+        return by_motion < SAME;
+    }
     let OrbitPath { problem, follower, .. } = path;
-    let by_begin = problem.distance_to_simpler(&follower.current().point) / problem.hertz_per_norm();
-    by_motion < SAME || by_motion < MERGED && by_begin < SAME
+    problem.distance_to_simpler(&follower.current().point) < SAME * problem.hertz_per_norm()
 }
 
 /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period
