@@ -29,13 +29,10 @@ use super::{
 
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
-/// What a state at the start may be off a stop that it sticks to, relative to the same.
+/// What a state at the start, or one that was held, may be off a stop, relative to the same.
 pub(super) const AT_START: f64 = 1e-10;
 /// Speed, relative to the usual one, below which it is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
-
-/// So many times rounding may move an element back to before its stop.
-const MOST_ROUNDINGS: f64 = 100.0;
 
 /// What is known of the rigid stops of a system.
 #[derive(Debug, Clone, Default)]
@@ -238,8 +235,9 @@ impl SystemField<'_> {
         }
     }
 
-    /// Moves an element that leaves its stop to before it, as far as rounding goes: a stop that is left without
-    /// speed would be met again with each next step else.
+    /// Moves an element that leaves its stop to before it, if it is no farther beyond than a state at the start may
+    /// be: as far as it has drifted while it was held. A stop that is left without speed would be met again with
+    /// each next step else.
     fn put_before(&self, e: usize, time: f64, state: &mut [f64]) {
         let n = self.system.dof();
         let element = &self.system.elements()[e];
@@ -248,7 +246,8 @@ impl SystemField<'_> {
         let carried = self.carried(&element.support_ratios, time)[0].abs();
         let rounding = AT_REST * parts.fold(level.abs() + carried, |sum, part| sum + part);
         let beyond = self.relative_displacement(element, &state[..n], time) - level;
-        if (-rounding..MOST_ROUNDINGS * rounding).contains(&beyond) {
+        let way = AT_START * self.usual_speed(e, state) * self.period;
+        if (-rounding..way).contains(&beyond) {
             let direction = self.free_direction(e);
             let back = (beyond + rounding) / dot(&element.shape, &direction);
             add_scaled(&mut state[..n], -back, &direction);
