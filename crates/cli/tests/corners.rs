@@ -65,8 +65,8 @@ side = "below"
 "#;
 
 /// Two masses with 1 % of damping. A branch of period 3 passes a corner onto itself some periods later, and
-/// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes. Three
-/// walks end in chatter.
+/// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes.
+/// Three walks end in chatter.
 const CHATTERING: &str = r#"
 [structure]
 kind = "lumped"
@@ -99,8 +99,9 @@ max_step_hz = 0.005
 period_multiples = [1, 2, 3]
 "#;
 
-/// A mass between a stop that gives nothing back and one that does: it leaves the first one without speed, which
-/// is no turn of its flight at the level of the stop. Taken as one, it held steps up to 1e-5 of the longest.
+/// A mass between a stop that gives nothing back and one that does: it leaves the first one without speed,
+/// which is no turn of its flight at the level of the stop. Taken as one, it held steps up to 1e-5 of the
+/// longest.
 const PLASTIC: &str = r#"
 [structure]
 kind = "lumped"
@@ -135,8 +136,8 @@ starts = 4
 trials = 4
 "#;
 
-/// Two masses at a plastic stop, which is left with hardly any speed beside 4.11608 Hz: the general integrator
-/// met it again with each step.
+/// Two masses at a plastic stop, which is left with hardly any speed beside 4.11608 Hz: the general
+/// integrator met it again with each step.
 const LEFT_WITHOUT_SPEED: &str = r#"
 [structure]
 kind = "lumped"

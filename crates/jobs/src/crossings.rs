@@ -184,8 +184,8 @@ impl StoredBranches {
     }
 
     /// Pairs of branches, or a branch with itself, that hold the same orbit at a frequency, as it is, started
-    /// some excitation periods later, or gone through several times: there should be none. Orbits are the same within 1e-4, which two beside a fold
-    /// or a flip may be as well.
+    /// some excitation periods later, or gone through several times: there should be none. Orbits are the
+    /// same within 1e-4, which two beside a fold or a flip may be as well.
     ///
     /// * `model`: that of the study.
     ///

@@ -90,8 +90,8 @@ impl PreparedStudy {
             }
         };
         observer.notice(&format_args!(
-            "warning: {modes} modes are followed; the work of each solution grows like the cube of their number, \
-            and with more than {MANY_MODES} a run takes hours: {advice}"
+            "warning: {modes} modes are followed; the work of each solution grows like the cube of their \
+            number, and with more than {MANY_MODES} a run takes hours: {advice}"
         ));
     }
 

@@ -106,9 +106,9 @@ pub trait Judge {
         1
     }
 
-    /// A point of the path and its tangent as their image `k`, from 1 to below [`images`](Self::images), at the
-    /// same parameter; `None` if it cannot be computed, or not well enough: then the path does not close there.
-    /// What was evaluated last stays so.
+    /// A point of the path and its tangent as their image `k`, from 1 to below [`images`](Self::images), at
+    /// the same parameter; `None` if it cannot be computed, or not well enough: then the path does not close
+    /// there. What was evaluated last stays so.
     fn image(&mut self, k: usize, of: &Node) -> Option<Image> {
         let _ = (k, of);
         None

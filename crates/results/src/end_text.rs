@@ -125,8 +125,8 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
             at(*frequency_hz)
         ),
         StopReason::Chatter { frequency_hz, element, impacts } => format!(
-            "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each slower \
-                than the one before, and no motion next to it was found; {look}",
+            "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each \
+                slower than the one before, and no motion next to it was found; {look}",
             at(*frequency_hz)
         ),
         StopReason::RunsBack { frequency_hz, met_arc_length } => format!(

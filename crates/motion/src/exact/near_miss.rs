@@ -223,8 +223,8 @@ struct Turn {
 
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
 ///
-/// What is let go by a rigid stop, or has struck one that gives nothing back, leaves it without speed; that is no
-/// turn at its level.
+/// What is let go by a rigid stop, or has struck one that gives nothing back, leaves it without speed; that
+/// is no turn at its level.
 fn nearest_turn(flight: &FlightReading<'_>, sign: f64, clearances: &[f64]) -> Option<f64> {
     let width = flight.duration() / (clearances.len() - 1) as f64;
     let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));

@@ -235,9 +235,9 @@ impl SystemField<'_> {
         }
     }
 
-    /// Moves an element that leaves its stop to before it, if it is no farther beyond than a state at the start may
-    /// be: as far as it has drifted while it was held. A stop that is left without speed would be met again with
-    /// each next step else.
+    /// Moves an element that leaves its stop to before it, if it is no farther beyond than a state at the
+    /// start may be: as far as it has drifted while it was held. A stop that is left without speed would be
+    /// met again with each next step else.
     fn put_before(&self, e: usize, time: f64, state: &mut [f64]) {
         let n = self.system.dof();
         let element = &self.system.elements()[e];

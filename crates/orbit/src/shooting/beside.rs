@@ -1,6 +1,6 @@
 //! Motions beside the one that was evaluated, by an integrator of their own, since the other one holds what
-//! was evaluated last: how far an orbit is from those of shorter period where its nodes do not tell, as no two
-//! of them lie whole excitation periods apart; and how it begins some periods later (`images.rs`).
+//! was evaluated last: how far an orbit is from those of shorter period where its nodes do not tell, as no
+//! two of them lie whole excitation periods apart; and how it begins some periods later (`images.rs`).
 
 use hammerbeam_motion::{
     Parameter, Stretch, System,

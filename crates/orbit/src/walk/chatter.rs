@@ -1,10 +1,10 @@
 //! Whether the present orbit of a walk chatters at a rigid stop.
 //!
-//! Pressed on, impacts follow one another ever slower and sooner: `v_k+1 = e v_k` as they get weak, so that any
-//! number of them fits into a finite time. Where a branch comes to an orbit with infinitely many, each further
-//! impact sets in by grazing, in a small part of the way that is left, so that no step is short enough. Of a
-//! motion that is near enough to it, one of its stops is struck [`IN_A_ROW`] times or more, each time slower,
-//! and by [`SLOWER`] at the last.
+//! Pressed on, impacts follow one another ever slower and sooner: `v_k+1 = e v_k` as they get weak, so that
+//! any number of them fits into a finite time. Where a branch comes to an orbit with infinitely many, each
+//! further impact sets in by grazing, in a small part of the way that is left, so that no step is short
+//! enough. Of a motion that is near enough to it, one of its stops is struck [`IN_A_ROW`] times or more, each
+//! time slower, and by [`SLOWER`] at the last.
 
 use super::orbit_path::OrbitPath;
 

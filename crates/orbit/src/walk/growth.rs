@@ -104,8 +104,8 @@ fn is_beyond_all_levels(path: &mut OrbitPath) -> bool {
     goes_beyond(path, &levels).is_some_and(|least| least >= BEYOND)
 }
 
-/// How many times as far as its level the motion goes along each shape, the least of them; infinite where none
-/// is above zero. `None` if the motion cannot be computed.
+/// How many times as far as its level the motion goes along each shape, the least of them; infinite where
+/// none is above zero. `None` if the motion cannot be computed.
 fn goes_beyond(path: &mut OrbitPath, levels: &[(Vec<f64>, f64)]) -> Option<f64> {
     path.of_present(|orbit, integrator, _| {
         let mut least = f64::INFINITY;

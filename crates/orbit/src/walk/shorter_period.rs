@@ -66,8 +66,9 @@ pub(super) fn is_near_shorter_period(path: &mut OrbitPath) -> bool {
     distance_to_shorter_period(path) < MERGED
 }
 
-/// Whether the present orbit is one of shorter period: by its motion, or, beside a grazing impact, behind which
-/// motions part so fast that its own does not tell, by its nodes, each of which Newton's method has found.
+/// Whether the present orbit is one of shorter period: by its motion, or, beside a grazing impact, behind
+/// which motions part so fast that its own does not tell, by its nodes, each of which Newton's method has
+/// found.
 fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
     let by_motion = distance_to_shorter_period(path);
     if !(SAME..MERGED).contains(&by_motion) {
