@@ -262,7 +262,7 @@ fn a_structure_of_too_many_modes_is_told_before_anything_is_computed() {
     let folder = tempfile::tempdir().unwrap();
     for (masses, is_told) in [(100, false), (101, true)] {
         let study = folder.path().join("study.toml");
-        std::fs::write(&study, chain(masses)).unwrap();
+        fs::write(&study, chain(masses)).unwrap();
         let output = hammerbeam().arg("check").arg(&study).output().unwrap();
         assert!(output.status.success(), "{output:?}");
         let messages = String::from_utf8(output.stderr).unwrap();

@@ -317,7 +317,12 @@ mod tests {
             supports: vec![],
             uniform_acceleration: vec![1.0],
         };
-        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
+        let stop = LocalElement {
+            name: "stop".into(),
+            shape: vec![1.0],
+            support_ratios: vec![0.0],
+            law: Law::Linear(stop),
+        };
         let system = System::new(model, &Load::default(), vec![stop]).unwrap();
         let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end };
