@@ -44,8 +44,7 @@
 //!
 //! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in
 //! `shooting/equations.rs`, and of what only orbits know in `shooting/judge.rs`; motions beside the one that
-//! was evaluated are in `shooting/beside.rs`, the orbit some periods later in `shooting/images.rs`, nodes
-//! carried along the motion in `shooting/carried.rs`.
+//! was evaluated are in `shooting/beside.rs`, nodes carried along the motion in `shooting/carried.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
@@ -54,7 +53,6 @@ mod beside;
 mod carried;
 mod equations;
 mod flows;
-mod images;
 mod judge;
 
 use hammerbeam_motion::{
@@ -63,8 +61,8 @@ use hammerbeam_motion::{
 };
 use hammerbeam_path::{DenseLu, PathError};
 
-use beside::Beside;
-use images::KnownImages;
+use beside::{Beside, KnownImages};
+use carried::{Along, NodeSlope};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
@@ -358,6 +356,29 @@ impl ShootingProblem {
         let size = self.node_size();
         let nodes = point[..self.segments * size].chunks_exact(size);
         nodes.map(|node| node.iter().zip(self.scale.values()).map(|(x, s)| x * s).collect()).collect()
+    }
+
+    /// A node of a point with its part of the tangent there.
+    pub fn node_slope(&self, point: &[f64], tangent: &[f64], node: usize) -> NodeSlope {
+        let place = node * self.node_size()..(node + 1) * self.node_size();
+        NodeSlope { node: point[place.clone()].to_vec(), slope: tangent[place].to_vec() }
+    }
+
+    /// A node of a point at the end of a stretch that begins there; the system has the parameter of the point
+    /// ([`ShootingProblem::move_to`]).
+    ///
+    /// * `last_slope`: entry of the tangent that belongs to the last unknown.
+    ///
+    /// # Errors
+    /// [`MotionError`] where the motion cannot be computed.
+    pub fn carried(
+        &mut self,
+        from: &NodeSlope,
+        stretch: &Stretch,
+        last_slope: f64,
+    ) -> Result<NodeSlope, MotionError> {
+        let along = Along { scales: self.scale.values(), varied: self.varied, last_slope };
+        Ok(from.flown(&mut self.integrator, stretch, along)?.at)
     }
 }
 

@@ -1,13 +1,25 @@
 //! Motions beside the one that was evaluated, by an integrator of their own, since the other one holds what
 //! was evaluated last: how far an orbit is from those of shorter period where its nodes do not tell, as no
-//! two of them lie whole excitation periods apart; and how it begins some periods later (`images.rs`).
+//! two of them lie whole excitation periods apart; and how it begins some periods
+//! later.
 
 use hammerbeam_motion::{
     Parameter, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
 };
 
+use hammerbeam_path::{Image, Node};
+
 use crate::ContinuationParameter;
+
+/// The images of one orbit.
+#[derive(Debug)]
+pub(super) struct KnownImages {
+    pub of: Node,
+    pub phase: f64,
+    /// By their numbers, from 1 on.
+    pub images: Vec<Option<Image>>,
+}
 
 /// Orbits whose distance is kept: a trial is the next current point.
 const KEPT: usize = 4;

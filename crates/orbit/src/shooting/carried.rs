@@ -5,7 +5,6 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError},
 };
 
-use super::ShootingProblem;
 use crate::ContinuationParameter;
 
 /// A node and its part of a tangent, scaled.
@@ -13,31 +12,6 @@ use crate::ContinuationParameter;
 pub(crate) struct NodeSlope {
     pub node: Vec<f64>,
     pub slope: Vec<f64>,
-}
-
-impl ShootingProblem {
-    /// A node of a point with its part of the tangent there.
-    pub fn node_slope(&self, point: &[f64], tangent: &[f64], node: usize) -> NodeSlope {
-        let place = node * self.node_size()..(node + 1) * self.node_size();
-        NodeSlope { node: point[place.clone()].to_vec(), slope: tangent[place].to_vec() }
-    }
-
-    /// A node of a point at the end of a stretch that begins there; the system has the parameter of the point
-    /// ([`ShootingProblem::move_to`]).
-    ///
-    /// * `last_slope`: entry of the tangent that belongs to the last unknown.
-    ///
-    /// # Errors
-    /// [`MotionError`] where the motion cannot be computed.
-    pub fn carried(
-        &mut self,
-        from: &NodeSlope,
-        stretch: &Stretch,
-        last_slope: f64,
-    ) -> Result<NodeSlope, MotionError> {
-        let along = Along { scales: self.scale.values(), varied: self.varied, last_slope };
-        Ok(from.flown(&mut self.integrator, stretch, along)?.at)
-    }
 }
 
 /// A node at the end of a stretch.
