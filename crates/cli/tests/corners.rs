@@ -4,6 +4,8 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_jobs::StoredBranches;
+use hammerbeam_orbit::StopReason;
+use hammerbeam_results::end::BranchEnd;
 use hammerbeam_study::{Model, StudyFile};
 
 use crate::common::{Workshop, assert_success, number};
@@ -175,6 +177,13 @@ fn shares(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
 }
 
+/// The model of a study and the branches of its results.
+fn stored(workshop: &Workshop) -> (Model, StoredBranches) {
+    let file = StudyFile::read(&workshop.path("study.toml")).unwrap();
+    let branches = StoredBranches::open(&workshop.path("results"), &file).unwrap();
+    (Model::build(&file).unwrap(), branches)
+}
+
 /// How a branch ends that is whole.
 const WHOLE: &[&str] = &["range-end", "closed", "crossing", "shorter-period"];
 
@@ -184,9 +193,7 @@ fn assert_whole(workshop: &Workshop, range_hz: (f64, f64), ends: &[&str]) {
         let ends_well = ends.contains(&end["end"].as_str());
         assert!(ends_well, "{end:?}");
     }
-    let file = StudyFile::read(&workshop.path("study.toml")).unwrap();
-    let model = Model::build(&file).unwrap();
-    let branches = StoredBranches::open(&workshop.path("results"), &file).unwrap();
+    let (model, branches) = stored(workshop);
     for share in shares(60) {
         let frequency_hz = range_hz.0 + share * (range_hz.1 - range_hz.0);
         let twice = branches.held_twice(&model, frequency_hz).unwrap();
@@ -225,10 +232,13 @@ fn solutions_at_a_stop_that_is_left_without_speed_are_verified() {
 fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_later() {
     let workshop = Workshop::exported(CHATTERING);
     assert_whole(&workshop, (1.8, 7.0), &[WHOLE, &["chatter"]].concat());
-    let ends = workshop.table("results/export/ends.csv");
-    let chatter = ends.iter().filter(|end| end["end"] == "chatter");
-    assert_eq!(chatter.clone().count(), 3, "{ends:?}");
-    assert!(chatter.clone().all(|end| end["message"].contains("stop chatters")), "{ends:?}");
+    let (_, branches) = stored(&workshop);
+    let sides = branches.branches().iter().flat_map(|branch| [&branch.record.up, &branch.record.down]);
+    let chattering = sides.filter_map(|side| match &side.end {
+        Some(BranchEnd::Walk(StopReason::Chatter { element, .. })) => Some(element.as_str()),
+        _ => None,
+    });
+    assert_eq!(chattering.collect::<Vec<_>>(), ["stop"; 3]);
 }
 
 /// `A = F/|1 - W^2 + i c W|` reaches the gap: `(1 - W^2)^2 + (c W)^2 = (F/g)^2`. Whether the impact comes or

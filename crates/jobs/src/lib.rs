@@ -92,5 +92,5 @@ pub use orbit_solver::OrbitSolver;
 pub use orbit_waveform::{OrbitWaveform, PointWaveform, orbit_waveform};
 pub use part::{JobPart, JobPartError, JobPartReport};
 pub use pool::PooledOrder;
-pub use prepared::PreparedStudy;
+pub use prepared::{ManyModes, PreparedStudy};
 pub use request::{FrequencySeries, JobFolders};

@@ -1,6 +1,9 @@
 //! A study with its model, ready for every job.
 
-use std::path::Path;
+use std::{
+    fmt::{self, Display, Formatter},
+    path::Path,
+};
 
 use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyError, StudyFile, file::StructureTable};
@@ -9,6 +12,32 @@ use crate::{JobError, Observer};
 
 /// More modes than these make a run of some thousand solutions last for hours.
 const MANY_MODES: usize = 100;
+
+/// More modes than a run can follow in minutes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ManyModes {
+    /// Their number.
+    pub modes: usize,
+    /// Whether the structure is lumped, and so keeps all of them.
+    pub is_lumped: bool,
+}
+
+impl Display for ManyModes {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let advice = if self.is_lumped {
+            "a lumped structure keeps all of its modes; given as matrices ([structure] kind = \
+            \"matrices\") it can be reduced"
+        } else {
+            "a cut_off_hz ([reduction]) of some times the highest frequency of the excitation keeps fewer"
+        };
+        write!(
+            formatter,
+            "{} modes are followed; the work of each solution grows like the cube of their number, and with \
+            more than {MANY_MODES} a run takes hours: {advice}",
+            self.modes
+        )
+    }
+}
 
 /// A study and the model that it describes.
 #[derive(Debug, Clone)]
@@ -74,25 +103,19 @@ impl PreparedStudy {
         Ok(())
     }
 
-    /// Advises to reduce a structure of more than [`MANY_MODES`] modes.
+    /// So many modes, if there are more than [`MANY_MODES`].
+    #[must_use]
+    pub fn many_modes(&self) -> Option<ManyModes> {
+        let (modes, structure) = (self.dof(), &self.file.study.structure);
+        let is_lumped = matches!(structure, StructureTable::Lumped(_));
+        (modes > MANY_MODES).then_some(ManyModes { modes, is_lumped })
+    }
+
+    /// Advises to reduce a structure of many modes.
     pub(crate) fn warn_of_many_modes(&self, observer: &mut dyn Observer) {
-        let modes = self.dof();
-        if modes <= MANY_MODES {
-            return;
+        if let Some(many) = self.many_modes() {
+            observer.notice(&format_args!("warning: {many}"));
         }
-        let advice = match &self.file.study.structure {
-            StructureTable::Lumped(_) => {
-                "a lumped structure keeps all of its modes; given as matrices ([structure] kind = \
-                \"matrices\") it can be reduced"
-            }
-            _ => {
-                "a cut_off_hz ([reduction]) of some times the highest frequency of the excitation keeps fewer"
-            }
-        };
-        observer.notice(&format_args!(
-            "warning: {modes} modes are followed; the work of each solution grows like the cube of their \
-            number, and with more than {MANY_MODES} a run takes hours: {advice}"
-        ));
     }
 
     /// Refuses a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
