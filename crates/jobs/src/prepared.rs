@@ -103,7 +103,7 @@ impl PreparedStudy {
         Ok(())
     }
 
-    /// So many modes, if there are more than [`MANY_MODES`].
+    /// So many modes, if there are more than a run walks in minutes (a hundred).
     #[must_use]
     pub fn many_modes(&self) -> Option<ManyModes> {
         let (modes, structure) = (self.dof(), &self.file.study.structure);
