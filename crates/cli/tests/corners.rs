@@ -138,8 +138,8 @@ starts = 4
 trials = 4
 "#;
 
-/// Two masses at a plastic stop, which is left with hardly any speed beside 4.11608 Hz: the general
-/// integrator met it again with each step.
+/// Two masses at a plastic stop, which sticks and is grazed later in the same period. Beside 4.11608 Hz it is
+/// left with hardly any speed.
 const LEFT_WITHOUT_SPEED: &str = r#"
 [structure]
 kind = "lumped"
@@ -154,7 +154,7 @@ modal_ratio = 0.04
 kind = "force"
 at = "b"
 amplitude_n = 2.64051
-frequency_hz = [4.11607, 4.1161]
+frequency_hz = [1.01081, 6.35364]
 [[stop]]
 name = "s0"
 at = "a"
@@ -163,11 +163,11 @@ restitution = 0
 gap_m = 0.000440634
 side = "above"
 [search]
-frequencies = 1
-starts = 1
-trials = 1
+frequencies = 8
+starts = 4
+trials = 4
 [continuation]
-max_step_hz = 2e-7
+max_step_hz = 0.00890472
 "#;
 
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
@@ -221,9 +221,23 @@ fn a_branch_at_a_plastic_stop_gets_on() {
     assert!(rows.iter().any(|row| number(row, "max_impact_velocity_m_s") > 0.0));
 }
 
+/// An impact on a plastic stop that does not stick is a contact beside one that does.
+#[test]
+fn a_branch_goes_on_across_the_grazing_of_a_plastic_stop_that_sticks_elsewhere() {
+    let workshop = Workshop::exported(LEFT_WITHOUT_SPEED);
+    assert_whole(&workshop, (1.01081, 6.35364), WHOLE);
+    let rows = workshop.table("results/export/branches.csv");
+    let contacts = |wanted: f64| rows.iter().any(|row| number(row, "contacts") == wanted);
+    assert!(contacts(1.0) && contacts(2.0));
+}
+
+/// The general integrator met it again with each step.
 #[test]
 fn solutions_at_a_stop_that_is_left_without_speed_are_verified() {
-    let workshop = Workshop::exported(LEFT_WITHOUT_SPEED);
+    let beside = LEFT_WITHOUT_SPEED
+        .replace("frequency_hz = [1.01081, 6.35364]", "frequency_hz = [4.11607, 4.1161]")
+        .replace("max_step_hz = 0.00890472", "max_step_hz = 2e-7");
+    let workshop = Workshop::exported(&beside);
     assert!(workshop.table("results/export/branches.csv").len() > 100);
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
 }

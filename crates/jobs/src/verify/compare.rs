@@ -89,13 +89,18 @@ impl Measures {
 
     /// `g = 1 + min(g_v - 1, L_r / p)`, for what the contacts of an element do, by its own impacts and its
     /// own deepest penetration: its force follows the penetration, which is wrong by `L_r e` of `p`. A rigid
-    /// stop that holds the structure all the time presses with what keeps it from being accelerated, by `W`
-    /// at most over the mobility.
+    /// stop that holds the structure presses with what keeps it from being accelerated, a difference of what
+    /// makes `W`, over the mobility m: `W / (m F)` more, and that alone where nothing strikes it.
     fn contact_factor(&self, (rigid, element): (Option<f64>, &ElementMaxima)) -> f64 {
-        if let (Some(mobility), 0.0) = (rigid, element.impact_velocity) {
-            return 1.0 + self.approach / (mobility * element.contact_force);
+        let impact = element.impact_velocity;
+        let struck = (self.touch_factor(impact) - 1.0).min(self.contact[0] / element.deepest);
+        match rigid {
+            Some(mobility) if element.contact_force > 0.0 => {
+                let held = self.approach / (mobility * element.contact_force);
+                1.0 + held + if impact > 0.0 { struck } else { 0.0 }
+            }
+            _ => 1.0 + struck,
         }
-        1.0 + (self.touch_factor(element.impact_velocity) - 1.0).min(self.contact[0] / element.deepest)
     }
 
     /// The factor of the element in which something is largest; `None` if it is zero in all.

@@ -29,8 +29,9 @@
 //! penetration p: what a contact does depends on the velocity it begins with, which just behind grazing is
 //! `sqrt(2 W p)`, so shallow contacts are known less well, however hard another stop is struck. `g` is that
 //! of the element with the largest contact force, or, where none presses, of the one struck hardest. A rigid
-//! stop that holds the structure all the time has `1 + W / (m F)`, with the mobility m. A contact grazes
-//! where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
+//! stop that holds the structure has `W / (m F)` more, with the mobility m: its force is a difference of what
+//! makes W; where nothing strikes it, it has that alone. A contact grazes where an extremum `s` of its
+//! penetration has `|s| <= tau G L_r`; these are counted apart.
 //!
 //! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, the larger
 //! one of both signs, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy

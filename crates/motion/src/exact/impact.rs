@@ -152,6 +152,9 @@ impl ExactIntegrator {
         self.jump_at_impact(run, impact, impulse, &displacement);
         let jumps = self.jump_velocities(run, impact, impulse);
         self.jump_with_forces(run, &jumps, &displacement);
+        if restitution == 0.0 {
+            self.look_past(run, touch.element, 0.0);
+        }
         self.throw_off(run, &displacement, impact.before.slope)
     }
 

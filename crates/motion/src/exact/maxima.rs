@@ -34,7 +34,8 @@ pub struct Maxima {
     /// Energy that the structure has lost to all contacts [J], what is stored in them at the end included; 0
     /// for laws that lose none.
     pub energy_lost: f64,
-    /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
+    /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did, and
+    /// not how often it was struck, which is infinite.
     pub touches: u32,
     /// Elements that were closed all the time, with or without pressure, one bit each (the first 64). One
     /// that goes over from one of its two contacts to the other is not among them.
@@ -75,7 +76,7 @@ struct Observation<'a> {
     hardest: f64,
     /// Of the force of elements with a contact.
     forces: Peaks,
-    /// Impacts on the rigid stop of each element, and how many of them stuck.
+    /// Impacts on the rigid stop of each element, and how many of them ended its chatter.
     impacts: Vec<[u32; 2]>,
 }
 
@@ -128,7 +129,7 @@ impl ExactIntegrator {
         let Observation { mut maxima, mut flights, steps, forces, impacts, .. } = observation;
         // An infinite number of impacts, of which some were followed, counts once.
         maxima.touches -=
-            impacts.iter().filter(|[_, stuck]| *stuck > 0).map(|[all, stuck]| all - stuck).sum::<u32>();
+            impacts.iter().filter(|[_, ends]| *ends > 0).map(|[all, ends]| all - ends).sum::<u32>();
         maxima.contact_force = self.largest_force(course, forces);
         let watches = self.outputs.len() > self.laws.len();
         maxima.contact_force = self.largest_pressing_force(course, &steps, maxima.contact_force);
@@ -162,7 +163,7 @@ impl ExactIntegrator {
                 Passage::Impact { element, impulse, energy, sticks } => {
                     observation.impacts.resize(self.laws.len(), [0; 2]);
                     observation.impacts[element][0] += 1;
-                    observation.impacts[element][1] += u32::from(sticks);
+                    observation.impacts[element][1] += u32::from(sticks && self.laws[element].chatters());
                     maxima.impulse += impulse;
                     maxima.energy_lost += energy;
                 }

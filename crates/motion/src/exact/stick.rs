@@ -65,15 +65,23 @@ impl ExactIntegrator {
         let slope = place.map_or(0.0, |place| self.pressing_now(run)[place].jet.slope);
         let rest = run.stuck.iter().copied().filter(|&stuck| stuck != element).collect();
         self.hold(run, rest)?;
-        // The clearance grows like `D |lambda'| t^3/6`: until it is out of the margin rounding would decide.
+        self.look_past(run, element, slope);
+        Ok(())
+    }
+
+    /// A stop that is left without speed is not looked at until the clearance is out of the margin, within
+    /// which rounding would decide.
+    ///
+    /// * `slope`: that of the pressing force at its end [N/s]; zero where an impact leaves no speed.
+    pub(super) fn look_past(&self, run: &mut Run, element: usize, slope: f64) {
+        // The clearance grows like `D |lambda'| t^3/6`,
         let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
         let cubic = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
-        // Where another stop has taken over, it grows like `|r''| t^2/2`.
+        // or, behind an impact or where another stop has taken over, like `|r''| t^2/2`.
         let away = -self.jet_with_forces(run, element).curvature;
         let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();
         let wait = cubic.min(quadratic);
         run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
-        Ok(())
     }
 
     fn mobility_in_free(&self, element: usize) -> f64 {
@@ -151,8 +159,10 @@ impl ExactIntegrator {
         let speed = impact.before.slope.max(0.0);
         let energy = 0.5 * speed * speed / impact.mobility;
         self.note_impact(run, impact, (speed / impact.mobility, energy), true);
-        let place = self.first_touch(element);
-        self.touches[place] = self.touches[place].saturating_add(STUCK_TOUCHES);
+        if self.laws[element].chatters() {
+            let place = self.first_touch(element);
+            self.touches[place] = self.touches[place].saturating_add(STUCK_TOUCHES);
+        }
         self.contraction = f64::NEG_INFINITY;
         let displacement = self.displacement_sensitivity(run, impact.touch);
         self.forget_the_approach(run, impact.touch, &displacement);

@@ -42,7 +42,7 @@ pub struct Observed {
     pub impulse: f64,
     /// Speeds with which contacts closed, apart from rigid stops, in the order of time [m/s].
     pub touches: Vec<f64>,
-    /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid
+    /// Impacts on the rigid stop of each element, and how many of them ended its chatter; empty without rigid
     /// stops.
     pub impacts: Vec<[u32; 2]>,
     /// Elements with a contact that was closed all the time, with or without pressure, one bit each (the
@@ -154,10 +154,10 @@ pub fn observe(
 
 impl Observed {
     /// Number of contacts: those that closed, those that were closed throughout, and impacts on rigid stops,
-    /// of which those of a stop that sticks count once for every time that it does.
+    /// of which those of a stop that chatters to the end count once for every time that it does.
     #[must_use]
     pub fn contacts(&self) -> u32 {
-        let of_stop = |[all, stuck]: &[u32; 2]| if *stuck > 0 { *stuck } else { *all };
+        let of_stop = |[all, ends]: &[u32; 2]| if *ends > 0 { *ends } else { *all };
         self.touches.len() as u32
             + self.closed_throughout.count_ones()
             + self.impacts.iter().map(of_stop).sum::<u32>()
@@ -379,7 +379,8 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         let impacts = std::mem::take(&mut field.rigid.impacts);
         for impact in &impacts {
             self.impacts[impact.element][0] += 1;
-            self.impacts[impact.element][1] += u32::from(impact.sticks);
+            let ends_chatter = impact.sticks && field.laws[impact.element].chatters();
+            self.impacts[impact.element][1] += u32::from(ends_chatter);
             self.add_speed(impact.element, impact.speed);
             self.of_elements[impact.element].impulse += impact.impulse;
             if impact.depth.is_finite() {

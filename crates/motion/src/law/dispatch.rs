@@ -35,6 +35,12 @@ impl Law {
         if let Self::Rigid(law) = self { Some(law) } else { None }
     }
 
+    /// Whether bounces without end come before it sticks, which count as one contact. A rigid stop that gives
+    /// nothing back is struck once.
+    pub(crate) fn chatters(&self) -> bool {
+        self.rigid().is_some_and(|stop| stop.restitution() > 0.0)
+    }
+
     /// The round hole with this law along its radius, and its gap as clearance.
     ///
     /// # Errors

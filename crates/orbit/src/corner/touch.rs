@@ -10,8 +10,6 @@ const LOOKS: usize = 2000;
 /// the square of that of a turn, which has the speed that its clearance for a depth would give it.
 const FASTEST: f64 = 3.0;
 const FASTEST_SQUARED: f64 = 5.0;
-/// Share of the speed behind an impact without which it sticks.
-const REBOUNDS: f64 = 0.5;
 
 /// What a touch near grazing is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,11 +75,10 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
         for contact in &trace.contacts {
             let (Some(begin), Some(jump)) = (&contact.begin, &contact.jump) else { continue };
             let phase = stretch.start + begin.time * frequency_hz;
-            let [_, behind, _] =
+            let [_, _, acceleration] =
                 problem.system().relative_motion(contact.element, frequency_hz, phase, &jump.state);
-            let law = &problem.system().elements()[contact.element].law;
-            let restitution = law.rigid().map_or(0.0, |stop| stop.restitution());
-            if -behind > REBOUNDS * restitution * begin.velocity {
+            // What is pressed on bounces or sticks, and does not graze.
+            if acceleration < 0.0 {
                 touches.push(Touch {
                     element: contact.element,
                     side: Side::Impact,
