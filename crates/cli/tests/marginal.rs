@@ -53,6 +53,53 @@ stiffness_n_m = 4e5
 gap_m = 1e-4
 "#;
 
+/// A mass at a contact so hard that it lasts for 1e-5 of a period to less than 1e-8.
+fn hard_contact(law: &str) -> Workshop {
+    Workshop::with(&format!(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{{ name = "a", mass_kg = 1.0 }}]
+        spring = [{{ between = ["a", "ground"], stiffness_n_m = 100.0 }}]
+        [damping]
+        modal_ratio = 0.02
+        [excitation]
+        kind = "force"
+        at = "a"
+        amplitude_n = 1.0
+        frequency_hz = [0.5, 4.0]
+        [[stop]]
+        name = "stop"
+        at = "a"
+        {law}
+        gap_m = 0.001
+        side = "above"
+        "#
+    ))
+}
+
+/// In the limit a Hertz contact is a rigid stop that gives everything back, whose multipliers are exact. The
+/// softer ones are near it, and of the others no digit is claimed that rounding has eaten.
+#[test]
+fn multipliers_of_contacts_that_are_too_hard_for_rounding_are_marginal() {
+    let leading = |law: &str| {
+        let orbit = hard_contact(law).hammerbeam(&["orbit", "study.toml", "--frequency", "3.9997", "--json"]);
+        assert_success(&orbit);
+        let document: serde_json::Value = serde_json::from_str(&stdout(&orbit)).unwrap();
+        let leading = document["floquet_multipliers"][0][0].as_f64().unwrap();
+        (leading, document["stability"].as_str().unwrap().to_owned())
+    };
+    let (rigid, stability) = leading("law = \"rigid\"\nrestitution = 1");
+    assert_eq!(stability, "unstable");
+    for stiffness in ["1e16", "1e18", "1e20", "1e22", "1e24"] {
+        let (hertz, stability) = leading(&format!("law = \"hertz\"\nstiffness_n_m15 = {stiffness}"));
+        let is_known = (hertz - rigid).abs() < 0.01 * rigid.abs();
+        assert!(is_known || stability == "marginal", "{stiffness}: {hertz}, {stability}, rigid {rigid}");
+        let is_soft = ["1e16", "1e18"].contains(&stiffness);
+        assert!(!is_soft || stability == "unstable", "{stiffness}: {hertz}, {stability}");
+    }
+}
+
 #[test]
 fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     let workshop = Workshop::exported(CHAIN);

@@ -58,9 +58,9 @@ impl BranchWalk {
         out.floats(&tests.noted);
         out.word(u64::from(tests.zeros_near));
         out.word(numbers_word(state.outside));
-        let Counters { evaluations, factorisations, accepted, rejected, short_in_a_row } =
+        let Counters { evaluations, factorisations, accepted, rejected, short_steps } =
             path.follower.counters();
-        let counts = [evaluations, factorisations, accepted, rejected, short_in_a_row];
+        let counts = [evaluations, factorisations, accepted, rejected, short_steps];
         counts.iter().for_each(|&count| out.word(count));
         out.word(record.evaluations_between);
         out.word(end_word(state.stop));
@@ -236,7 +236,7 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
         factorisations: reader.word()?,
         accepted: reader.word()?,
         rejected: reader.word()?,
-        short_in_a_row: reader.word()?,
+        short_steps: reader.word()?,
     };
     Some(Checkpoint { state, tests, counters })
 }

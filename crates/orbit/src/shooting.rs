@@ -66,7 +66,7 @@ use carried::{Along, NodeSlope};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
-    spectrum::{Spectrum, monodromy_error},
+    spectrum::{Accuracy, Spectrum, monodromy_error},
     state_scale::StateScale,
 };
 
@@ -100,6 +100,8 @@ pub(crate) struct ShootingProblem {
     /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both
     /// of their ends or at neither.
     jumps_at_cut: bool,
+    /// What rounding leaves unknown behind hard contacts, over all segments [1/s].
+    rounding: f64,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
     spectrum: Option<Result<Spectrum, NoEigenvalues>>,
@@ -141,6 +143,7 @@ impl ShootingProblem {
             at_ends: [Vec::new(), Vec::new()],
             touches_lacking: vec![0; contacts],
             jumps_at_cut: false,
+            rounding: 0.0,
             failure: None,
             spectrum: None,
             watches_stability: false,
@@ -310,9 +313,11 @@ impl ShootingProblem {
 
     fn spectrum_of_products(&self) -> Result<Spectrum, NoEigenvalues> {
         let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
-        let accuracy = (self.integrator.settings().tolerance, residual);
+        let rounding = self.scale.relative_rate(self.rounding);
+        let accuracy =
+            Accuracy { motion_tolerance: self.integrator.settings().tolerance, residual, rounding };
         let products = self.products.iter().map(Vec::as_slice);
-        let error = monodromy_error(products, self.node_size(), accuracy);
+        let error = monodromy_error(products, self.node_size(), &accuracy);
         Spectrum::of(self.node_size(), self.monodromy(), error)
     }
 

@@ -14,10 +14,12 @@
 //! times as large.
 //!
 //! # The error of a monodromy matrix
-//! `e = (8 t + 4 n eps + r) max_k |A_k|`, with the tolerance t of the motion, the rounding `eps` of a number,
-//! the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the fundamental
-//! matrices up to each node, in states measured by their energy. Measured on undamped systems, whose
-//! multipliers lie on the circle exactly: see the tests of the verification crate.
+//! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, the rounding `eps` of a
+//! number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
+//! fundamental matrices up to each node, in states measured by their energy. By h the jump of velocities in
+//! hard contacts is unknown, by rounding of their penetration; what comes before and behind such a contact is
+//! a motion of the size one. Measured on undamped systems, whose multipliers lie on the circle exactly: see the
+//! tests of the verification crate.
 //!
 //! # Source
 //! Trefethen and Embree, *Spectra and Pseudospectra* (2005), chapter 2.
@@ -133,6 +135,17 @@ pub(crate) fn norm(matrix: &[f64]) -> f64 {
     matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
+/// What the matrices of an orbit are known to, relative to them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Accuracy {
+    /// Of a step of the motion.
+    pub motion_tolerance: f64,
+    /// Mismatch of the shooting equations.
+    pub residual: f64,
+    /// Of the jump of velocities in hard contacts.
+    pub rounding: f64,
+}
+
 /// The error of a monodromy matrix: see the module.
 ///
 /// * `products`: the products of the fundamental matrices up to each node, from the identity to the monodromy
@@ -140,10 +153,11 @@ pub(crate) fn norm(matrix: &[f64]) -> f64 {
 pub(crate) fn monodromy_error<'a>(
     products: impl IntoIterator<Item = &'a [f64]>,
     size: usize,
-    (motion_tolerance, residual): (f64, f64),
+    accuracy: &Accuracy,
 ) -> f64 {
     let largest = products.into_iter().map(norm).fold(0.0, f64::max);
-    (STEPS * motion_tolerance + 2.0 * size as f64 * f64::EPSILON + residual) * largest
+    let &Accuracy { motion_tolerance, residual, rounding } = accuracy;
+    (STEPS * motion_tolerance + 2.0 * size as f64 * f64::EPSILON + residual) * largest + rounding
 }
 
 /// Estimate of the least singular value of `A - z I`, from below, within `sqrt(2n)` of it: `1 / |(A - z

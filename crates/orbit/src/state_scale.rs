@@ -49,6 +49,13 @@ impl StateScale {
         &self.scales
     }
 
+    /// What a change of velocities by displacements [1/s] is at most, relative to the scale.
+    pub fn relative_rate(&self, rate: f64) -> f64 {
+        let (displacements, velocities) = self.scales.split_at(self.scales.len() / 2);
+        let ratios = displacements.iter().zip(velocities).map(|(x, v)| x / v);
+        rate * ratios.fold(0.0, f64::max)
+    }
+
     /// Norm of the difference of two states relative to the scale.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()

@@ -51,7 +51,7 @@ pub enum PathStop {
     NoProgress {
         /// Parameter of the last accepted point.
         parameter: f64,
-        /// So many steps in a row were no longer than `Settings::short_step`.
+        /// So many steps came no farther than `Settings::short_step` each, on the average.
         steps: u64,
     },
     /// The problem could not be evaluated beyond the last accepted point.

@@ -95,6 +95,7 @@ pub struct Counters {
     pub accepted: u64,
     /// Attempted steps that were given up.
     pub rejected: u64,
-    /// Accepted steps no longer than `Settings::short_step`, since the last longer one.
-    pub short_in_a_row: u64,
+    /// Accepted steps shorter than `Settings::short_step`, less those that longer ones have made up for: one
+    /// for each `short_step` of their length.
+    pub short_steps: u64,
 }

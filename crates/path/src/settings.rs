@@ -61,8 +61,8 @@ pub struct Settings {
     /// Shortest step, some hundred times the `correction_floor`; a turn that is still unresolved at it is
     /// taken as a corner, and if that fails too, the branch stops.
     pub min_step: f64,
-    /// Steps at most this long do not get anywhere: after [`MOST_SHORT_STEPS`](crate::MOST_SHORT_STEPS) of
-    /// them in a row the branch stops.
+    /// Steps that are no longer on the average do not get anywhere: after
+    /// [`MOST_SHORT_STEPS`](crate::MOST_SHORT_STEPS) of them the branch stops.
     pub short_step: f64,
     /// Bound of `θ`, in radians.
     pub max_angle: f64,
@@ -101,7 +101,7 @@ impl Default for Settings {
             max_parameter_step: f64::INFINITY,
             max_step_length: 0.1,
             min_step: 1e-10,
-            short_step: 1e-9,
+            short_step: 1e-6,
             max_angle: 0.3,
             correction_tolerance: 1e-9,
             correction_floor: 1e-12,

@@ -8,7 +8,7 @@ use super::{
     quantity::VerifiedQuantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
-    unknown::{Unknown, touches_at_nodes},
+    unknown::{Unknown, behind_hard_contacts, touches_at_nodes},
 };
 
 /// How far a multiplier may be from where an event puts it: events are located to a part of the step, and
@@ -190,14 +190,15 @@ pub(super) fn compare(
         (f64::INFINITY, margin)
     };
     let jumps = rigid.min(damped) <= margin || damped_row <= located;
-    let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
+    let unknown_matrix = sensitivity + behind_hard_contacts(system, scales, found) / tolerance;
+    let of_multipliers = multipliers(solution, found, unknown_matrix).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps, ..found }));
     list.extend(leading(row, solution));
     // Behind grazing on a rigid stop everything varies like the root of the distance from it.
     if grazing > 0 && system.has_rigid_stops() {
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
-    let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
+    let unknown = tolerance * (1.0 + norm(&found.monodromy) + unknown_matrix);
     // Beside a rigid stop multipliers are far outside the unit circle.
     list.extend(events(claims, found, &measures, (unknown, rigid.min(damped_row))));
     list
@@ -280,7 +281,8 @@ fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     }
 }
 
-fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64) -> Vec<Comparison> {
+/// * `unknown`: of the monodromy matrix, over the tolerance.
+fn multipliers(solution: &PeriodicSolution, found: &Recomputed, unknown: f64) -> Vec<Comparison> {
     let mut left = found.multipliers.clone();
     let mut list = Vec::new();
     for (index, [re, im]) in solution.floquet_multipliers.iter().enumerate() {
@@ -293,7 +295,7 @@ fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64
         // One that is called marginal lies on the circle here, too.
         let is_marked = solution.on_circle.get(index).is_some_and(|on| *on);
         let error = if is_marked { error.max((multiplier.value.norm() - 1.0).abs()) } else { error };
-        let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + sensitivity);
+        let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + unknown);
         let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
         let (stored, new) = (stored.norm(), multiplier.value.norm());
         list.push(plain(VerifiedQuantity::Multipliers, stored, new, difference));

@@ -38,6 +38,9 @@
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within
 //! `tau` of the stored one.
 //!
+//! Hard contacts add `H / tau` to S: rounding of displacements of the size m leaves `H = w eps m / p L / V`
+//! unknown of the matrix behind a contact of the depth p and the frequency w.
+//!
 //! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix
 //! itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b
 //! that a unit impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the

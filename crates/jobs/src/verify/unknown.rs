@@ -1,7 +1,7 @@
 //! What of an orbit cannot be distinguished from nothing at the accuracy of a verification: touches at
 //! grazing, and touches where the orbit is cut.
 
-use hammerbeam_motion::{LocalElement, System};
+use hammerbeam_motion::{LocalElement, System, general::ElementMaxima};
 use hammerbeam_orbit::PeriodicSolution;
 
 use super::recompute::Recomputed;
@@ -51,6 +51,27 @@ fn onset_acceleration((system, response): (&System, &[f64]), speed: f64) -> f64 
         mobility.abs() * element.law.onset_damping() * speed
     };
     system.elements().iter().map(of_element).fold(0.0, f64::max)
+}
+
+/// What rounding of penetrations leaves unknown of a monodromy matrix by the jumps of velocities in hard
+/// contacts, relative to the scales of states: `h = w eps m/p L/V` of a contact with the depth p and the
+/// frequency w among displacements of the size m.
+pub(super) fn behind_hard_contacts(system: &System, scales: &[f64], found: &Recomputed) -> f64 {
+    let (lengths, velocities) = scales.split_at(system.dof());
+    let slowest = lengths.iter().zip(velocities).map(|(x, v)| x / v).fold(0.0, f64::max);
+    let of_element = |(element, maxima): (&LocalElement, &ElementMaxima)| {
+        let LocalElement { shape, law, .. } = element;
+        if law.rigid().is_some() || maxima.deepest <= 0.0 || maxima.contact_force == 0.0 {
+            return 0.0;
+        }
+        let mobility: f64 = shape.iter().map(|phi| phi * phi).sum();
+        let frequency = (mobility * maxima.contact_force / maxima.deepest).sqrt();
+        let moved: f64 = shape.iter().zip(lengths).map(|(phi, x)| (phi * x).abs()).sum();
+        let size = moved + law.gap().unwrap_or(0.0).abs();
+        frequency * f64::EPSILON * size / maxima.deepest * slowest
+    };
+    let each = system.elements().iter().zip(&found.of_elements).map(of_element);
+    each.fold(0.0, f64::hypot) * f64::from(found.maxima.contacts).sqrt()
 }
 
 /// Speeds of the contacts that are touched at a node to within a distance.

@@ -24,8 +24,8 @@ use super::{
     clearance::ClearanceBounds,
     collocation::{Grading, NODES},
     event::{Event, Solved},
-    flight::{Boundary, Touch, clearance_of},
-    hole,
+    flight::{Boundary, MARGIN, Touch, clearance_of},
+    hole, rounding,
     run::Run,
     touching::Unresolved,
 };
@@ -325,6 +325,17 @@ impl ExactIntegrator {
         Ok(())
     }
 
+    /// Adds what rounding leaves unknown behind the solved step (`rounding.rs`).
+    fn count_rounding(&mut self, state: &[f64]) {
+        for (a, &element) in self.step.active.iter().enumerate() {
+            if !self.laws[element].contacts().is_empty() {
+                let margin = self.bounds(state, element, self.stretch.duration()).margin;
+                let known = (self.mobility[element][element], margin / MARGIN);
+                self.rounding = self.rounding.hypot(rounding::of_contact(&self.step, a, known));
+            }
+        }
+    }
+
     /// Moves the run to the end of the solved step.
     fn accept(&mut self, run: &mut Run, end: f64, error: f64) {
         let length = self.step.length;
@@ -334,6 +345,7 @@ impl ExactIntegrator {
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
             self.count_contraction(sensitivity);
+            self.count_rounding(&run.state);
             let states = 2 * self.blocks.count();
             self.counts.operations += (self.step.active.len() * NODES * states * states) as u64;
         }

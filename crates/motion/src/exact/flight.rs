@@ -40,6 +40,9 @@ struct OutputReach {
     magnitude: f64,
 }
 
+/// Rounding margins, in roundings of what they are of.
+pub(super) const MARGIN: f64 = 8.0;
+
 /// Looks allowed in one flight; about twenty are usual.
 const MAX_LOOKS: usize = 100_000;
 
@@ -248,7 +251,7 @@ impl ExactIntegrator {
             let OutputReach { second, third, magnitude } = self.reach(state, output, until);
             let first =
                 self.speed_bound(state, output) + self.drive.secular_speed(&self.outputs[output], until);
-            OutputBounds { value: magnitude, first, second, third, margin: 8.0 * f64::EPSILON * magnitude }
+            OutputBounds { value: magnitude, first, second, third, margin: MARGIN * f64::EPSILON * magnitude }
         });
         reading_bounds(hole, jets, bounds, until - now)
     }
@@ -261,7 +264,7 @@ impl ExactIntegrator {
         let levels = law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level);
         let kinks = law.map_or([None; 2], Law::kinks).into_iter().flatten();
         let level = levels.chain(kinks).map(f64::abs).fold(0.0, f64::max);
-        ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
+        ClearanceBounds { second, third, margin: MARGIN * f64::EPSILON * (magnitude + level) }
     }
 
     /// What an output can reach until `until`, from the homogeneous state now.

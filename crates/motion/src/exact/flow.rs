@@ -80,6 +80,7 @@ impl ExactIntegrator {
         self.let_go();
         self.stretch = *stretch;
         self.contraction = 0.0;
+        self.rounding = 0.0;
         self.cuts_for_volume = 0;
         self.directions_lost = 0;
         let n = self.blocks.count();

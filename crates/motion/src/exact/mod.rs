@@ -104,6 +104,7 @@ mod pressing;
 mod propagator;
 mod quadrature;
 mod recurrence;
+mod rounding;
 mod run;
 mod sampling;
 mod secular;
@@ -237,6 +238,7 @@ pub struct ExactIntegrator {
     holding: Option<Box<hold::Holding>>,
     known_held: Vec<held::Held>,
     contraction: f64,
+    rounding: f64,
     cuts_for_volume: u32,
     /// Directions that neighbours lost in the last stretch, at one instant at most.
     directions_lost: usize,
@@ -311,6 +313,7 @@ impl ExactIntegrator {
             holding: None,
             known_held: Vec::new(),
             contraction: 0.0,
+            rounding: 0.0,
             cuts_for_volume: 0,
             directions_lost: 0,
         })
@@ -371,6 +374,14 @@ impl ExactIntegrator {
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction
+    }
+
+    /// What rounding of the penetration of hard contacts leaves unknown of the change of velocities at the end
+    /// of the last stretch by displacements at its start, of a flow with sensitivities [1/s] (mathematics in
+    /// `rounding.rs`).
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// By how much the rank of the sensitivities of the last stretch is less than that of the state: two for

@@ -124,6 +124,7 @@ impl Shooting {
         let second = ends.zip(here).fold(0.0_f64, |most, ((a, b), at)| most.max((a - 2.0 * at + b).abs()));
         let quotients = Segment {
             end: Vec::new(),
+            rounding: 0.0,
             touches: Vec::new(),
             matrix: quotient(&above.matrix, &below.matrix),
             by_frequency: quotient(&above.by_frequency, &below.by_frequency),

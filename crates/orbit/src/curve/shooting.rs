@@ -12,7 +12,7 @@ use hammerbeam_motion::{
 use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
-    spectrum::{Spectrum, monodromy_error},
+    spectrum::{Accuracy, Spectrum, monodromy_error},
     state_scale::StateScale,
 };
 
@@ -34,6 +34,8 @@ pub(super) struct Segment {
     pub by_parameter: Vec<f64>,
     /// Touches of each contact.
     pub touches: Vec<u32>,
+    /// What rounding leaves unknown behind hard contacts [1/s].
+    pub rounding: f64,
 }
 
 impl Segment {
@@ -53,6 +55,7 @@ impl Segment {
             by_frequency: sum(&self.by_frequency, &next.by_frequency),
             by_parameter: sum(&self.by_parameter, &next.by_parameter),
             touches: self.touches.iter().zip(&next.touches).map(|(a, b)| a + b).collect(),
+            rounding: self.rounding.hypot(next.rounding),
         }
     }
 }
@@ -94,7 +97,12 @@ impl Shooting {
     /// Multipliers at the last evaluated place, with this mismatch of the equations.
     pub fn spectrum(&self, residual: f64) -> Result<Spectrum, NoEigenvalues> {
         let products = self.products.iter().map(Vec::as_slice);
-        let error = monodromy_error(products, self.size(), (self.integrator.settings().tolerance, residual));
+        let rounding = self
+            .scale
+            .relative_rate(self.segments.iter().map(|segment| segment.rounding).fold(0.0, f64::hypot));
+        let accuracy =
+            Accuracy { motion_tolerance: self.integrator.settings().tolerance, residual, rounding };
+        let error = monodromy_error(products, self.size(), &accuracy);
         Spectrum::of(self.size(), self.monodromy(), error)
     }
 
@@ -144,6 +152,7 @@ impl Shooting {
             by_frequency: scaled(&flow.by_frequency),
             by_parameter,
             touches: integrator.touches().to_vec(),
+            rounding: integrator.rounding(),
         })
     }
 

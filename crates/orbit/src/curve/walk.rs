@@ -292,7 +292,7 @@ impl CurveWalk {
 
     /// Whether steps have shrunk to next to nothing at a grazing, as where the curve goes on along it.
     fn is_short_at_grazing(&self) -> bool {
-        self.grazing_distance < AT_GRAZING && self.follower.counters().short_in_a_row >= SHORT_AT_GRAZING
+        self.grazing_distance < AT_GRAZING && self.follower.counters().short_steps >= SHORT_AT_GRAZING
     }
 
     /// Whether the contact opposite to that of a grazing curve would be struck behind the present row.

@@ -30,6 +30,7 @@ impl ShootingProblem {
         self.at_ends.iter_mut().for_each(Vec::clear);
         self.failure = None;
         self.spectrum = None;
+        self.rounding = 0.0;
         let frequency = self.frequency(point);
         if frequency.is_nan() || frequency <= 0.0 {
             return Err(EvaluationError::OutsideDomain);
@@ -128,6 +129,7 @@ impl ShootingProblem {
             }
         }
         self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
+        self.rounding = self.rounding.hypot(self.integrator.rounding());
         if in_flight && self.is_fast(stretch.frequency_hz) {
             flights.push(segment);
         }

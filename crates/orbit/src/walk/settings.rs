@@ -24,7 +24,7 @@ const RESIDUAL: f64 = 1e-8;
 /// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
 /// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
 /// and not to the border.
-const SHORT_BESIDE_IMPACTS: f64 = 1e4;
+const SHORT_BESIDE_IMPACTS: f64 = 10.0;
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
 pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {

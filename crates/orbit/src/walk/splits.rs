@@ -63,7 +63,7 @@ impl Work {
 /// If the last steps were short, and a contact of the present orbit splits: the way to the border is no
 /// longer resolved.
 pub(super) fn tends_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
-    let short = path.follower.counters().short_in_a_row;
+    let short = path.follower.counters().short_steps;
     if short == 0 || !short.is_multiple_of(splitting::SHORT_STEPS) {
         return None;
     }

@@ -105,8 +105,8 @@ pub struct Follower {
     looks_ahead: bool,
 }
 
-/// So many steps in a row that are no longer than `Settings::short_step` end a branch: an ordinary turn,
-/// whatever its size, is passed with steps that grow again.
+/// So many steps that come no farther than `Settings::short_step` each, on the average, end a branch: an
+/// ordinary turn, whatever its size, is passed with steps that grow again.
 pub const MOST_SHORT_STEPS: u64 = 5000;
 
 /// Share of the tolerance up to which the error of a predictor does not matter.
@@ -224,7 +224,7 @@ impl Follower {
 
     /// Why the branch ends here, if it has too many points, or does not get anywhere.
     fn used_up(&self) -> Option<PathStop> {
-        let Counters { accepted, short_in_a_row: steps, .. } = self.counters;
+        let Counters { accepted, short_steps: steps, .. } = self.counters;
         if accepted >= self.frame.settings.max_points {
             return Some(PathStop::Budget);
         }
@@ -378,8 +378,8 @@ impl Follower {
         let angle = product(weights, &base.tangent, &trial.node.tangent).clamp(-1.0, 1.0).acos();
         let errors = state.history.errors(weights, &trial.node.point, &mut self.locator.probe.point);
         counters.accepted += 1;
-        let is_short = chord <= settings.short_step;
-        counters.short_in_a_row = if is_short { counters.short_in_a_row + 1 } else { 0 };
+        let made_up = (chord / settings.short_step) as u64;
+        counters.short_steps = (counters.short_steps + 1).saturating_sub(made_up);
         let left = state.current.events.zeros;
         tests.go_on(&trial.tests, &trial.noted, left, arrival.zeros_near | arrival.events.zeros);
         if arrival.anchors_anew {
