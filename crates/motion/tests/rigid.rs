@@ -54,8 +54,8 @@ fn a_ball_bounces_as_the_closed_form_says() {
     }
 }
 
-/// Let go behind the stop, where a search may begin, towards deeper: the impact takes the speed, and the load,
-/// which pulls away, leads out. `q = q_0 - g t^2/2`.
+/// Let go behind the stop, where a search may begin, towards deeper: the impact takes the speed, and the
+/// load, which pulls away, leads out. `q = q_0 - g t^2/2`.
 #[test]
 fn a_ball_behind_a_plastic_stop_is_struck_once_and_leaves() {
     let (g, behind) = (9.81, 0.01);

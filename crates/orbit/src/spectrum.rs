@@ -18,8 +18,8 @@
 //! number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
 //! fundamental matrices up to each node, in states measured by their energy. By h the jump of velocities in
 //! hard contacts is unknown, by rounding of their penetration; what comes before and behind such a contact is
-//! a motion of the size one. Measured on undamped systems, whose multipliers lie on the circle exactly: see the
-//! tests of the verification crate.
+//! a motion of the size one. Measured on undamped systems, whose multipliers lie on the circle exactly: see
+//! the tests of the verification crate.
 //!
 //! # Source
 //! Trefethen and Embree, *Spectra and Pseudospectra* (2005), chapter 2.

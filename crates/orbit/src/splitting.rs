@@ -21,7 +21,7 @@
 //! ends at a finite frequency `f*` in an orbit that presses without penetration, with a multiplier that has
 //! no bound. It cannot be computed up to there: a state is rounded by `eps`, so its image is by `eps` times
 //! the multiplier, and where that is more than the tolerance of the shooting, steps shrink to nothing
-//! although `f*` is not reached. A walk whose last [`SHORT_STEPS`] steps were short is therefore asked
+//! although `f*` is not reached. A walk with [`SHORT_STEPS`] short steps is therefore asked
 //! whether a contact of its orbit splits, and ends if one does.
 //!
 //! Before steps are that short they may lead nowhere, and it cannot be told any more on which side of the
@@ -40,8 +40,8 @@ use hammerbeam_motion::{
     exact::{ContactPiece, ExactIntegrator, MotionError},
 };
 
-/// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a
-/// few, a splitting is approached with no other.
+/// So many short steps that longer ones have not made up for raise the question, and as many more raise it
+/// again: a fold is passed with a few, a splitting is approached with no other.
 pub(crate) const SHORT_STEPS: u64 = 50;
 
 /// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path

@@ -96,6 +96,6 @@ pub struct Counters {
     /// Attempted steps that were given up.
     pub rejected: u64,
     /// Accepted steps shorter than `Settings::short_step`, less those that longer ones have made up for: one
-    /// for each `short_step` of their length.
+    /// for each whole `short_step` of their length beyond the first.
     pub short_steps: u64,
 }

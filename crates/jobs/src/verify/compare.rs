@@ -92,15 +92,18 @@ impl Measures {
     /// stop that holds the structure presses with what keeps it from being accelerated, a difference of what
     /// makes `W`, over the mobility m: `W / (m F)` more, and that alone where nothing strikes it.
     fn contact_factor(&self, (rigid, element): (Option<f64>, &ElementMaxima)) -> f64 {
-        let impact = element.impact_velocity;
-        let struck = (self.touch_factor(impact) - 1.0).min(self.contact[0] / element.deepest);
+        let struck = self.struck_factor(element);
         match rigid {
             Some(mobility) if element.contact_force > 0.0 => {
-                let held = self.approach / (mobility * element.contact_force);
-                1.0 + held + if impact > 0.0 { struck } else { 0.0 }
+                let struck = if element.impact_velocity > 0.0 { struck } else { 1.0 };
+                struck + self.approach / (mobility * element.contact_force)
             }
-            _ => 1.0 + struck,
+            _ => struck,
         }
+    }
+
+    fn struck_factor(&self, element: &ElementMaxima) -> f64 {
+        1.0 + (self.touch_factor(element.impact_velocity) - 1.0).min(self.contact[0] / element.deepest)
     }
 
     /// The factor of the element in which something is largest; `None` if it is zero in all.
@@ -112,7 +115,14 @@ impl Measures {
     /// `sum_j g_j J_j`.
     fn impulse(&self, found: &Recomputed) -> f64 {
         let pushing = self.elements(found).filter(|(_, element)| element.impulse > 0.0);
-        pushing.map(|element| self.contact_factor(element) * element.1.impulse).sum()
+        let factor = |(rigid, element): (Option<f64>, &ElementMaxima)| {
+            if element.impact_velocity > 0.0 {
+                self.struck_factor(element)
+            } else {
+                self.contact_factor((rigid, element))
+            }
+        };
+        pushing.map(|element| factor(element) * element.1.impulse).sum()
     }
 
     fn elements<'f>(&self, found: &'f Recomputed) -> impl Iterator<Item = (Option<f64>, &'f ElementMaxima)> {

@@ -326,11 +326,10 @@ impl ExactIntegrator {
     }
 
     /// Adds what rounding leaves unknown behind the solved step (`rounding.rs`).
-    fn count_rounding(&mut self, state: &[f64]) {
+    fn count_rounding(&mut self, run: &Run) {
         for (a, &element) in self.step.active.iter().enumerate() {
             if !self.laws[element].contacts().is_empty() {
-                let margin = self.bounds(state, element, self.stretch.duration()).margin;
-                let known = (self.mobility[element][element], margin / MARGIN);
+                let known = (self.mobility[element][element], run.start[element].margin / MARGIN);
                 self.rounding = self.rounding.hypot(rounding::of_contact(&self.step, a, known));
             }
         }
@@ -345,7 +344,7 @@ impl ExactIntegrator {
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
             self.count_contraction(sensitivity);
-            self.count_rounding(&run.state);
+            self.count_rounding(run);
             let states = 2 * self.blocks.count();
             self.counts.operations += (self.step.active.len() * NODES * states * states) as u64;
         }

@@ -146,13 +146,12 @@ impl ExactIntegrator {
     /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance;
     /// `free` ends with that time.
     fn is_looked_past(&self, run: &Run, element: usize, time: f64, free: &mut f64) -> bool {
-        match run.lifted {
-            Some((lifted, until)) if lifted == element && until > run.time + time => {
-                *free = free.min(until - run.time - time);
-                true
-            }
-            _ => false,
+        let until = run.left[element].until;
+        let is_past = until <= run.time + time;
+        if !is_past {
+            *free = free.min(until - run.time - time);
         }
+        !is_past
     }
 
     /// Clearance at `time` after the start of the flight, from the output that tells it; the state of `run`
@@ -224,14 +223,14 @@ impl ExactIntegrator {
             third: 0.0,
             margin: pressure.displacement * elastic.margin
                 + pressure.velocity * rounding
-                + 8.0 * f64::EPSILON * pressure.offset,
+                + MARGIN * f64::EPSILON * pressure.offset,
         }
     }
 
     /// Rounding margin of the velocity of an output, from the homogeneous state now.
     pub(super) fn velocity_rounding(&self, state: &[f64], output: usize) -> f64 {
         let secular = self.drive.secular_speed(&self.outputs[output], self.stretch.duration());
-        8.0 * f64::EPSILON * (self.speed_bound(state, output) + secular)
+        MARGIN * f64::EPSILON * (self.speed_bound(state, output) + secular)
     }
 
     /// Bounds on a clearance of `element`, of a hole on its reading, over a time ahead from the homogeneous

@@ -11,7 +11,7 @@ use super::{
     hole,
     impact::MOST_IMPACTS,
     maxima::{bit, closed_bits},
-    run::Run,
+    run::{Left, Run},
     standstill::Standstill,
 };
 use crate::{Flow, Law, Stretch};
@@ -94,7 +94,8 @@ impl ExactIntegrator {
         run.slack = 0.0;
         run.release = None;
         run.stuck.clear();
-        run.lifted = None;
+        run.left.clear();
+        run.left.resize(self.laws.len(), Left::NEVER);
         run.impacts = 0;
         run.state.resize(2 * n, 0.0);
         self.blocks.of_modal(state, &mut run.state);

@@ -51,6 +51,9 @@ use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, hole, run::
 
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
+/// How long a brief hop takes at most [cycles]. Its height is about 6e-12 of the motion then, some thousand
+/// rounding margins.
+const BRIEF_HOP: f64 = 1e-4;
 /// Steps of Newton's method to a touch; one or two are usual.
 const NEWTON_STEPS: usize = 20;
 
@@ -152,10 +155,12 @@ impl ExactIntegrator {
         self.jump_at_impact(run, impact, impulse, &displacement);
         let jumps = self.jump_velocities(run, impact, impulse);
         self.jump_with_forces(run, &jumps, &displacement);
+        self.throw_off(run, &displacement, impact.before.slope)?;
         if restitution == 0.0 {
-            self.look_past(run, touch.element, 0.0);
+            let third = self.bounds(&run.state, touch.element, self.stretch.duration()).third;
+            self.look_past(run, touch.element, third);
         }
-        self.throw_off(run, &displacement, impact.before.slope)
+        Ok(())
     }
 
     /// `V+ = V + sum_e B_e [F_e] dr/v`.
@@ -203,13 +208,24 @@ impl ExactIntegrator {
         (impulse, energy): (f64, f64),
         sticks: bool,
     ) {
-        let place = self.first_touch(impact.touch.element);
-        self.touches[place] = self.touches[place].saturating_add(1);
+        let element = impact.touch.element;
+        if !self.hops_briefly(run, element) {
+            let place = self.first_touch(element);
+            self.touches[place] = self.touches[place].saturating_add(1);
+        }
         if self.notes_course {
             self.course.touch(impact.touch.element, impact.before.slope);
             self.course.impact(impact.touch.element, (impulse, energy), sticks);
         }
         self.trace_impact(run, impact.touch, (impulse, energy), sticks);
+    }
+
+    /// Whether a stop that gives nothing back was left so shortly before that its contact is taken to go on:
+    /// where what presses on it vanishes for an instant it opens by next to nothing, and rounding says
+    /// whether at all, while the motion goes on smoothly.
+    fn hops_briefly(&self, run: &Run, element: usize) -> bool {
+        let away = run.time - run.left[element].at;
+        !self.laws[element].chatters() && away * self.stretch.frequency_hz < BRIEF_HOP
     }
 
     /// Place of the first contact of an element among the numbers of touches.

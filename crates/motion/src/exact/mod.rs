@@ -17,6 +17,7 @@
 //! * `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs`: one step with forces, and its error.
 //! * `damped_step.rs`, `onset.rs`: forces that depend on the velocity; sensitivities where they set in with a
 //!   jump.
+//! * `rounding.rs`: what rounding leaves unknown of the sensitivities behind hard contacts;
 //! * `memory.rs`, `volume.rs`: laws that remember the speed of an impact; what contacts do to volumes of
 //!   states.
 //! * `impact.rs`, `velocity_jump.rs`, `stick.rs`: impacts on rigid stops, the forces that jump with them;
@@ -376,9 +377,9 @@ impl ExactIntegrator {
         self.contraction
     }
 
-    /// What rounding of the penetration of hard contacts leaves unknown of the change of velocities at the end
-    /// of the last stretch by displacements at its start, of a flow with sensitivities [1/s] (mathematics in
-    /// `rounding.rs`).
+    /// What rounding of the penetration of hard contacts leaves unknown of the change of velocities by
+    /// displacements in these contacts, over the last stretch, of a flow with sensitivities [1/s]
+    /// (mathematics in `rounding.rs`).
     #[must_use]
     pub fn rounding(&self) -> f64 {
         self.rounding

@@ -36,12 +36,23 @@ pub(crate) struct Run {
     pub release: Option<(Event, f64)>,
     /// Elements that are held on their rigid stops, ascending (`held.rs`).
     pub stuck: Vec<usize>,
-    /// Rigid stop that was left last, and until when its clearance is not looked at [s].
-    pub lifted: Option<(usize, f64)>,
+    /// Of each element when its rigid stop was left without speed last.
+    pub left: Vec<Left>,
     /// Impacts on rigid stops in this stretch.
     pub impacts: u64,
     /// Time within which contacts that leave count as open, after another was released [s].
     pub slack: f64,
+}
+
+/// When a rigid stop was left without speed, and until when its clearance is not looked at [s].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    pub at: f64,
+    pub until: f64,
+}
+
+impl Left {
+    pub const NEVER: Self = Self { at: f64::NEG_INFINITY, until: f64::NEG_INFINITY };
 }
 
 /// What is known of an element at the start of a step.

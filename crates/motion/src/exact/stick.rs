@@ -27,7 +27,7 @@ use super::{
     contact_phase::AT_REST,
     flight::{Boundary, Touch},
     impact::Impact,
-    run::Run,
+    run::{Left, Run},
 };
 
 /// Height of a bounce, in rounding margins of the clearance, below which it sticks.
@@ -65,23 +65,24 @@ impl ExactIntegrator {
         let slope = place.map_or(0.0, |place| self.pressing_now(run)[place].jet.slope);
         let rest = run.stuck.iter().copied().filter(|&stuck| stuck != element).collect();
         self.hold(run, rest)?;
-        self.look_past(run, element, slope);
+        self.look_past(run, element, self.mobility_in_free(element) * slope.abs());
         Ok(())
     }
 
     /// A stop that is left without speed is not looked at until the clearance is out of the margin, within
     /// which rounding would decide.
     ///
-    /// * `slope`: that of the pressing force at its end [N/s]; zero where an impact leaves no speed.
-    pub(super) fn look_past(&self, run: &mut Run, element: usize, slope: f64) {
-        // The clearance grows like `D |lambda'| t^3/6`,
+    /// * `third`: `|r'''|` [m/s^3]: where the pressing force ends `D |lambda'|`, behind an impact a bound.
+    pub(super) fn look_past(&self, run: &mut Run, element: usize, third: f64) {
+        // The clearance grows like `|r'''| t^3/6`,
         let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        let cubic = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
+        let cubic = (6.0 * CHATTER * margin / third).cbrt();
         // or, behind an impact or where another stop has taken over, like `|r''| t^2/2`.
         let away = -self.jet_with_forces(run, element).curvature;
         let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();
         let wait = cubic.min(quadratic);
-        run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
+        let until = run.time + wait.min(1e-3 * self.stretch.duration());
+        run.left[element] = Left { at: run.time, until };
     }
 
     fn mobility_in_free(&self, element: usize) -> f64 {

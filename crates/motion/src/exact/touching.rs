@@ -166,10 +166,7 @@ impl ExactIntegrator {
     /// Time in the step before which an element is not looked at: it has just left its rigid stop, and
     /// rounding would decide on its clearance.
     pub(super) fn looked_past(&self, run: &Run, element: usize) -> f64 {
-        match run.lifted {
-            Some((lifted, until)) if lifted == element => (until - run.time).max(0.0),
-            _ => 0.0,
-        }
+        (run.left[element].until - run.time).max(0.0)
     }
 }
 

@@ -11,6 +11,9 @@ const LOOKS: usize = 2000;
 const FASTEST: f64 = 3.0;
 const FASTEST_SQUARED: f64 = 5.0;
 
+/// Share of the speed behind an impact without which it sticks.
+const REBOUNDS: f64 = 0.5;
+
 /// What a touch near grazing is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
@@ -75,10 +78,17 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
         for contact in &trace.contacts {
             let (Some(begin), Some(jump)) = (&contact.begin, &contact.jump) else { continue };
             let phase = stretch.start + begin.time * frequency_hz;
-            let [_, _, acceleration] =
+            let [_, behind, acceleration] =
                 problem.system().relative_motion(contact.element, frequency_hz, phase, &jump.state);
-            // What is pressed on bounces or sticks, and does not graze.
-            if acceleration < 0.0 {
+            let law = &problem.system().elements()[contact.element].law;
+            let restitution = law.rigid().map_or(0.0, |stop| stop.restitution());
+            // An impact without restitution leaves no speed; what is pressed on sticks.
+            let leaves = if restitution > 0.0 {
+                -behind > REBOUNDS * restitution * begin.velocity
+            } else {
+                acceleration < 0.0
+            };
+            if leaves {
                 touches.push(Touch {
                     element: contact.element,
                     side: Side::Impact,

@@ -1,7 +1,7 @@
 //! Walking along a curve of bifurcations, one row at a time.
 //!
 //! A curve has met a grazing where its rows are at one as far as can be told, where [`SHORT_AT_GRAZING`] of
-//! them one after the other were short beside one (it goes on along the grazing, and matrices like the root
+//! them were short beside one (it goes on along the grazing, and matrices like the root
 //! of the distance leave nothing of the tangent), and where no step leads on from a row beside one.
 //! Differences are made only as short as they must be, so they may know of no grazing at such a row: a step
 //! across a change of contacts tells of it.
@@ -37,8 +37,8 @@ const ROWS_AT_GRAZING: u32 = 10;
 const AT_GRAZING: f64 = 1e-6;
 /// Shares of that at which contacts are looked at ahead.
 const AHEAD: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
-/// Rows one after the other that are short, the last of them so near to a grazing, after which the curve has
-/// met it: one that only passes it has steps that grow again.
+/// Short rows that longer ones have not made up for, the last of them so near to a grazing, after which the
+/// curve has met it: one that only passes it has steps that grow again.
 const SHORT_AT_GRAZING: u64 = 50;
 /// So many rows that have got no further than [`LEAST_WAY`] lead nowhere: two hundred go over a whole range
 /// else.
