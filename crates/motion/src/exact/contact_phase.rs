@@ -330,7 +330,10 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             if !self.laws[element].contacts().is_empty() {
                 let known = (self.mobility[element][element], run.start[element].margin / MARGIN);
-                self.rounding = self.rounding.hypot(rounding::of_contact(&self.step, a, known));
+                let nodes = a * NODES..(a + 1) * NODES;
+                let of_step = (&self.step.force[nodes.clone()], &self.step.slope[nodes]);
+                let added = rounding::of_contact(self.step.length, of_step, known);
+                self.rounding = self.rounding.hypot(added);
             }
         }
     }

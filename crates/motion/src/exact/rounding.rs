@@ -11,17 +11,17 @@
 //! period of 0.2 s and is 1e-11 m deep where the gap is 1 mm it is so large that no multiplier is known. For
 //! p the largest `f/(df/dr)` of the step is taken, which is of its size.
 
-use super::{collocation::NODES, force_step::ForceStep};
-
-/// The error of a contact that a step adds [1/s].
+/// The error of a contact that a step of this length adds [1/s].
 ///
-/// * `a`: place of its element among the active ones.
-/// * `unknown`: `eps m` [m].
-pub(super) fn of_contact(step: &ForceStep, a: usize, (mobility, unknown): (f64, f64)) -> f64 {
-    let nodes = a * NODES..(a + 1) * NODES;
-    let (forces, slopes) = (&step.force[nodes.clone()], &step.slope[nodes]);
-    let stiffness = slopes.iter().map(|slope| slope.abs()).sum::<f64>() / NODES as f64;
+/// * `(forces, slopes)`: at its nodes, f [N] and df/dr [N/m].
+/// * `(mobility, unknown)`: D [1/kg] and `eps m` [m].
+pub(super) fn of_contact(
+    length: f64,
+    (forces, slopes): (&[f64], &[f64]),
+    (mobility, unknown): (f64, f64),
+) -> f64 {
+    let stiffness = slopes.iter().map(|slope| slope.abs()).sum::<f64>() / slopes.len() as f64;
     let depths = forces.iter().zip(slopes).map(|(f, s)| (f / s).abs());
     let depth = depths.filter(|depth| depth.is_finite()).fold(0.0, f64::max);
-    if depth > 0.0 { step.length * mobility * stiffness * (unknown / depth) } else { 0.0 }
+    if depth > 0.0 { length * mobility * stiffness * (unknown / depth) } else { 0.0 }
 }
