@@ -146,12 +146,11 @@ impl ExactIntegrator {
     /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance;
     /// `free` ends with that time.
     fn is_looked_past(&self, run: &Run, element: usize, time: f64, free: &mut f64) -> bool {
-        let until = run.left[element].until;
-        let is_past = until <= run.time + time;
-        if !is_past {
-            *free = free.min(until - run.time - time);
+        let further = self.looked_past(run, element) - time;
+        if further > 0.0 {
+            *free = free.min(further);
         }
-        !is_past
+        further > 0.0
     }
 
     /// Clearance at `time` after the start of the flight, from the output that tells it; the state of `run`

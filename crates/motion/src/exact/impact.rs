@@ -157,8 +157,7 @@ impl ExactIntegrator {
         self.jump_with_forces(run, &jumps, &displacement);
         self.throw_off(run, &displacement, impact.before.slope)?;
         if restitution == 0.0 {
-            let third = self.bounds(&run.state, touch.element, self.stretch.duration()).third;
-            self.look_past(run, touch.element, third);
+            self.look_past(run, touch.element, None);
         }
         Ok(())
     }

@@ -17,7 +17,7 @@
 //! * `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs`: one step with forces, and its error.
 //! * `damped_step.rs`, `onset.rs`: forces that depend on the velocity; sensitivities where they set in with a
 //!   jump.
-//! * `rounding.rs`: what rounding leaves unknown of the sensitivities behind hard contacts;
+//! * `rounding.rs`: what rounding leaves unknown of the sensitivities behind hard contacts.
 //! * `memory.rs`, `volume.rs`: laws that remember the speed of an impact; what contacts do to volumes of
 //!   states.
 //! * `impact.rs`, `velocity_jump.rs`, `stick.rs`: impacts on rigid stops, the forces that jump with them;

@@ -65,18 +65,20 @@ impl ExactIntegrator {
         let slope = place.map_or(0.0, |place| self.pressing_now(run)[place].jet.slope);
         let rest = run.stuck.iter().copied().filter(|&stuck| stuck != element).collect();
         self.hold(run, rest)?;
-        self.look_past(run, element, self.mobility_in_free(element) * slope.abs());
+        self.look_past(run, element, Some(self.mobility_in_free(element) * slope.abs()));
         Ok(())
     }
 
     /// A stop that is left without speed is not looked at until the clearance is out of the margin, within
     /// which rounding would decide.
     ///
-    /// * `third`: `|r'''|` [m/s^3]: where the pressing force ends `D |lambda'|`, behind an impact a bound.
-    pub(super) fn look_past(&self, run: &mut Run, element: usize, third: f64) {
+    /// * `third`: `|r'''|` where it is known, as `D |lambda'|` where the pressing force ends; else its
+    ///   bound is taken [m/s^3].
+    pub(super) fn look_past(&self, run: &mut Run, element: usize, third: Option<f64>) {
         // The clearance grows like `|r'''| t^3/6`,
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        let cubic = (6.0 * CHATTER * margin / third).cbrt();
+        let bounds = self.bounds(&run.state, element, self.stretch.duration());
+        let margin = bounds.margin;
+        let cubic = (6.0 * CHATTER * margin / third.unwrap_or(bounds.third)).cbrt();
         // or, behind an impact or where another stop has taken over, like `|r''| t^2/2`.
         let away = -self.jet_with_forces(run, element).curvature;
         let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();

@@ -35,8 +35,8 @@ impl Law {
         if let Self::Rigid(law) = self { Some(law) } else { None }
     }
 
-    /// Whether bounces without end come before it sticks, which count as one contact. A rigid stop that gives
-    /// nothing back is struck once.
+    /// Whether bounces without end may come before it sticks, which count as one contact: it is a rigid stop
+    /// that gives something back.
     pub(crate) fn chatters(&self) -> bool {
         self.rigid().is_some_and(|stop| stop.restitution() > 0.0)
     }
