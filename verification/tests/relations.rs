@@ -82,12 +82,12 @@ own!(symmetric_stops, "symmetric-stops", Some(0));
 own!(weakly_damped_beam, "weakly-damped-beam", None);
 own!(impact_pair, "impact-pair", Some(0));
 own!(preloaded_joint, "preloaded-joint", Some(2));
-own!(bouncing_mass, "bouncing-mass", None);
+own!(bouncing_mass, "bouncing-mass", Some(1));
 
 part_of!(bilinear_oscillator, "bilinear-oscillator", [0.06, 0.064], Some(0));
 part_of!(duffing, "duffing", [0.18, 0.3], Some(2));
 part_of!(impact_oscillator, "impact-oscillator", [0.11, 0.2], Some(0));
-part_of!(two_masses, "two-masses", [4.0, 6.0], None);
+part_of!(two_masses, "two-masses", [4.0, 6.0], Some(0));
 part_of!(beam_between_stops, "beam-between-stops", [8.0, 12.0], None);
 part_of!(beam_with_stop_one_dof, "beam-with-stop-one-dof", [30.0, 40.0], None);
 

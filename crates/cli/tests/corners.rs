@@ -174,6 +174,49 @@ max_step_hz = {longest_step}
     )
 }
 
+/// Three masses of which one is between two plastic stops. It leaves one of them as it grazes the other.
+const TWO_PLASTIC: &str = r#"
+[structure]
+kind = "lumped"
+mass = [
+    { name = "a", mass_kg = 2.20463 },
+    { name = "b", mass_kg = 2.1851 },
+    { name = "c", mass_kg = 2.01868 },
+]
+spring = [
+    { between = ["a", "ground"], stiffness_n_m = 958.481 },
+    { between = ["b", "a"], stiffness_n_m = 1724.59 },
+    { between = ["c", "b"], stiffness_n_m = 460.814 },
+]
+[damping]
+modal_ratio = 0.04
+[excitation]
+kind = "force"
+at = "c"
+amplitude_n = 3.31365
+frequency_hz = [0.538581, 3.38537]
+[[stop]]
+name = "upper"
+at = "a"
+law = "rigid"
+restitution = 0
+gap_m = 0.0056864
+side = "above"
+[[stop]]
+name = "lower"
+at = "a"
+law = "rigid"
+restitution = 0
+gap_m = 0.00679542
+side = "below"
+[search]
+frequencies = 2
+starts = 4
+trials = 4
+[continuation]
+max_step_hz = 0.00474464
+"#;
+
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
 
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
@@ -233,6 +276,14 @@ fn a_branch_goes_on_across_the_grazing_of_a_plastic_stop_that_sticks_elsewhere()
     let rows = workshop.table("results/export/branches.csv");
     let contacts = |wanted: f64| rows.iter().any(|row| number(row, "contacts") == wanted);
     assert!(contacts(1.0) && contacts(2.0));
+}
+
+/// What a stop lets go is no turn before it: taken for one, it was to graze together with the other stop.
+#[test]
+fn a_branch_goes_on_across_a_grazing_beside_which_another_plastic_stop_lets_go() {
+    let workshop = Workshop::exported(TWO_PLASTIC);
+    assert_whole(&workshop, (0.538581, 3.38537), WHOLE);
+    assert_eq!(workshop.table("results/export/ends.csv").len(), 2);
 }
 
 /// The general integrator met it again with each step.

@@ -1,6 +1,6 @@
 //! Touches of rigid stops that are near grazing: slow impacts, and turns just before a stop.
 
-use hammerbeam_motion::Stretch;
+use hammerbeam_motion::{Stretch, exact::Trace};
 
 use crate::shooting::ShootingProblem;
 
@@ -98,7 +98,7 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
                 });
             }
         }
-        turns(problem, (&stretch, &phases), &trace.samples, &mut touches);
+        turns(problem, (&stretch, &phases), &trace, &mut touches);
     }
     touches.retain(|touch| match touch.side {
         Side::Impact => touch.speed <= FASTEST * reach,
@@ -120,13 +120,21 @@ pub(super) fn at_grazing(problem: &mut ShootingProblem, beside: &[f64]) -> Optio
 fn turns(
     problem: &mut ShootingProblem,
     (stretch, phases): (&Stretch, &[f64]),
-    samples: &[Vec<f64>],
+    trace: &Trace,
     touches: &mut Vec<Touch>,
 ) {
     let (system, scales) = (problem.system(), problem.scale().values().to_vec());
-    let frequency_hz = stretch.frequency_hz;
+    let (frequency_hz, samples) = (stretch.frequency_hz, &trace.samples);
     let mut turns = Vec::new();
-    // Across an impact the speed jumps from towards the stop to away from it, too.
+    // Across an impact the speed jumps from towards the stop to away from it, too, and what a stop held leaves
+    // it with a speed that was zero.
+    let is_touched = |element: usize, from: f64, to: f64| {
+        let cycles = |seconds: f64| stretch.start + seconds * frequency_hz;
+        trace.contacts.iter().any(|contact| {
+            let ends = contact.end.map_or(stretch.end, cycles);
+            contact.element == element && cycles(contact.since()) <= to && ends >= from
+        })
+    };
     for (element, of) in system.elements().iter().enumerate() {
         let Some(level) = of.law.rigid().map(|stop| stop.level()) else { continue };
         let speeds: Vec<f64> = (0..samples.len())
@@ -137,14 +145,9 @@ fn turns(
             })
             .collect();
         for k in (1..samples.len()).filter(|&k| speeds[k - 1] >= 0.0 && speeds[k] < 0.0) {
-            let struck = touches.iter().any(|touch| {
-                touch.element == element
-                    && touch.side == Side::Impact
-                    && (phases[k - 1]..=phases[k]).contains(&touch.phase)
-            });
             let [r, after, acceleration] =
                 system.relative_motion(element, frequency_hz, phases[k], &samples[k]);
-            if struck || acceleration >= 0.0 {
+            if acceleration >= 0.0 || is_touched(element, phases[k - 1], phases[k]) {
                 continue;
             }
             let depth = after * after / (-2.0 * acceleration);

@@ -8,6 +8,9 @@ use super::{
 };
 use crate::{StopReason, solve::evaluate};
 
+/// Largest multiplier from which an orbit may part from its guess within a period, and be lost.
+const HARDLY_FOLLOWED: f64 = 1e5;
+
 /// Why the walk ends whose path does; where a flip is too sharp to be passed, it is the end all the same.
 pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason {
     match reason {
@@ -38,11 +41,9 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         PathStop::RangeEnd => StopReason::RangeEnd { frequency_hz },
         PathStop::Closed => StopReason::Closed,
         PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, frequency_hz)
-            .unwrap_or_else(|| StopReason::StepTooShort {
-                frequency_hz,
-                step,
-                residual,
-                doubt: doubt.to_string(),
+            .unwrap_or_else(|| {
+                let doubt = doubt_in_unstable(path, doubt.to_string());
+                StopReason::StepTooShort { frequency_hz, step, residual, doubt }
             }),
         PathStop::NoProgress { steps, .. } => {
             splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::NoProgress {
@@ -60,6 +61,15 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         }
         PathStop::Budget => StopReason::Budget { solutions: path.follower.counters().accepted as usize },
     }
+}
+
+/// What was wrong with the last step, and how unstable the orbit is if that is why: the limits of `shooting.rs`.
+fn doubt_in_unstable(path: &mut OrbitPath, doubt: String) -> String {
+    let largest = largest_multiplier(path);
+    if largest < HARDLY_FOLLOWED {
+        return doubt;
+    }
+    format!("{doubt}; in a period of the motion a disturbance of it becomes {largest:.1e} times as large")
 }
 
 /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
