@@ -13,6 +13,7 @@ use hammerbeam_verification::{
 use tempfile::TempDir;
 
 const SWITCH: &str = include_str!("../studies/micro-switch.toml");
+const STOPS: &str = include_str!("../studies/symmetric-stops.toml");
 const FIVE: &str = include_str!("../studies/five-attractors.toml");
 
 fn five() -> &'static Mutex<(Results, TempDir)> {
@@ -32,6 +33,21 @@ fn a_stable_solution_of_three_periods_within_narrow_impacts_is_on_a_branch() {
     let effort = SimulationEffort { states: 24, longest: 3, patience: 1200 };
     let report = check_at(&results, None, &[63.5e3, 63.6e3, 63.9e3, 64.7e3, 65.5e3], &effort, 1).unwrap();
     assert!(report.found[3] >= 2, "{report:?}");
+    assert!(report.missing.is_empty(), "{:?}", report.missing);
+}
+
+/// The branch spans 0.0078 Hz, half of the distance of the default search frequencies, and lies between two
+/// of them.
+#[test]
+fn a_closed_branch_of_three_periods_between_two_frequencies_of_the_search_is_found() {
+    let (system, _) = STOPS.split_once("[search]").unwrap();
+    let study =
+        format!("{system}[continuation]\nmax_step_hz = 0.002\n[response]\nperiod_multiples = [1, 3]\n");
+    let folder = tempfile::tempdir().unwrap();
+    let results = Results::of_run(&study, folder.path(), 2).unwrap();
+    let effort = SimulationEffort { states: 20, longest: 3, patience: 1200 };
+    let report = check_at(&results, None, &[0.1463], &effort, 1).unwrap();
+    assert_eq!([report.found[1], report.found[3]], [1, 1], "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
 

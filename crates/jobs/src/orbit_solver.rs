@@ -4,8 +4,8 @@ mod places;
 
 use hammerbeam_orbit::{
     BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
-    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, Wanted, find_orbits,
-    find_start_unless, harmonic_trials, probe, reach_orbit, settled_orbit, survey,
+    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, TrialEffort, Wanted, find_orbits,
+    find_start_unless, newton_trials, probe, reach_orbit, settled_orbit, survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -18,8 +18,10 @@ use crate::{
     settled::SettledState,
 };
 
-/// Frequencies in the part of the range of a survey at which harmonic solutions are tried.
+/// Frequencies in the part of the range of a survey at which Newton's method is tried.
 const TRIED_IN_A_PART: u32 = 8;
+/// Places in the range that have random numbers of their own.
+const PLACES: f64 = 1_048_576.0;
 
 /// Motions of a search at a single frequency.
 const PROBE: ProbeStarts<'_> = ProbeStarts { about_linear: 4, on_backbones: 3, known: &[], unsettled: &[] };
@@ -38,7 +40,7 @@ pub struct OrbitSolver<'m> {
     multiples: Vec<u32>,
     /// Distance of the frequencies at which all orbits are looked for [Hz].
     spacing_hz: f64,
-    /// Trials without a new harmonic solution.
+    /// Trials of Newton's method without a new harmonic solution.
     trials: usize,
 }
 
@@ -122,6 +124,14 @@ impl<'m> OrbitSolver<'m> {
         }
     }
 
+    /// Trials of Newton's method at a frequency. Their random numbers follow from its place in the range,
+    /// whatever the unit of time.
+    fn trials_at(&self, frequency_hz: f64) -> TrialEffort {
+        let (low, high) = self.range_hz;
+        let place = PLACES * (frequency_hz - low) / (high - low);
+        TrialEffort { trials: self.trials, seed: place.round() as u64 }
+    }
+
     fn response(&self) -> &Response {
         &self.model.response
     }
@@ -197,12 +207,12 @@ impl Solver for OrbitSolver<'_> {
                 .map_err(|error| error.to_string())?;
         let far = self.far((frequency_hz, multiples), &found, &mut *interrupted)?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found.found;
-        if self.trials > 0 && multiples.contains(&1) {
+        if self.trials > 0 {
             for part in 0..TRIED_IN_A_PART {
                 let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;
                 let at_hz = frequency_hz + place * width_hz;
-                let tried =
-                    harmonic_trials(system, response, at_hz, self.trials, settings, &mut *interrupted);
+                let (orbit, effort) = ((at_hz, multiples), self.trials_at(at_hz));
+                let tried = newton_trials(system, response, orbit, effort, settings, &mut *interrupted);
                 let tried = tried.map_err(|error| error.to_string())?;
                 found.extend(tried.orbits);
                 incomplete = incomplete.or(tried.incomplete);

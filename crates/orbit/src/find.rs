@@ -21,7 +21,7 @@ use crate::{
     cut::search_cut,
     matching::nearest_returns,
     noise::Noise,
-    sampling::{Passed, Patience, sample},
+    sampling::{Passed, Patience, Sought, sample},
     start::{Effort, SETTLED, STARTS, check_multiple, search_start, starting_states},
 };
 
@@ -224,7 +224,8 @@ impl Search<'_> {
     /// Trials and branches, of orbits whose doubled period is wanted first.
     fn search_periods(&mut self) -> Result<(), OrbitError> {
         let wanted = self.period_multiple;
-        let ended = sample(&mut self.catalogue, &self.passed, wanted, PATIENCE, &mut *self.interrupted)?;
+        let sought = Sought::all(wanted);
+        let ended = sample(&mut self.catalogue, &self.passed, sought, PATIENCE, &mut *self.interrupted)?;
         if !ended {
             let frequency_hz = self.catalogue.frequency_hz;
             self.branches.heed(OrbitError::SearchTrials { frequency_hz })?;
@@ -232,7 +233,8 @@ impl Search<'_> {
         let halvings = wanted.trailing_zeros().min(HALVINGS);
         for halving in (1..=halvings).rev() {
             let shorter = wanted >> halving;
-            sample(&mut self.catalogue, &self.passed, shorter, PATIENCE_BELOW, &mut *self.interrupted)?;
+            let sought = Sought::all(shorter);
+            sample(&mut self.catalogue, &self.passed, sought, PATIENCE_BELOW, &mut *self.interrupted)?;
             self.branches.follow_all(&mut self.catalogue, shorter, true, &mut *self.interrupted)?;
         }
         self.branches.follow_all(&mut self.catalogue, wanted, false, &mut *self.interrupted)?;

@@ -34,7 +34,7 @@
 //! - `switch.rs`: leaving a flip or branch point onto the other branch
 //! - `survey.rs`, `matching.rs`: all orbits that simulation leads to at a frequency; whether two orbits
 //!   are the same
-//! - `trials.rs`: harmonic orbits at a frequency, quickly
+//! - `trials.rs`: orbits at a frequency by few trials of Newton's method
 //! - `probe.rs`, `backbone.rs`, `linear_contact.rs`: attractors at a frequency, quickly; states of large
 //!   amplitude from which motions begin; frequencies at which the linear response reaches a contact
 //! - `arrival.rs`: whether a motion has come to a stable orbit that is known
@@ -162,5 +162,5 @@ pub use start::{Interruption, find_start, find_start_unless, settled_orbit};
 pub use stop::{ResonantMode, StopReason};
 pub use survey::{SurveyEffort, SurveyedMotions, survey};
 pub use switch::Crossing;
-pub use trials::harmonic_trials;
+pub use trials::{TrialEffort, newton_trials};
 pub use walk::BranchWalk;

@@ -22,7 +22,7 @@ use crate::{
     Interruption, OrbitError,
     catalogue::{Arrived, Catalogue},
     noise::Noise,
-    solve::nodes_from,
+    solve::{Wanted, nodes_from},
 };
 
 /// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where
@@ -32,6 +32,9 @@ const MOST_WORK: u64 = 2_000_000;
 
 /// Multiplications of matrices that cost like the rest for an entry, for the ten evaluations of a trial.
 const DENSE: u64 = 1000;
+
+/// Ways to begin that take states of one motion only, of eight that take turns.
+const OF_ONE_MOTION: [usize; 6] = [0, 1, 3, 4, 5, 7];
 
 /// States that motions have passed through, one motion after the other.
 #[derive(Debug, Default)]
@@ -72,6 +75,32 @@ impl Arrivals {
     }
 }
 
+/// What trials look for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sought {
+    pub period_multiple: u32,
+    wanted: Wanted,
+    /// Of the random numbers that choose states.
+    seed: u64,
+}
+
+impl Sought {
+    /// All orbits of this period, in all four ways.
+    pub fn all(period_multiple: u32) -> Self {
+        Self { period_multiple, wanted: Wanted::Any, seed: 1 }
+    }
+
+    /// Those that few trials can find: near states of one motion, other ones with each seed.
+    pub fn nearby(period_multiple: u32, seed: u64) -> Self {
+        Self { period_multiple, wanted: Wanted::Nearby, seed }
+    }
+
+    /// The number that says in which way a trial begins.
+    fn way(self, trial: usize) -> usize {
+        if self.wanted == Wanted::Any { trial } else { OF_ONE_MOTION[trial % OF_ONE_MOTION.len()] }
+    }
+}
+
 /// How long to go on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Patience {
@@ -85,21 +114,22 @@ pub(crate) struct Patience {
     pub most: usize,
 }
 
-/// Looks for orbits of `period_multiple` excitation periods from states that were passed.
+/// Looks for orbits from states that were passed.
 ///
 /// # Returns
 /// Whether the patience has ended; else its bound or that of the work did, and there may be more orbits.
 pub(crate) fn sample(
     catalogue: &mut Catalogue<'_>,
     passed: &Passed,
-    period_multiple: u32,
+    sought: Sought,
     patience: Patience,
     interrupted: Interruption<'_>,
 ) -> Result<bool, OrbitError> {
     if passed.motions.is_empty() {
         return Ok(true);
     }
-    let mut noise = Noise::new(1);
+    let Sought { period_multiple, wanted, seed } = sought;
+    let mut noise = Noise::new(seed);
     let (mut since, mut work) = (0, 0);
     let mut arrivals = Arrivals::default();
     for trial in 0..patience.most {
@@ -107,9 +137,9 @@ pub(crate) fn sample(
             return Err(OrbitError::Interrupted);
         }
         let before = catalogue.steps();
-        let nodes = guess(catalogue, passed, (trial, period_multiple), &mut noise);
+        let nodes = guess(catalogue, passed, (sought.way(trial), period_multiple), &mut noise);
         let arrived = match nodes {
-            Some(nodes) => catalogue.probe((0.0, &nodes), period_multiple)?,
+            Some(nodes) => catalogue.probe_for(wanted, (0.0, &nodes), period_multiple)?,
             None => None,
         };
         let states = 2 * catalogue.system.dof() as u64;
@@ -133,7 +163,7 @@ pub(crate) fn sample(
 fn guess(
     catalogue: &mut Catalogue<'_>,
     passed: &Passed,
-    (trial, period_multiple): (usize, u32),
+    (way, period_multiple): (usize, u32),
     noise: &mut Noise,
 ) -> Option<Vec<Vec<f64>>> {
     let frequency_hz = catalogue.frequency_hz;
@@ -142,7 +172,7 @@ fn guess(
         nodes_from(catalogue.integrator(), (0.0, state), frequency_hz, period_multiple, segments).ok()
     };
     let count = period_multiple as usize;
-    match trial % 4 {
+    match way % 4 {
         0 => along(&state, count),
         1 => Some(vec![state]),
         2 if count == 1 => {
@@ -156,7 +186,7 @@ fn guess(
             let scale = catalogue.scale(passed.any(noise));
             let moved: Vec<f64> =
                 state.iter().zip(scale.values()).map(|(z, s)| z + reach * s * noise.signed()).collect();
-            if trial % 8 == 3 {
+            if way % 8 == 3 {
                 Some(vec![moved])
             } else {
                 nodes_from(catalogue.integrator(), (0.0, &moved), frequency_hz, period_multiple, count).ok()

@@ -41,6 +41,8 @@ const LEAST_ASTRAY: u64 = 4000;
 pub enum Wanted {
     /// Whichever it comes to.
     Any,
+    /// Whichever is near the guess: it ends early where it is still far from one.
+    Nearby,
     /// Stable ones near the guess: it ends early where it comes to none.
     StableNearby,
 }
@@ -56,7 +58,7 @@ impl Wanted {
         (iterations, correction): (u32, f64),
         unstable: &mut u32,
     ) -> bool {
-        let patience = if self == Self::StableNearby { FEW } else { MANY };
+        let patience = if self == Self::Any { MANY } else { FEW };
         if iterations >= patience && correction > STILL_FAR {
             return true;
         }

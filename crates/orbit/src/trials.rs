@@ -1,16 +1,20 @@
-//! Orbits of one excitation period at a frequency, by Newton's method from few states: for looking at many
-//! frequencies.
+//! Orbits at a frequency by Newton's method from few states: for looking at many frequencies.
 //!
 //! A closed branch without a stable part is on no motion's way. But its orbits have a basin of Newton's
 //! method, and a trial costs some ten periods of motion with sensitivities, where a motion that is to settle
 //! takes hundreds.
+//!
+//! Closed branches of longer periods may be narrow, and stable over a small part of their frequencies. A
+//! trial for such an orbit costs as many times more as its period is longer. So they have fewer trials, each
+//! of which ends early where it is far from an orbit, and from other states at each frequency: a branch that
+//! passes several of them is met by one or the other.
 
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    FoundOrbits, Interruption, OrbitError, OrbitSettings, Response,
+    FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
     catalogue::Catalogue,
-    sampling::{Passed, Patience, sample},
+    sampling::{Passed, Patience, Sought, sample},
     start::{STARTS, starting_states},
 };
 
@@ -20,20 +24,31 @@ const PASSED: usize = 16;
 const PASSING: usize = 1;
 /// Further trials for each orbit that is known.
 const FOR_EACH: usize = 2;
+/// Trials for one excitation period on one for each longer period.
+const ON_ONE_LONGER: usize = 4;
 
-/// Finds orbits of one excitation period at a frequency, in the order in which they were met. A start from
-/// which no motion can be computed makes the search incomplete.
+/// How many trials, and which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TrialEffort {
+    /// Trials without a new orbit of one excitation period after which no more are made; for each longer
+    /// period a quarter as many.
+    pub trials: usize,
+    /// Of the random numbers of the trials for longer periods.
+    pub seed: u64,
+}
+
+/// Finds orbits at a frequency whose minimal periods are among `multiples`, in the order in which they were
+/// met. A start from which no motion can be computed makes the search incomplete.
 ///
-/// * `trials`: trials of Newton's method without a new orbit after which it ends.
 /// * `interrupted`: asked before each trial.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed from any start, [`OrbitError::Interrupted`].
-pub fn harmonic_trials(
+pub fn newton_trials(
     system: &System,
     response: &Response,
-    frequency_hz: f64,
-    trials: usize,
+    (frequency_hz, multiples): (f64, &[u32]),
+    effort: TrialEffort,
     settings: &OrbitSettings,
     interrupted: Interruption<'_>,
 ) -> Result<FoundOrbits, OrbitError> {
@@ -50,10 +65,28 @@ pub fn harmonic_trials(
         Some(error) if passed.motions.is_empty() => return Err(error),
         _ => {}
     }
-    let patience = Patience { trials, for_each: FOR_EACH, asks_for_two_arrivals: false, most: 8 * trials };
-    sample(&mut catalogue, &passed, 1, patience, interrupted)?;
-    let orbits = catalogue.known.into_iter().map(|known| known.solution).collect();
-    Ok(FoundOrbits { orbits, incomplete: failure })
+    for (sought, patience) in effort.of(multiples) {
+        sample(&mut catalogue, &passed, sought, patience, &mut *interrupted)?;
+    }
+    let orbits = catalogue.known.into_iter().map(|known| known.solution);
+    let is_wanted = |orbit: &PeriodicSolution| multiples.contains(&orbit.period_multiple);
+    Ok(FoundOrbits { orbits: orbits.filter(is_wanted).collect(), incomplete: failure })
+}
+
+impl TrialEffort {
+    /// What is looked for, the shortest period first, which others are recognised by, and for how long.
+    fn of(self, multiples: &[u32]) -> Vec<(Sought, Patience)> {
+        let of = |period_multiple: u32| {
+            let (sought, trials, for_each) = match period_multiple {
+                1 => (Sought::all(1), self.trials, FOR_EACH),
+                longer => (Sought::nearby(longer, self.seed), self.trials.div_ceil(ON_ONE_LONGER), 0),
+            };
+            (sought, Patience { trials, for_each, asks_for_two_arrivals: false, most: 8 * trials })
+        };
+        let mut ascending = multiples.to_vec();
+        ascending.sort_unstable();
+        ascending.into_iter().map(of).collect()
+    }
 }
 
 /// States at the excitation periods of a motion.

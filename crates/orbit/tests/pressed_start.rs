@@ -13,7 +13,8 @@ use hammerbeam_motion::{
     law::{HertzStop, RestitutionModel, RestitutionStop, RigidStop},
 };
 use hammerbeam_orbit::{
-    OrbitError, OrbitSettings, Response, SurveyEffort, find_orbits, find_start, harmonic_trials, survey,
+    OrbitError, OrbitSettings, Response, SurveyEffort, TrialEffort, find_orbits, find_start, newton_trials,
+    survey,
 };
 use hammerbeam_testkit::structures::unit_mass;
 
@@ -95,7 +96,9 @@ fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     assert_near(started.maxima.displacement, expected);
     let effort = SurveyEffort { starts: 2, ..SurveyEffort::default() };
     let surveyed = survey(&system, &response, FREQUENCY, &[1], &effort, &settings, &mut || false).unwrap();
-    let tried = harmonic_trials(&system, &response, FREQUENCY, 4, &settings, &mut || false).unwrap();
+    let trials = TrialEffort { trials: 4, seed: 1 };
+    let orbit = (FREQUENCY, &[1][..]);
+    let tried = newton_trials(&system, &response, orbit, trials, &settings, &mut || false).unwrap();
     let found =
         find_orbits(&system, &response, (FREQUENCY, 1), (0.9, 1.1), &settings, &mut || false).unwrap();
     for found in [surveyed.found, tried, found] {

@@ -9,7 +9,8 @@ use hammerbeam_motion::{
     law::{LinearStop, PowerSpring, RigidStop, TwoSidedStop},
 };
 use hammerbeam_orbit::{
-    OrbitSettings, PeriodicSolution, ProbeStarts, SurveyEffort, linear_contact_ranges, mirror_image, probe,
+    OrbitSettings, PeriodicSolution, ProbeStarts, SurveyEffort, TrialEffort, linear_contact_ranges,
+    mirror_image, newton_trials, probe,
 };
 
 fn rigid(gap: f64) -> Law {
@@ -77,6 +78,23 @@ fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_
         "{}",
         subharmonic.maxima.displacement
     );
+}
+
+/// `x'' + 0.01 x' + 1.5 x + x^3 = 2 cos W t` has two solutions of three periods, mirror images of each other,
+/// on closed branches from 0.3864 to 0.4146 Hz. Motions that begin about the linear response seldom come to
+/// them, and take hundreds of periods.
+#[test]
+fn few_trials_at_each_of_some_frequencies_meet_a_subharmonic_branch() {
+    let (system, response) = oscillator(1.5, 0.01, 2.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
+    let settings = OrbitSettings::default();
+    let found_at = |k: u32| {
+        let orbit = (0.388 + 0.003 * f64::from(k), &[3][..]);
+        let trials = TrialEffort { trials: 12, seed: u64::from(k) };
+        newton_trials(&system, &response, orbit, trials, &settings, &mut || false).unwrap().orbits
+    };
+    let found: Vec<_> = (0..8).flat_map(found_at).collect();
+    assert!(found.iter().all(|orbit| orbit.period_multiple == 3), "{found:?}");
+    assert!(found.iter().any(PeriodicSolution::stable), "{found:?}");
 }
 
 #[test]
