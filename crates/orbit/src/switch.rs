@@ -25,6 +25,9 @@ use crate::{
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
 const AMPLITUDES: [f64; 6] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6, 1e-7];
 
+/// An orbit of doubled period is at least so many amplitudes from one of the period that was doubled.
+const OWN: f64 = 0.1;
+
 /// Where a branch leaves another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
@@ -155,6 +158,12 @@ fn leave(
     else {
         return Ok(None);
     };
+    // An orbit of doubled period is some two amplitudes from itself half of it later. Beside a grazing the
+    // critical direction need not be one of a multiplier at -1, and then Newton's method may find the orbit
+    // that flips, gone through twice.
+    if crossing.factor > 1 && problem.distance_to_simpler(&follower.current().point) < OWN * reach.abs() {
+        return Ok(None);
+    }
     let same_contacts = follower.current().signature == signature;
     let current = &follower.current().point;
     let last = current.len() - 1;

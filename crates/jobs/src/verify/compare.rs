@@ -204,8 +204,14 @@ pub(super) fn compare(
     let of_multipliers = multipliers(solution, found, unknown_matrix).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps, ..found }));
     list.extend(leading(row, solution));
-    // Behind grazing on a rigid stop everything varies like the root of the distance from it.
-    if grazing > 0 && system.has_rigid_stops() {
+    // Behind grazing on a rigid stop everything varies like the root of the distance from it. Where an impact
+    // comes just as a contact opens or closes that remembers how it began, the motion itself jumps: the
+    // contact goes on, or begins anew.
+    let begins_anew = |(element, penetration): &(usize, f64)| {
+        penetration.abs() <= margin && system.elements()[*element].law.remembers_impact()
+    };
+    let jumps_itself = found.kinks.iter().any(begins_anew);
+    if jumps_itself || grazing > 0 && system.has_rigid_stops() {
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + unknown_matrix);

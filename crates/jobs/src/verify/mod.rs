@@ -86,7 +86,7 @@ pub use quantity::VerifiedQuantity;
 pub use report::{Disagreement, Verification, VerifiedPlace, Worst};
 pub use settings::{TOLERANCE, VerifySettings};
 
-use compare::{Comparison, compare};
+use compare::{Comparison, bound, compare};
 use recompute::{recompute, scales, sensitivity};
 use stored::{StoredRow, StoredRows};
 
@@ -167,7 +167,9 @@ fn compare_with(
     };
     let comparisons = with(0.0);
     let doubtful = |comparison: &Comparison| {
-        comparison.quantity == VerifiedQuantity::Multipliers && comparison.difference > tolerance
+        let of_multipliers =
+            matches!(comparison.quantity, VerifiedQuantity::Multipliers | VerifiedQuantity::Events);
+        of_multipliers && comparison.difference > bound(comparison.quantity, tolerance)
     };
     if !comparisons.iter().any(doubtful) {
         return Ok(comparisons);

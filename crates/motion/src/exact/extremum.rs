@@ -6,7 +6,7 @@ use super::{
 };
 
 /// Parabolas by which the largest value of a polynomial is closed in.
-const PARABOLAS: usize = 6;
+pub(super) const PARABOLAS: usize = 6;
 /// Of places where it is as large up to this part, the table of a polynomial does not tell which is the
 /// largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros lie
 /// within the step.
@@ -60,7 +60,7 @@ impl Rule {
 }
 
 /// Place of the maximum of the parabola through three points, if it has one.
-fn vertex([(a, at_a), (b, at_b), (c, at_c)]: [(f64, f64); 3]) -> Option<f64> {
+pub(super) fn vertex([(a, at_a), (b, at_b), (c, at_c)]: [(f64, f64); 3]) -> Option<f64> {
     let (left, right) = ((at_b - at_a) / (b - a), (at_c - at_b) / (c - b));
     let curvature = (right - left) / (c - a);
     let place = 0.5 * (a + b) - 0.5 * left / curvature;

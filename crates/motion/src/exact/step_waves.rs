@@ -17,6 +17,7 @@ use super::{
     ExactIntegrator,
     collocation::NODES,
     course::CourseStep,
+    extremum::{PARABOLAS, vertex},
     step_maximum::{Peak, Peaks},
 };
 
@@ -55,12 +56,12 @@ impl ExactIntegrator {
         let expansion = rule.expansion(&smooth);
         let count = (PLACES_PER_RADIAN * self.drive.fastest() * length).ceil() as usize;
         let place = |time: f64| step.grading.inverse(time / length);
-        let value = |i: usize| {
-            let time = length * i as f64 / count as f64;
+        let at = |time: f64| {
             let [smooth] = rule.sums(&expansion, &[place(time)]);
             (smooth + driven(time)).abs()
         };
-        let values: Vec<f64> = (0..=count).map(value).collect();
+        let width = length / count as f64;
+        let values: Vec<f64> = (0..=count).map(|i| at(i as f64 * width)).collect();
         let amplitude = self.drive.bounds(output, &self.outputs[output], self.step.start + length).0;
         let apart = self.drive.fastest() * length / count as f64;
         for (i, &here) in values.iter().enumerate() {
@@ -68,16 +69,34 @@ impl ExactIntegrator {
             if [before, after].into_iter().flatten().any(|beside| *beside > here) {
                 continue;
             }
-            let (away, more) = match (before, after) {
+            let middle = i as f64 * width;
+            let (time, value, more) = match (before, after) {
                 (Some(before), Some(after)) if before + after < 2.0 * here => {
-                    let away = 0.5 * (after - before) / (2.0 * here - before - after);
-                    (away, 0.25 * (after - before) * away + MISSED * amplitude * apart.powi(4))
+                    let three = [(middle - width, *before), (middle, here), (middle + width, *after)];
+                    let (time, value) = closed_in(three, length, at);
+                    (time, value, MISSED * amplitude * apart.powi(4))
                 }
                 // The top may lie beside an end of the step, in it or beyond.
-                _ => (0.0, amplitude * apart * apart / 8.0),
+                _ => (middle, here, amplitude * apart * apart / 8.0),
             };
-            let time = length * ((i as f64 + away) / count as f64).clamp(0.0, 1.0);
-            peaks.add(Peak { piece, step, output, value: here + more, place: place(time) }, here);
+            peaks.add(Peak { piece, step, output, value: value + more, place: place(time) }, value);
         }
     }
+}
+
+/// Time and value of a top between three places, by successive parabolas: what is not of the load may bend
+/// more over three places than it does.
+fn closed_in(mut points: [(f64, f64); 3], length: f64, at: impl Fn(f64) -> f64) -> (f64, f64) {
+    let mut highest = points[1];
+    for _ in 0..PARABOLAS {
+        let Some(time) = vertex(points) else { break };
+        let time = time.clamp(0.0, length);
+        let next = (time, at(time));
+        if next.1 > highest.1 {
+            highest = next;
+        }
+        let worst = (0..3).fold(0, |w, k| if points[k].1 < points[w].1 { k } else { w });
+        points[worst] = next;
+    }
+    highest
 }

@@ -40,6 +40,8 @@ struct Flip {
     nodes: Vec<Vec<f64>>,
     /// Within which the frequency, or what varies, is known.
     uncertainty: f64,
+    /// It is where a contact grazes, behind which a multiplier jumps over -1.
+    grazes: bool,
 }
 
 /// The equations of the orbit of half the period, and a point near its path.
@@ -63,19 +65,32 @@ pub(super) fn end_in_flip(
     if !is_flip || path.current().events.branch_point {
         return Ok(end);
     }
-    let row = match row_of_flip(path, &mut record.evaluations_between) {
-        Ok(Some(row)) => row,
+    let (row, grazes) = match row_of_flip(path, &mut record.evaluations_between) {
+        Ok(Some(found)) => found,
         Ok(None) | Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(end),
         Err(error) => return Err(error),
     };
     let frequency_hz = row.parameter.unwrap_or(row.solution.frequency_hz);
     rows.push(row);
-    Ok(StopReason::ShorterPeriod { frequency_hz, grazes: false })
+    Ok(StopReason::ShorterPeriod { frequency_hz, grazes })
+}
+
+/// Whether the branch of half the period flips nearby, but farther from the present orbit than this part of
+/// its frequency, or of what varies.
+pub(super) fn flips_elsewhere(path: &mut OrbitPath, part: f64) -> bool {
+    let mut evaluations = 0;
+    let flip = nearest_flip(path, &mut evaluations);
+    let here = path.follower.current().point.clone();
+    let size = path.problem.parameter_size(&here);
+    let off = |flip: Flip| (flip.point.parameter() - path.parameter()).abs();
+    let is_elsewhere = flip.ok().flatten().map(off).is_some_and(|off| off > part * size);
+    // The motion at the present orbit is asked for next.
+    evaluate(&mut path.problem, &here).is_ok() && is_elsewhere
 }
 
 /// The row of the flip beside the present orbit, as the last one of its branch; `None` where the orbit of
 /// half the period does not flip nearby.
-fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<BranchRow>, OrbitError> {
+fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<(BranchRow, bool)>, OrbitError> {
     let Some(flip) = nearest_flip(path, evaluations)? else { return Ok(None) };
     let (present, problem) = (path.follower.current(), &mut path.problem);
     let nodes = if problem.segments().is_multiple_of(2) {
@@ -90,7 +105,11 @@ fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Bra
     // The branch arrives along the direction that alternates, as the present tangent nearly does.
     let last = ContinuationPoint {
         point: problem.point(&nodes, flip.point.parameter()),
-        events: PathEvents { branch_point: true, ..PathEvents::default() },
+        events: PathEvents {
+            branch_point: !flip.grazes,
+            signature_change: flip.grazes,
+            ..PathEvents::default()
+        },
         correction_norm: flip.point.correction_norm,
         residual_norm: flip.point.residual_norm,
         ..present.clone()
@@ -98,7 +117,7 @@ fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Bra
     evaluate(problem, &last.point)?;
     *evaluations += 1;
     let located = located::describe(problem, located::Place::alone(&last, Some(flip.uncertainty)));
-    Ok(Some(BranchRow { located, ..row_at(path, &last)? }))
+    Ok(Some((BranchRow { located, ..row_at(path, &last)? }, flip.grazes)))
 }
 
 /// The nearest flip of the branch of half the period.
@@ -174,6 +193,17 @@ fn flip_ahead(
             continue;
         }
         let is_near = distance(problem.weights(), &point.point, mean) <= *reach;
+        if point.events.signature_change {
+            let corner = follower.passed_corner();
+            let (place, uncertainty) = corner
+                .map_or((&point.point, point.uncertainty), |corner| (&corner.beside, corner.uncertainty));
+            return is_near.then(|| Flip {
+                nodes: problem.nodes(place),
+                point: ContinuationPoint { point: place.clone(), ..point.clone() },
+                uncertainty,
+                grazes: true,
+            });
+        }
         let is_smooth = !point.events.corner && follower.passed_corner().is_none();
         let located = located::describe(problem, located::Place::alone(point, None))?;
         let is_flip = is_near && is_smooth && located.status == EventStatus::Located;
@@ -181,6 +211,7 @@ fn flip_ahead(
             nodes: problem.nodes(&point.point),
             point: point.clone(),
             uncertainty: located.uncertainty,
+            grazes: false,
         });
     }
     None
@@ -230,7 +261,7 @@ mod tests {
             for _ in 0..14 {
                 assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
                 let (mut evaluations, at) = (0, flip.orbit.frequency_hz);
-                let row = row_of_flip(&mut walk.path, &mut evaluations).unwrap().unwrap();
+                let (row, _) = row_of_flip(&mut walk.path, &mut evaluations).unwrap().unwrap();
                 assert!(evaluations > 2 && row.events.branch_point);
                 assert!((row.solution.frequency_hz - at).abs() < 1e-12, "{}", row.solution.frequency_hz);
                 assert_eq!(row.solution.period_multiple, 2);

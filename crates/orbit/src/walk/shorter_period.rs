@@ -2,7 +2,7 @@
 
 use hammerbeam_path::{Judge, Node};
 
-use super::orbit_path::OrbitPath;
+use super::{half_orbit::flips_elsewhere, orbit_path::OrbitPath};
 use crate::StopReason;
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of
@@ -20,6 +20,9 @@ const SAME: f64 = 1e-7;
 const NO_PROGRESS_NEAR: f64 = 5e-3;
 /// Next to nothing left: this part of the frequency, by the slope there times the distance.
 const STILL: f64 = 2e-8;
+/// Farther than this part of the frequency from where a branch of half the period flips it has not arrived:
+/// beside a fold, where the frequency does not change either.
+const FARTHEST: f64 = 10.0 * STILL;
 /// The same two where no orbit has half the period: nothing else finds the place then.
 const NO_PROGRESS_AT: f64 = 1e-4;
 const STILL_AT: f64 = 2e-9;
@@ -35,7 +38,8 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
         let current = path.follower.current();
         (current.events, current.parameter())
     };
-    let flips = events.branch_point && is_near_shorter_period(path) || tends_to_shorter_period(path);
+    let flips = events.branch_point && is_near_shorter_period(path)
+        || tends_to_shorter_period(path) && !flips_elsewhere(path, FARTHEST);
     let grazes = !flips && events.signature_change && is_one_of_shorter_period(path);
     (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
 }

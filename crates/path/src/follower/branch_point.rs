@@ -28,7 +28,7 @@ pub(super) fn arrive_at_branch_point(
     locator: &mut Locator,
 ) -> Result<Arrival, StepDoubt> {
     let (share, smallness) = search(attempt, locator)?;
-    if smallness > VANISHING {
+    if smallness > VANISHING || jumps(attempt, locator, smallness) {
         return Err(StepDoubt::Reversed);
     }
     let parameter_sign = turn_at_branch_point(attempt, share)?;
@@ -76,6 +76,15 @@ fn search(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<(f64, f64)
     }
     locator.return_to_best(attempt)?;
     Ok(smallest)
+}
+
+/// Whether `D` at the best probe is no smaller than at the end of its own sign, however small that is beside
+/// the other end: then it jumps, as where the path comes to the grazing of a rigid stop on the side on which
+/// it has no bound.
+fn jumps(attempt: &Attempt<'_>, locator: &Locator, smallness: f64) -> bool {
+    let (before, behind) = (attempt.state.current.log_determinant, attempt.trial.log_determinant);
+    let own = if locator.probe.sign * attempt.state.orientation > 0.0 { before } else { behind };
+    smallness > SHARP.max(JUMP_SIZE * (own - before.max(behind)).exp())
 }
 
 /// The matrix could not even be factorised: the probe lies on the branch point as far as numbers tell.

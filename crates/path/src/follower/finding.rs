@@ -5,6 +5,7 @@ use super::{attempt::Attempt, closing, locator::Locator};
 use crate::{
     error::StepDoubt,
     product::{distance, product, progress},
+    settings::Settings,
 };
 
 /// What lies between the last point and a candidate that is beyond doubt.
@@ -61,17 +62,31 @@ pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<F
 /// says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
 /// Nor does a sign say anything there while the parameter goes back by no more than errors of points.
 pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
-    if slope * attempt.state.parameter_sign >= 0.0 {
-        return false;
-    }
+    slope * attempt.state.parameter_sign < 0.0 && is_known(attempt, slope)
+}
+
+/// The sign of the slope of the trial where none was known at the start, if it is beyond doubt now.
+pub(super) fn first_sign(attempt: &mut Attempt<'_>) -> Option<f64> {
+    let slope = attempt.trial.tangent_parameter();
+    (attempt.state.parameter_sign == 0.0 && is_known(attempt, slope)).then(|| slope.signum())
+}
+
+/// Whether the sign of this slope of the trial is beyond doubt.
+fn is_known(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     let settings = &attempt.frame.settings;
     let error = attempt.trial.correction_norm.max(attempt.state.current.correction_norm);
-    let error = error.max(settings.correction_floor);
-    let of_matrix = MATRIX_NOISE * settings.correction_tolerance;
     let left = attempt.problem.judge().distance_to_simpler(&attempt.trial.point);
     let step = distance(&attempt.frame.weights, &attempt.state.base().point, &attempt.trial.node.point);
+    !is_rounding(slope, (left, step), error, settings)
+}
+
+/// Whether the sign of a slope says nothing at this distance from a simpler path, behind a step, where a
+/// point is known to an error.
+pub(super) fn is_rounding(slope: f64, (left, step): (f64, f64), error: f64, settings: &Settings) -> bool {
+    let error = error.max(settings.correction_floor);
+    let of_matrix = MATRIX_NOISE * settings.correction_tolerance;
     let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
-    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error
+    slope.abs() * left <= of_matrix || slope.abs() * gone <= NOISE * error
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.

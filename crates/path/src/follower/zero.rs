@@ -65,6 +65,7 @@ pub(super) fn stop_at_zeros(
 /// The zeros that belong to a point that was reached without a look at what lies between.
 pub(super) fn zeros_at_once(attempt: &mut Attempt<'_>, mut arrival: Arrival) -> Arrival {
     ask_for_tests(attempt);
+    take_undecided_over(attempt);
     for (index, (before, after)) in attempt.tests.pairs(&attempt.trial.tests).enumerate() {
         let is_known = before.undecided + before.left_out + after.undecided == 0;
         if is_known && before.count.abs_diff(after.count) % 2 == 1 {
@@ -73,6 +74,28 @@ pub(super) fn zeros_at_once(attempt: &mut Attempt<'_>, mut arrival: Arrival) -> 
         }
     }
     arrival
+}
+
+/// Behind a corner some of what a test function is made of may be known so badly that its sign is not; where
+/// none was beyond zero before, it counts as not beyond it, and the others tell.
+fn take_undecided_over(attempt: &mut Attempt<'_>) {
+    let rule = |(before, after): (&TestValue, &TestValue)| {
+        let was_clear = before.undecided + before.left_out + before.count == 0;
+        if was_clear && after.kind == TestKind::SignChange { after.undecided } else { 0 }
+    };
+    let rules: Vec<u32> = attempt.tests.pairs(&attempt.trial.tests).map(rule).collect();
+    if rules.iter().all(|left_out| *left_out == 0) {
+        return;
+    }
+    let mut known = Vec::new();
+    attempt.problem.tests(&rules, &mut known);
+    for ((after, known), left_out) in attempt.trial.tests.iter_mut().zip(known).zip(rules) {
+        if left_out > 0 {
+            let sign = if known.count % 2 == 0 { 1.0 } else { -1.0 };
+            *after =
+                TestValue { value: sign * after.value.abs(), count: known.count, undecided: 0, ..*after };
+        }
+    }
 }
 
 /// The test functions at the trial, evaluated last, and what the judge notes with them.
