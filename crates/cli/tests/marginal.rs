@@ -4,7 +4,33 @@
 
 use std::fs;
 
-use crate::common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, number, stdout};
+
+/// One undamped mass about a third of its eigenfrequency, where free vibrations repeat with the motion.
+const FREE: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m", mass_kg = 1.4 }]
+spring = [{ between = ["m", "ground"], stiffness_n_m = 55.0 }]
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 2.0
+frequency_hz = [0.325, 0.34]
+[[stop]]
+name = "s"
+at = "m"
+law = "linear"
+stiffness_n_m = 700.0
+gap_m = 0.05
+side = "above"
+[search]
+frequencies = 4
+starts = 4
+trials = 4
+[continuation]
+max_step_hz = 0.001
+"#;
 
 /// Two undamped masses in a range with a stop that is touched, between its resonances.
 const CHAIN: &str = r#"
@@ -119,6 +145,24 @@ fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     assert_eq!(document["undamped_modes"].as_array().unwrap().len(), 2);
     let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
     assert!(figure.contains("marginal dotted"), "the description names them");
+}
+
+/// At a third of the eigenfrequency free vibrations of every phase touch the stop with nothing. Branches with a
+/// contact end there, and no fold is made of rounding on the way.
+#[test]
+fn a_branch_that_comes_to_free_vibrations_ends_there() {
+    let workshop = Workshop::exported(FREE);
+    let third = (55.0_f64 / 1.4).sqrt() / std::f64::consts::TAU / 3.0;
+    let ends = workshop.table("results/export/ends.csv");
+    let free: Vec<_> = ends.iter().filter(|end| end["end"] == "unbounded").collect();
+    assert_eq!(free.len(), 2, "{ends:?}");
+    for end in free {
+        assert!((number(end, "frequency_hz") - third).abs() < 1e-9 * third, "{end:?}");
+        assert!(end["message"].contains("mode 1"), "{end:?}");
+    }
+    assert!(ends.iter().all(|end| ["unbounded", "range-end"].contains(&end["end"].as_str())), "{ends:?}");
+    let events = workshop.table("results/export/events.csv");
+    assert!(events.iter().all(|event| !event["event"].contains("fold")), "{events:?}");
 }
 
 #[test]

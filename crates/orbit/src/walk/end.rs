@@ -3,8 +3,12 @@
 use hammerbeam_path::PathStop;
 
 use super::{
-    chatter::chatters, growth::is_far_beyond_gaps_without_losses, orbit_path::OrbitPath, row::row_at,
-    shorter_period::is_near_shorter_period, splits::splits_here,
+    chatter::chatters,
+    growth::{free_mode, is_far_beyond_gaps_without_losses},
+    orbit_path::OrbitPath,
+    row::row_at,
+    shorter_period::is_near_shorter_period,
+    splits::splits_here,
 };
 use crate::{StopReason, solve::evaluate};
 
@@ -31,7 +35,9 @@ fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<St
     if let Some((element, impacts)) = chatters(path) {
         return Some(StopReason::Chatter { frequency_hz, element, impacts });
     }
-    is_far_beyond_gaps_without_losses(path).then_some(StopReason::Unbounded { frequency_hz, mode: None })
+    let mode = free_mode(path);
+    let has_no_bound = mode.is_some() || is_far_beyond_gaps_without_losses(path);
+    has_no_bound.then_some(StopReason::Unbounded { frequency_hz, mode })
 }
 
 /// The reason of a path, in terms of orbits.

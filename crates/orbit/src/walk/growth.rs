@@ -12,7 +12,9 @@
 //!
 //! At a part of an undamped eigenfrequency nothing resonates, but the mode vibrates freely besides: orbits of
 //! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
-//! last points have the same parameter to rounding, nothing is touched, and a mode has such a frequency.
+//! last points have the same parameter to rounding, and a mode has such a frequency. A branch with contacts
+//! may lead there, too, to free vibrations that just touch: so touches do not count here, since what presses
+//! would change the parameter.
 //!
 //! Where nothing takes energy out of the motion, a branch may climb at a part of the frequency with which the
 //! structure vibrates in contact: the slope there goes like a power of the amplitude, and the parameter never
@@ -79,9 +81,10 @@ impl Growth {
         let unbounded = growth >= FOR_ANY || (growth >= GROWTH && is_beyond_all_levels(path));
         let ends = |mode| StopReason::Unbounded { frequency_hz: parameter, mode };
         if unbounded {
-            return Some(ends(resonant_mode(path, touches)));
+            let touches_nothing = touches.iter().all(|&touches| touches == 0);
+            return Some(ends(free_mode(path).filter(|_| touches_nothing)));
         }
-        stands_still(path).then(|| resonant_mode(path, touches)).flatten().map(|mode| ends(Some(mode)))
+        free_mode(path).filter(|_| stands_still(path)).map(|mode| ends(Some(mode)))
     }
 }
 
@@ -142,11 +145,10 @@ fn damping_ratio(system: &System, mode: usize) -> f64 {
     model.damping[(mode, mode)] / (2.0 * model.natural_frequencies[mode])
 }
 
-/// The undamped mode that resonates, where no element acts.
-fn resonant_mode(path: &OrbitPath, touches: &[u32]) -> Option<ResonantMode> {
-    let always_acts = |element: &LocalElement| element.law.contacts().is_empty();
-    let acts = touches.iter().any(|&touches| touches > 0)
-        || path.problem.system().elements().iter().any(always_acts);
+/// The undamped mode whose free vibration repeats with the orbit where no contact is closed; `None` where an
+/// element acts without one.
+pub(super) fn free_mode(path: &OrbitPath) -> Option<ResonantMode> {
+    let acts = path.problem.system().elements().iter().any(|element| element.law.contacts().is_empty());
     let point = &path.follower.current().point;
     let base_hz = path.problem.frequency(point) / f64::from(path.problem.period_multiple());
     let model = path.problem.system().model();

@@ -28,9 +28,6 @@ const DIP: f64 = 0.5;
 /// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole
 /// solution that leaves the default of `fold_tolerance` in a slope.
 const MATRIX_NOISE: f64 = 1000.0;
-/// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors
-/// of points.
-const BESIDE: f64 = 1000.0;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in
 /// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
@@ -60,7 +57,7 @@ pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<F
 /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to
 /// `d`, and errors `ε` of a point leave `ε/d` in its tangent: a sign of `t_λ` below that is rounding, and
 /// says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
-/// Nor does a sign say anything there while the parameter goes back by no more than errors of points.
+/// Nor does a sign say anything while the parameter goes back by no more than errors of points.
 pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     slope * attempt.state.parameter_sign < 0.0 && is_known(attempt, slope)
 }
@@ -85,8 +82,7 @@ fn is_known(attempt: &mut Attempt<'_>, slope: f64) -> bool {
 pub(super) fn is_rounding(slope: f64, (left, step): (f64, f64), error: f64, settings: &Settings) -> bool {
     let error = error.max(settings.correction_floor);
     let of_matrix = MATRIX_NOISE * settings.correction_tolerance;
-    let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
-    slope.abs() * left <= of_matrix || slope.abs() * gone <= NOISE * error
+    slope.abs() * left <= of_matrix || slope.abs() * left.min(step) <= NOISE * error
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
