@@ -214,3 +214,39 @@ fn one_mass_with_a_stop_has_no_mode_in_contact() {
     assert_success(&check);
     assert!(!stdout(&check).contains("undamped"), "{}", stdout(&check));
 }
+
+/// A mass on a spring that nothing damps, at a stop that gives everything back: the determinant of its
+/// monodromy matrix is one. Its pair of multipliers slides along the circle to -1 and becomes real there,
+/// which is a flip alone.
+#[test]
+fn a_pair_that_becomes_real_at_a_flip_is_no_neimark_sacker_point() {
+    let workshop = Workshop::exported(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{ name = "m", mass_kg = 1.2 }]
+        spring = [{ between = ["m", "ground"], stiffness_n_m = 900.0 }]
+        [excitation]
+        kind = "force"
+        at = "m"
+        amplitude_n = 5.0
+        frequency_hz = [4.5, 4.7]
+        [[stop]]
+        at = "m"
+        law = "rigid"
+        restitution = 1.0
+        gap_m = 0.004
+        side = "above"
+        [continuation]
+        max_step_hz = 0.02
+        [search]
+        frequencies = 4
+        starts = 3
+        trials = 3
+        "#,
+    );
+    let events = workshop.table("results/export/events.csv");
+    let count = |kind: &str| events.iter().filter(|event| event["event"] == kind).count();
+    assert_eq!((count("flip"), count("neimark-sacker")), (1, 0));
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
+}

@@ -1,28 +1,33 @@
 //! An undamped resonance in a whole run: both pieces of the branch, and why they end.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::common::{Workshop, assert_success, number, stdout};
+use crate::common::{Workshop, assert_success, number, stderr, stdout};
 
-/// A mass of 1 kg on 1 N/m without damping: amplitude `1 / |1 - w^2|` m on both sides of 1 rad/s.
-#[test]
-fn a_run_over_an_undamped_resonance_has_both_sides_of_it_and_ends() {
-    let workshop = Workshop::with(
+/// A mass of 1 kg on 1 N/m without damping, driven by 1 N at these frequencies.
+fn undamped(frequency_hz: [f64; 2]) -> Workshop {
+    Workshop::with(&format!(
         r#"
 [structure]
 kind = "lumped"
-mass = [{ name = "mass", mass_kg = 1.0 }]
-spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.0 }]
+mass = [{{ name = "mass", mass_kg = 1.0 }}]
+spring = [{{ between = ["mass", "ground"], stiffness_n_m = 1.0 }}]
 [excitation]
 kind = "force"
 at = "mass"
 amplitude_n = 1.0
-frequency_hz = [0.13, 0.19]
+frequency_hz = {frequency_hz:?}
 [search]
 frequencies = 0
 [continuation]
 max_step_hz = 1e-3
-"#,
-    );
+"#
+    ))
+}
+
+/// Amplitude `1 / |1 - w^2|` m on both sides of 1 rad/s.
+#[test]
+fn a_run_over_an_undamped_resonance_has_both_sides_of_it_and_ends() {
+    let workshop = undamped([0.13, 0.19]);
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
     assert_success(&run);
     let reported = "the amplitude has no bound: mode 1 (0.159155 Hz) has no damping";
@@ -40,4 +45,19 @@ max_step_hz = 1e-3
     }
     let ends = std::fs::read_to_string(workshop.path("results/export/ends.csv")).unwrap();
     assert_eq!(ends.matches(",unbounded,").count(), 2, "{ends}");
+}
+
+/// Half the eigenfrequency, where its free vibration repeats with the motion.
+#[test]
+fn free_vibrations_that_repeat_with_the_motion_are_one_solution_and_no_branch() {
+    let half_hz = 0.25 / std::f64::consts::PI;
+    let workshop = undamped([half_hz, 0.12]);
+    let reason = "mode 1 (0.159155 Hz) has no damping and vibrates freely at a multiple of 0.079577 Hz";
+    let orbit = workshop.hammerbeam(&["orbit", "study.toml", "--frequency", &half_hz.to_string()]);
+    assert_success(&orbit);
+    assert!(stdout(&orbit).starts_with("One periodic solution"), "{}", stdout(&orbit));
+    assert!(stderr(&orbit).contains(reason), "{}", stderr(&orbit));
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_success(&run);
+    assert!(stdout(&run).contains(" on 1 branch in ") && stdout(&run).contains(reason), "{}", stdout(&run));
 }

@@ -5,7 +5,7 @@ mod places;
 use hammerbeam_orbit::{
     BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
     ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, TrialEffort, Wanted, find_orbits,
-    find_start_unless, newton_trials, probe, reach_orbit, settled_orbit, survey,
+    find_start_unless, free_vibration, newton_trials, probe, reach_orbit, settled_orbit, survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -132,6 +132,14 @@ impl<'m> OrbitSolver<'m> {
         TrialEffort { trials: self.trials, seed: place.round() as u64 }
     }
 
+    /// What a search gives to begin branches at: no orbits that are of one frequency alone, since free
+    /// vibrations may be added to them. Branches pass them.
+    fn surveyed(&self, FoundOrbits { mut orbits, incomplete }: FoundOrbits) -> Surveyed {
+        orbits.retain(|orbit| free_vibration(&self.model.system, orbit).is_none());
+        let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
+        Surveyed { solutions: orbits, incomplete }
+    }
+
     fn response(&self) -> &Response {
         &self.model.response
     }
@@ -170,11 +178,6 @@ pub(crate) fn effort(search: &file::Search, wanted: Wanted) -> SurveyEffort {
     }
 }
 
-fn surveyed(FoundOrbits { orbits, incomplete }: FoundOrbits) -> Surveyed {
-    let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
-    Surveyed { solutions: orbits, incomplete }
-}
-
 impl Solver for OrbitSolver<'_> {
     fn find_harmonic(
         &self,
@@ -191,7 +194,8 @@ impl Solver for OrbitSolver<'_> {
             }
             found => found,
         };
-        found.map_err(|error| error.to_string())
+        let found = found.map_err(|error| error.to_string())?;
+        free_vibration(system, &found).map_or(Ok(found), |error| Err(error.to_string()))
     }
 
     fn survey(
@@ -220,7 +224,7 @@ impl Solver for OrbitSolver<'_> {
         }
         found.extend(far.orbits);
         incomplete = incomplete.or(far.incomplete);
-        Ok(surveyed(FoundOrbits { orbits: found, incomplete }))
+        Ok(self.surveyed(FoundOrbits { orbits: found, incomplete }))
     }
 
     fn resonances_hz(&self) -> Vec<f64> {
@@ -236,7 +240,7 @@ impl Solver for OrbitSolver<'_> {
     ) -> Result<Surveyed, String> {
         let (system, response, orbit) = (&self.model.system, self.response(), (frequency_hz, multiples));
         let found = probe(system, response, orbit, (PROBE, &self.effort), &self.settings, interrupted);
-        found.map(surveyed).map_err(|error| error.to_string())
+        found.map(|found| self.surveyed(found)).map_err(|error| error.to_string())
     }
 
     fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {

@@ -7,7 +7,8 @@
 use hammerbeam_motion::{System, exact::ExactIntegrator};
 
 use crate::{
-    OrbitError, OrbitSettings, PeriodicSolution, Response,
+    FoundOrbits, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    free_vibration::free_vibration,
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
     size::{Cut, orbit_scale, scale_from},
@@ -36,6 +37,8 @@ pub(crate) struct Catalogue<'a> {
     pub settings: &'a OrbitSettings,
     pub frequency_hz: f64,
     pub known: Vec<Known>,
+    /// Why one orbit stands for many that touch nothing, if it does.
+    family: Option<OrbitError>,
     /// Kept from one use to the next with the matrices it has made; `None` only while it is in use.
     integrator: Option<ExactIntegrator>,
 }
@@ -60,7 +63,22 @@ impl<'a> Catalogue<'a> {
         frequency_hz: f64,
     ) -> Result<Self, OrbitError> {
         let integrator = Some(integrator(system, response, settings)?);
-        Ok(Self { system, response, settings, frequency_hz, known: Vec::new(), integrator })
+        Ok(Self { system, response, settings, frequency_hz, known: Vec::new(), family: None, integrator })
+    }
+
+    /// The orbits that are wanted, in the order in which they were met, and what kept the search from finding
+    /// all of them, if nothing else did.
+    pub fn into_found(
+        self,
+        is_wanted: impl Fn(&PeriodicSolution) -> bool,
+        incomplete: Option<OrbitError>,
+    ) -> FoundOrbits {
+        let known = self.known.into_iter().map(|known| known.solution);
+        let incomplete = match incomplete {
+            None | Some(OrbitError::SearchTrials { .. }) => self.family.or(incomplete),
+            incomplete => incomplete,
+        };
+        FoundOrbits { orbits: known.filter(is_wanted).collect(), incomplete }
     }
 
     /// The integrator.
@@ -193,12 +211,19 @@ impl<'a> Catalogue<'a> {
         self.add(problem.integrator(), found, scale).map(Some)
     }
 
+    /// Adds an orbit that is not known; of those to which a free vibration may be added, the first only.
     fn add(
         &mut self,
         integrator: &mut ExactIntegrator,
         solution: PeriodicSolution,
         scale: StateScale,
     ) -> Result<Arrived, OrbitError> {
+        if let Some(error) = free_vibration(self.system, &solution) {
+            if let Some(place) = self.untouching(solution.period_multiple) {
+                return Ok(Arrived { place, is_new: false });
+            }
+            self.family = Some(error);
+        }
         let (multiple, count) = (solution.period_multiple as usize, solution.nodes.len());
         let phases = if count.is_multiple_of(multiple) && solution.phase == 0.0 {
             solution.nodes.iter().step_by(count / multiple).cloned().collect()
@@ -207,6 +232,13 @@ impl<'a> Catalogue<'a> {
         };
         self.known.push(Known { solution, scale, phases, followed: false });
         Ok(Arrived { place: self.known.len() - 1, is_new: true })
+    }
+
+    /// Place of an orbit with this period that touches nothing.
+    fn untouching(&self, period_multiple: u32) -> Option<usize> {
+        let is_one =
+            |orbit: &PeriodicSolution| orbit.period_multiple == period_multiple && orbit.maxima.contacts == 0;
+        self.known.iter().position(|known| is_one(&known.solution))
     }
 
     /// Place of the orbit through a state whose period is `period_multiple` or a part of it.

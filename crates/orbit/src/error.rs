@@ -3,7 +3,7 @@
 use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::PathError;
 
-use crate::NoEigenvalues;
+use crate::{NoEigenvalues, ResonantMode};
 
 /// Why there is no orbit or branch to give.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -56,6 +56,12 @@ pub enum OrbitError {
     /// more.
     #[error("the search at {frequency_hz} Hz has used up its trials, and there may be more solutions")]
     SearchTrials { frequency_hz: f64 },
+    /// Of the orbits that touch nothing there are as many as free vibrations of a mode; one is kept.
+    #[error(
+        "{mode} and vibrates freely at a multiple of {base_hz:.6} Hz: motions of every amplitude and phase \
+        of it are periodic; with damping ([damping]) there is one"
+    )]
+    FreeVibration { base_hz: f64, mode: ResonantMode },
     /// The caller asked to stop.
     #[error("interrupted")]
     Interrupted,

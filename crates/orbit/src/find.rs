@@ -57,7 +57,8 @@ pub struct FoundOrbits {
     /// The orbits, in the order that the search promises.
     pub orbits: Vec<PeriodicSolution>,
     /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its
-    /// bound, or an interruption.
+    /// bound, or an interruption; or why one of the orbits stands for a family of them
+    /// ([`OrbitError::FreeVibration`]).
     pub incomplete: Option<OrbitError>,
 }
 
@@ -90,15 +91,14 @@ pub fn find_orbits(
         Err(OrbitError::Interrupted) => search.branches.incomplete = Some(OrbitError::Interrupted),
         searched => searched?,
     }
-    let incomplete = search.branches.incomplete;
-    let known = search.catalogue.known.into_iter().map(|known| known.solution);
-    let mut orbits: Vec<_> = known.filter(|orbit| orbit.period_multiple == period_multiple).collect();
-    orbits.sort_by(|x, y| {
+    let is_wanted = |orbit: &PeriodicSolution| orbit.period_multiple == period_multiple;
+    let mut found = search.catalogue.into_found(is_wanted, search.branches.incomplete);
+    found.orbits.sort_by(|x, y| {
         y.may_be_stable()
             .cmp(&x.may_be_stable())
             .then(y.maxima.displacement.total_cmp(&x.maxima.displacement))
     });
-    Ok(FoundOrbits { orbits, incomplete })
+    Ok(found)
 }
 
 struct Search<'a> {

@@ -40,6 +40,7 @@
 //! - `arrival.rs`: whether a motion has come to a stable orbit that is known
 //! - `curve/`: curves of folds, flips, Neimark-Sacker points and grazing in two parameters
 //! - `free.rs`: free motion of an undamped system: the amplitude is given, the frequency unknown
+//! - `free_vibration.rs`: undamped modes whose free vibration repeats with an orbit, and may be added to it
 //! - `output.rs`, `output/`: extrema, means and harmonics of motions and contact forces over an orbit
 //! - `settings.rs`, `solution.rs`, `event_kind.rs`, `error.rs`: what goes in and what comes out
 //!
@@ -107,6 +108,7 @@ mod error;
 mod event_kind;
 mod find;
 mod free;
+mod free_vibration;
 mod linear_contact;
 mod located;
 mod matching;
@@ -145,6 +147,7 @@ pub use error::OrbitError;
 pub use event_kind::{BranchEventKind, EventSet};
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
+pub use free_vibration::free_vibration;
 pub use hammerbeam_path::PathError;
 pub use linear_contact::linear_contact_ranges;
 pub use located::{ContactChange, EventStatus, LocatedEvent};

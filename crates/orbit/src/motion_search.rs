@@ -134,11 +134,10 @@ impl<'a> MotionSearch<'a> {
     /// The orbits of the wanted periods, in the order in which they were met.
     pub fn found(self, incomplete: Option<OrbitError>) -> FoundOrbits {
         let (multiples, wanted) = (self.multiples, self.extent.wanted);
-        let known = self.catalogue.known.into_iter().map(|known| known.solution);
         let is_wanted = |orbit: &PeriodicSolution| {
             multiples.contains(&orbit.period_multiple) && (wanted == Wanted::Any || orbit.may_be_stable())
         };
-        FoundOrbits { orbits: known.filter(is_wanted).collect(), incomplete }
+        self.catalogue.into_found(is_wanted, incomplete)
     }
 
     /// Follows a motion until it is seen where it goes.

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use crate::StopReason;
+use crate::{ResonantMode, StopReason};
 
 impl Display for StopReason {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
@@ -46,6 +46,18 @@ impl Display for StopReason {
             Self::Motion { frequency_hz, message } => {
                 write!(formatter, "the motion could not be computed at {frequency_hz}: {message}")
             }
+        }
+    }
+}
+
+impl Display for ResonantMode {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
+        let Self { number, frequency_hz, damping_ratio } = self;
+        write!(formatter, "mode {number} ({frequency_hz:.6} Hz) has ")?;
+        if *damping_ratio > 0.0 {
+            write!(formatter, "next to no damping, a ratio of {damping_ratio:.1e}")
+        } else {
+            write!(formatter, "no damping")
         }
     }
 }

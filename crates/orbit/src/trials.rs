@@ -68,9 +68,8 @@ pub fn newton_trials(
     for (sought, patience) in effort.of(multiples) {
         sample(&mut catalogue, &passed, sought, patience, &mut *interrupted)?;
     }
-    let orbits = catalogue.known.into_iter().map(|known| known.solution);
     let is_wanted = |orbit: &PeriodicSolution| multiples.contains(&orbit.period_multiple);
-    Ok(FoundOrbits { orbits: orbits.filter(is_wanted).collect(), incomplete: failure })
+    Ok(catalogue.into_found(is_wanted, failure))
 }
 
 impl TrialEffort {

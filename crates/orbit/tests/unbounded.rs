@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, OrbitSettings, ResonantMode, Response, Side, StopReason, find_start, settled_orbit,
+    BranchRow, BranchWalk, OrbitError, OrbitSettings, ResonantMode, Response, Side, StopReason, find_orbits,
+    find_start, settled_orbit,
 };
 use hammerbeam_structure::ReducedModel;
 
@@ -115,6 +116,48 @@ fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
             );
         }
     }
+}
+
+/// Of such orbits a search keeps one, and says why; with little damping there is one, and nothing to say.
+/// At twice the eigenfrequency they take two excitation periods.
+#[test]
+fn of_orbits_that_differ_in_a_free_vibration_a_search_keeps_one() {
+    let settings = OrbitSettings { max_step_hz: 1e-2, ..OrbitSettings::default() };
+    let search = |damping: f64, gap: Option<f64>, orbit: (f64, u32)| {
+        let (system, response) = oscillator(damping, gap);
+        find_orbits(&system, &response, orbit, RANGE, &settings, &mut || false).unwrap()
+    };
+    let cases = [(None, 0.5 * NATURAL, 1), (Some(10.0), 0.5 * NATURAL, 1), (None, 2.0 * NATURAL, 2)];
+    for (gap, frequency_hz, multiple) in cases {
+        let found = search(0.0, gap, (frequency_hz, multiple));
+        let untouching = found.orbits.iter().filter(|orbit| orbit.maxima.contacts == 0).count();
+        assert_eq!(untouching, 1, "{gap:?}, {frequency_hz} Hz");
+        let Some(OrbitError::FreeVibration { base_hz, mode }) = found.incomplete else {
+            panic!("{gap:?}, {frequency_hz} Hz: {:?}", found.incomplete)
+        };
+        assert!(base_hz == frequency_hz / f64::from(multiple) && mode.number == 1);
+    }
+    let damped = search(0.02, None, (0.5 * NATURAL, 1));
+    assert!(damped.orbits.len() == 1 && damped.incomplete.is_none(), "{:?}", damped.incomplete);
+}
+
+/// A branch of the range that begins at half the eigenfrequency ends there, and says why.
+#[test]
+fn a_walk_down_to_half_the_eigenfrequency_ends_at_its_free_vibrations() {
+    let (system, response) = oscillator(0.0, None);
+    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let start = find_start(&system, &response, 0.75 * NATURAL, 1, &settings).unwrap();
+    let range_hz = (0.5 * NATURAL, 0.8 * NATURAL);
+    let mut walk = BranchWalk::new(&system, &response, &start, Side::Down, range_hz, &settings).unwrap();
+    let mut rows = Vec::new();
+    let reason = (0..1000).find_map(|_| walk.step(&mut rows).unwrap());
+    let is_end = match reason {
+        Some(StopReason::RangeEnd { .. }) => true,
+        Some(StopReason::Unbounded { mode, .. }) => mode.is_some_and(|mode| mode.number == 1),
+        _ => false,
+    };
+    let last_hz = rows.last().unwrap().solution.frequency_hz;
+    assert!(is_end && (last_hz / range_hz.0 - 1.0).abs() < 1e-6, "{reason:?} at {last_hz}");
 }
 
 /// The amplitude grows ten thousand times at the linear resonance until it meets the stop; then the frequency

@@ -14,10 +14,10 @@ const KNOWN: f64 = 1e-11;
 
 type Part = fn(x: f64, l: f64) -> f64;
 
-/// The circle with one test function that is made of several parts.
+/// The circle with test functions that are made of several parts each.
 struct Circle<P> {
     inner: P,
-    parts: Vec<Part>,
+    functions: Vec<Vec<Part>>,
     at: [f64; 2],
 }
 
@@ -30,35 +30,47 @@ impl<P: PathProblem> PathProblem for Circle<P> {
     }
 
     fn tests(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
-        let left_out = left_out.first().copied().unwrap_or(0);
-        let mut parts: Vec<f64> = self.parts.iter().map(|part| part(self.at[0], self.at[1])).collect();
-        parts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let undecided = parts.iter().filter(|part| part.abs() < KNOWN).count() as u32;
-        let kept = &parts[left_out as usize..];
-        let count = kept.iter().filter(|part| **part < 0.0).count() as u32;
-        let least = kept.first().map_or(1.0, |part| part.abs());
-        let value = if count.is_multiple_of(2) { least } else { -least };
-        *values = vec![TestValue { undecided, left_out, ..TestValue::sign_change(value, count) }];
+        let numbered = self.functions.iter().enumerate();
+        let without = |k: usize| left_out.get(k).copied().unwrap_or(0);
+        *values = numbered.map(|(k, parts)| test_value(parts, self.at, without(k))).collect();
     }
+}
+
+/// A function of these parts without so many of them.
+fn test_value(parts: &[Part], [x, l]: [f64; 2], left_out: u32) -> TestValue {
+    let mut parts: Vec<f64> = parts.iter().map(|part| part(x, l)).collect();
+    parts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let undecided = parts.iter().filter(|part| part.abs() < KNOWN).count() as u32;
+    let kept = &parts[left_out as usize..];
+    let count = kept.iter().filter(|part| **part < 0.0).count() as u32;
+    let least = kept.first().map_or(1.0, |part| part.abs());
+    let value = if count.is_multiple_of(2) { least } else { -least };
+    TestValue { undecided, left_out, ..TestValue::sign_change(value, count) }
 }
 
 impl<P: PathProblem> Judge for Circle<P> {}
 
-/// Zeros of the function as `[x, l]`, once around the circle.
+/// Zeros of one function as `[x, l]`, once around the circle.
 fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
+    zeros_of(&[parts], step).into_iter().map(|(at, _)| at).collect()
+}
+
+/// Zeros of functions as `[x, l]`, and the bits of those that vanish there, once around the circle.
+fn zeros_of(functions: &[&[Part]], step: f64) -> Vec<([f64; 2], u32)> {
     let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
         residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
         jacobian.copy_from_slice(&[2.0 * z[0], 2.0 * z[1]]);
         0
     };
-    let mut circle = Circle { inner: DenseProblem::new(1, equation), parts: parts.to_vec(), at: [0.0, 0.0] };
+    let functions = functions.iter().map(|parts| parts.to_vec()).collect();
+    let mut circle = Circle { inner: DenseProblem::new(1, equation), functions, at: [0.0, 0.0] };
     let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
     let branch: Branch =
         follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, settings).unwrap();
     assert_eq!(branch.stop, PathStop::Closed);
-    let at = branch.points.iter().filter(|point| point.events.zeros & 1 == 1);
-    at.map(|point| [point.point[0], point.point[1]]).collect()
+    let at = branch.points.iter().filter(|point| point.events.zeros != 0);
+    at.map(|point| ([point.point[0], point.point[1]], point.events.zeros)).collect()
 }
 
 /// Of either sign, changing at every step.
@@ -122,5 +134,22 @@ fn a_zero_is_found_though_a_point_beside_it_is_undecided() {
         let found = zeros(&[coarse], step);
         assert_eq!(found.len(), 2, "step {step}: {found:?}");
         assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 0.011), "step {step}: {found:?}");
+    }
+}
+
+/// As a pair of multipliers that slides along the unit circle to -1, where it becomes real: of one function
+/// that is a zero, of the other one, which says nothing before and vanishes nowhere behind, it is none. Its
+/// sign by rounding is another one right at that zero.
+#[test]
+fn what_is_at_zero_up_to_the_zero_of_another_function_makes_no_event_there() {
+    let above: Part = |x, _| if x < 0.3 - 1e-9 { 1.0 } else { 1e-15 * (x - 0.3 - 1e-9).signum() };
+    let below: Part = |x, _| if x > 0.3 + 1e-9 { 1.0 } else { 1e-15 * (0.3 - 1e-9 - x).signum() };
+    for step in [0.3, 0.1, 0.01] {
+        for pair in [above, below] {
+            let found = zeros_of(&[&[LINE], &[pair]], step);
+            assert!(found.iter().all(|(_, functions)| *functions == 1), "step {step}: {found:?}");
+            let places: Vec<[f64; 2]> = found.into_iter().map(|(at, _)| at).collect();
+            assert_at_the_line(&places, "beside a pair that becomes real");
+        }
     }
 }

@@ -240,14 +240,7 @@ fn too_much_work(solutions: u64, gets_on: bool) -> String {
 /// What a branch does that goes to infinity, and what keeps it finite.
 fn unbounded(mode: Option<ResonantMode>) -> String {
     let why = match mode {
-        Some(ResonantMode { number, frequency_hz, damping_ratio }) if damping_ratio > 0.0 => {
-            format!(
-                "mode {number} ({frequency_hz:.6} Hz) has next to no damping, a ratio of {damping_ratio:.1e}"
-            )
-        }
-        Some(ResonantMode { number, frequency_hz, .. }) => {
-            format!("mode {number} ({frequency_hz:.6} Hz) has no damping")
-        }
+        Some(mode) => mode.to_string(),
         None => "nothing there takes energy out of the motion".to_owned(),
     };
     format!("the amplitude has no bound: {why}; with damping ([damping]) it has one")

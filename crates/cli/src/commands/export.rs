@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hammerbeam_jobs::{
-    PreparedStudy, Quiet,
+    Observer, PreparedStudy,
     chosen_orbits::{OrbitChoice, chosen_orbits, orbit_tables},
 };
 use hammerbeam_results::{
@@ -14,7 +14,7 @@ use hammerbeam_results::{
 };
 use serde_json::json;
 
-use crate::{args::ExportOptions, failure::Failure, output::Output};
+use crate::{args::ExportOptions, failure::Failure, interrupt::Interrupt, output::Output, watch::Watch};
 
 /// What was written.
 struct Written {
@@ -27,7 +27,22 @@ struct Written {
 }
 
 pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
-    let store = Store::open(&options.results)?;
+    let interrupt = Interrupt::listen(output)?;
+    match export(options, output, &interrupt) {
+        // Whatever reading says of being left.
+        Err(_) if interrupt.raised() => Err(Failure::Interrupted(
+            "interrupted; tables that were finished are kept, and nothing is left of the others".to_owned(),
+        )),
+        exported => exported,
+    }
+}
+
+fn export(options: &ExportOptions, output: Output, interrupt: &Interrupt) -> Result<(), Failure> {
+    let mut store = Store::open(&options.results)?;
+    let asked = interrupt.clone();
+    store.read_unless(move || asked.raised())?;
+    // What is read ends in a moment, and files are written to their end.
+    interrupt.is_in_order();
     let folder = match &options.out {
         Some(folder) => folder.clone(),
         None => subfolder(&options.results, "export")?,
@@ -36,7 +51,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         TableFormat::Csv => csv(&store, &folder, options.states)?,
         other => columns(&store, &folder, (other, options.states))?,
     };
-    written.files.extend(orbits(options, &store, &folder)?);
+    written.files.extend(orbits(options, &store, &folder, interrupt)?);
     ensure_written(Path::new(""), &written.files)?;
     let files: Vec<String> = written.files.iter().map(|path| path.display().to_string()).collect();
     output.give(&json!({ "files": files, "rows": written.rows }), || {
@@ -74,7 +89,12 @@ fn columns(
 }
 
 /// The orbits that are asked for, if there are such.
-fn orbits(options: &ExportOptions, store: &Store, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn orbits(
+    options: &ExportOptions,
+    store: &Store,
+    folder: &Path,
+    interrupt: &Interrupt,
+) -> Result<Vec<PathBuf>, Failure> {
     if options.frequency.is_empty() && options.event.is_empty() {
         return Ok(Vec::new());
     }
@@ -88,6 +108,8 @@ fn orbits(options: &ExportOptions, store: &Store, folder: &Path) -> Result<Vec<P
     if found.is_empty() {
         return Err(Failure::NoResult("no stored orbit fits what is asked for".to_owned()));
     }
-    let tables = orbit_tables(&study.model, &found, options.samples as usize, &mut Quiet)?;
-    Ok(write_tables(&tables, folder, ("orbits", options.format.into()))?)
+    let mut watch = Watch::new(interrupt.clone());
+    let tables = orbit_tables(&study.model, &found, options.samples as usize, &mut watch);
+    watch.finishing();
+    Ok(write_tables(&tables?, folder, ("orbits", options.format.into()))?)
 }

@@ -17,6 +17,7 @@ use crate::{
 };
 
 pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
+    let mut watch = Watch::new(Interrupt::listen(output)?);
     let store = Store::open(&options.results).map_err(|error| of_family(&options.results, error))?;
     let snapshot = store.snapshot()?;
     let PreparedStudy { file, model } = PreparedStudy::of_store(&store)?;
@@ -44,7 +45,6 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         frequency_unit: output.frequency_unit,
         formats: FigureFormat::ALL.into_iter().filter(|format| formats.contains(format)).collect(),
     };
-    let mut watch = Watch::new(Interrupt::listen(output)?);
     let drawn = draw_into::<Failure>(folder, settings, &mut watch, |drawn| {
         Ok(draw(&store, (&file, &model), &selection, drawn)?)
     });

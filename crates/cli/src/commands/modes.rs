@@ -9,21 +9,23 @@ use serde_json::json;
 use crate::{
     args::ModesOptions,
     failure::Failure,
+    interrupt::Interrupt,
     matrix_report,
     output::{Output, decimals, six_decimals},
-    watch::Notices,
+    watch::Watch,
 };
 
 /// Rows of the table that are always shown, when there are so many.
 const SHOWN: usize = 12;
 
 pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
+    let mut watch = Watch::new(Interrupt::listen(output)?);
     let file = options.study.read()?;
     let model = Model::build(&file)?;
     let mut document = modes_document(&model);
     if let Some(folder) = &options.out {
         let settings = DrawSettings { frequency_unit: output.frequency_unit, ..DrawSettings::default() };
-        let drawn = draw_into::<Failure>(folder, settings, &mut Notices, |drawn| {
+        let drawn = draw_into::<Failure>(folder, settings, &mut watch, |drawn| {
             draw_linear(drawn, &file, &model);
             Ok(())
         });

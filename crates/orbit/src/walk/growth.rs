@@ -25,13 +25,14 @@
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
 //! there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
 
-use std::f64::consts::TAU;
-
-use hammerbeam_motion::{Law, LocalElement, System};
+use hammerbeam_motion::{Law, LocalElement};
 use hammerbeam_path::Node;
 
 use super::orbit_path::OrbitPath;
-use crate::{ResonantMode, StopReason};
+use crate::{
+    ResonantMode, StopReason,
+    free_vibration::{self, is_damped},
+};
 
 /// Growth of the amplitude at a parameter that stands still.
 const GROWTH: f64 = 8.0;
@@ -43,12 +44,8 @@ const STILL: f64 = 1e-7;
 const OF_RANGE: f64 = 1e-4;
 /// An element is linear for all that follows where its motion goes so many times beyond its levels.
 const BEYOND: f64 = 1e3;
-/// Relative distance of a harmonic of the orbit from an eigenfrequency up to which that resonates.
-const RESONANT: f64 = 1e-6;
 /// Change of the parameter, relative to it, up to which points have the same one.
 const SAME: f64 = 1e-13;
-/// Damping ratio up to which a mode counts as undamped here.
-const UNDAMPED: f64 = 1e-6;
 
 /// Where the parameter came to a stand: the least amplitude since, and the parameter there.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -124,14 +121,14 @@ fn goes_beyond(path: &mut OrbitPath, levels: &[(Vec<f64>, f64)]) -> Option<f64> 
 /// element.
 pub(super) fn is_far_beyond_gaps_without_losses(path: &mut OrbitPath) -> bool {
     let system = path.problem.system();
-    let frequencies = &system.model().natural_frequencies;
-    let is_damped = |i: usize| frequencies[i] > 0.0 && damping_ratio(system, i) > UNDAMPED;
     let loses = |law: &Law| {
         let gives_less = law.rigid().is_some_and(|stop| stop.restitution() < 1.0);
         gives_less || law.depends_on_velocity() || law.remembers_impact()
     };
     let elements = system.elements();
-    if (0..frequencies.len()).any(is_damped) || elements.iter().any(|element| loses(&element.law)) {
+    if (0..system.dof()).any(|mode| is_damped(system, mode))
+        || elements.iter().any(|element| loses(&element.law))
+    {
         return false;
     }
     let gap = |element: &LocalElement| Some((element.shape.clone(), element.law.gap()?));
@@ -139,31 +136,11 @@ pub(super) fn is_far_beyond_gaps_without_losses(path: &mut OrbitPath) -> bool {
     goes_beyond(path, &gaps).is_some_and(|least| least.is_finite() && least >= BEYOND)
 }
 
-/// Ratio to critical damping of a mode, which vibrates.
-fn damping_ratio(system: &System, mode: usize) -> f64 {
-    let model = system.model();
-    model.damping[(mode, mode)] / (2.0 * model.natural_frequencies[mode])
-}
-
-/// The undamped mode whose free vibration repeats with the orbit where no contact is closed; `None` where an
-/// element acts without one.
+/// The undamped mode whose free vibration repeats with the present orbit where no contact is closed.
 pub(super) fn free_mode(path: &OrbitPath) -> Option<ResonantMode> {
-    let acts = path.problem.system().elements().iter().any(|element| element.law.contacts().is_empty());
-    let point = &path.follower.current().point;
-    let base_hz = path.problem.frequency(point) / f64::from(path.problem.period_multiple());
-    let model = path.problem.system().model();
-    let ratio = |i: usize| damping_ratio(path.problem.system(), i);
-    let resonates = |w: f64| {
-        let harmonic = w / TAU / base_hz;
-        w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
-    };
-    let is_free = |i: &usize| resonates(model.natural_frequencies[*i]) && ratio(*i) <= UNDAMPED;
-    let found = (0..model.natural_frequencies.len()).find(is_free);
-    found.filter(|_| !acts).map(|i| ResonantMode {
-        number: i + 1,
-        frequency_hz: model.natural_frequencies[i] / TAU,
-        damping_ratio: ratio(i),
-    })
+    let frequency_hz = path.problem.frequency(&path.follower.current().point);
+    let base_hz = frequency_hz / f64::from(path.problem.period_multiple());
+    free_vibration::resonant_mode(path.problem.system(), base_hz)
 }
 
 #[cfg(test)]

@@ -11,27 +11,40 @@
 //! nothing has happened. Nor has anything where it leaves zero after a stretch of it. On the other side there
 //! was a zero, perhaps before the point whose sign was taken over: then it is given just behind that point,
 //! with the way back to the point before as what it is known to (`zero.rs`).
+//!
+//! Where the step ends at the zero of another function instead, less may be known of a function than at the
+//! trial: a pair of multipliers that slides along the unit circle and becomes real at -1 is at the circle
+//! right up to the flip, and off it at the trial behind. So the functions are made comparable there anew.
 
 use super::attempt::Attempt;
 use crate::{error::StepDoubt, problem::TestValue};
 
 /// Makes the test functions of the last point and of the trial, where they were just asked for, comparable;
 /// bits of those that are not.
-pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>) -> Result<u32, StepDoubt> {
-    let all_known = |(before, after): (&TestValue, &TestValue)| {
+///
+/// * `but`: the function whose zero the trial is, which is compared already.
+pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>, but: Option<usize>) -> Result<u32, StepDoubt> {
+    let others: Vec<usize> = (0..attempt.tests.values.len()).filter(|index| but != Some(*index)).collect();
+    let all_known = |index: &usize| {
+        let (before, after) = (attempt.tests.values[*index], attempt.trial.tests[*index]);
         before.left_out == 0
             && before.undecided >= after.undecided
             && before.undecided.min(after.undecided) == 0
     };
-    if attempt.tests.pairs(&attempt.trial.tests).all(all_known) {
+    if others.iter().all(all_known) {
         return Ok(0);
     }
-    let pairs = attempt.tests.pairs(&attempt.trial.tests);
-    let rule: Vec<u32> = pairs.map(|(before, after)| before.undecided.min(after.undecided)).collect();
+    let mut rule = left_out(&attempt.trial.tests);
+    for &index in &others {
+        rule[index] = attempt.tests.values[index].undecided.min(attempt.trial.tests[index].undecided);
+    }
+    let compared = but.map(|index| (index, attempt.trial.tests[index]));
     attempt.problem.tests(&rule, &mut attempt.trial.tests);
+    compared.into_iter().for_each(|(index, test)| attempt.trial.tests[index] = test);
     compare_last_point_without(attempt, &rule)?;
     let mut apart = 0;
-    for (index, (before, after)) in attempt.tests.values.iter().zip(&mut attempt.trial.tests).enumerate() {
+    for index in others {
+        let (before, after) = (attempt.tests.values[index], &mut attempt.trial.tests[index]);
         let enters = after.undecided > before.undecided;
         if enters && before.left_out == rule[index] {
             after.count = before.count;

@@ -40,19 +40,22 @@ pub(super) fn stop_at_zeros(
     if attempt.tests.values.len() != attempt.trial.tests.len() {
         return Ok(arrival);
     }
-    let apart = leave_undecided_out(attempt)?;
+    let mut apart = leave_undecided_out(attempt, None)?;
     arrival.zeros_near = attempt.tests.stay_behind_zeros(&mut attempt.trial.tests, None);
     let is_long = attempt.step > attempt.settings().signature_step;
     if is_long && hides_zeros(attempt, locator)? {
         return Err(StepDoubt::HiddenZeros);
     }
-    for index in (0..attempt.trial.tests.len()).filter(|index| !has_bit(apart, *index)) {
+    for index in 0..attempt.trial.tests.len() {
+        if has_bit(apart, index) {
+            continue;
+        }
         let zeros = attempt.tests.values[index].count.abs_diff(attempt.trial.tests[index].count);
         if is_long && (zeros >= 2 || zeros == 0 && dips(attempt, index)) {
             return Err(StepDoubt::HiddenZeros);
         }
         if zeros % 2 == 1 && attempt.trial.tests[index].kind == TestKind::SignChange {
-            arrival = stop_at_zero(attempt, locator, index, arrival)?;
+            (arrival, apart) = stop_at_zero(attempt, locator, index, arrival)?;
         }
     }
     // What lies on the way to a zero may not be seen from beyond it.
@@ -105,7 +108,8 @@ fn ask_for_tests(attempt: &mut Attempt<'_>) {
 }
 
 /// Ends the step at the zero of one test function, the sign of which is another one at the trial. Zeros of
-/// other functions that were found just there belong to the same point.
+/// other functions that were found just there belong to the same point. Also bits of the functions that are
+/// not comparable there, as of [`leave_undecided_out`].
 ///
 /// * `found`: what is known of the trial.
 fn stop_at_zero(
@@ -113,9 +117,11 @@ fn stop_at_zero(
     locator: &mut Locator,
     index: usize,
     found: Arrival,
-) -> Result<Arrival, StepDoubt> {
+) -> Result<(Arrival, u32), StepDoubt> {
     let (at, behind) = (attempt.progress(), attempt.trial.tests.clone());
     let mut arrival = arrive_at_zero(attempt, locator, index)?.unwrap_or(found);
+    // Of the other functions less may be known here than at the end of the step.
+    let not_comparable = leave_undecided_out(attempt, Some(index))?;
     let near = attempt.tests.stay_behind_zeros(&mut attempt.trial.tests, Some(index));
     arrival.zeros_near |= found.zeros_near | near;
     let apart = at - attempt.progress();
@@ -124,7 +130,7 @@ fn stop_at_zero(
         arrival.uncertainty = arrival.uncertainty.max(found.uncertainty);
         keep_tests(&mut attempt.trial.tests, &behind, found.events.zeros);
     }
-    Ok(arrival)
+    Ok((arrival, not_comparable))
 }
 
 /// At a zero the signs of the functions that vanish there are rounding: they stay as they were noted
@@ -178,10 +184,11 @@ fn arrive_at_zero(
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
     let (mut value, mut counted) = (ends.low, None);
     let left_out = left_out(&attempt.trial.tests);
+    let functions = attempt.trial.tests.len();
     let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
         problem.tests(&left_out, &mut probe.tests);
         problem.judge().note(&mut probe.noted);
-        probe.tests.get(index).map(|test| test.value)
+        probe.tests.get(index).filter(|_| probe.tests.len() == functions).map(|test| test.value)
     };
     for probes in 0..MOST_PROBES {
         let place = bracket.next();

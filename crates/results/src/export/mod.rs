@@ -102,3 +102,42 @@ pub fn export_states(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, Expor
     drop(snapshot);
     Ok(paths)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use hammerbeam_orbit::Side;
+
+    use super::*;
+    use crate::store::tests::{STUDY, append, study, walked_folder};
+
+    /// Tables that were finished stay; of the one that was being written nothing is left.
+    #[test]
+    fn an_export_that_is_interrupted_leaves_no_part_of_a_table() {
+        let folder = tempfile::tempdir().unwrap();
+        walked_folder(folder.path());
+        let mut run = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+        let frequencies_hz: Vec<f64> = (0..2000).map(|k| 0.4 + 1e-4 * f64::from(k)).collect();
+        append(&mut run, Side::Up, &frequencies_hz);
+        drop(run);
+        let (mut left, mut written) = (0, Vec::new());
+        for most in (0..12).map(|power| 2_u32.pow(power)) {
+            let out = tempfile::tempdir().unwrap();
+            let (mut store, mut asked) = (Store::open(folder.path()).unwrap(), 0);
+            let interrupted = move || {
+                asked += 1;
+                asked > most
+            };
+            store.read_unless(interrupted).unwrap();
+            let exported = export_csv(&store, out.path()).and_then(|_| export_states(&store, out.path()));
+            left += u32::from(exported.is_err());
+            let names = fs::read_dir(out.path()).unwrap().map(|entry| entry.unwrap().file_name());
+            let names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
+            assert!(names.iter().all(|name| name.ends_with(".csv")), "{names:?}");
+            written.push(names.len());
+        }
+        assert!(left >= 4 && written[0] == 0, "{left}, {written:?}");
+        assert_eq!(written.last(), Some(&4), "{written:?}");
+    }
+}

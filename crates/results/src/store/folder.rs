@@ -24,6 +24,9 @@ use crate::whole_file::refuse_link;
 /// How long one waits for another that reads or writes.
 const READER: Duration = Duration::from_secs(5);
 
+/// Instructions of the database between two questions whether to go on: some dozens of rows.
+const BETWEEN_QUESTIONS: i32 = 1000;
+
 /// A results folder, open for reading, or for writing by one run.
 #[derive(Debug)]
 pub struct Store {
@@ -153,6 +156,17 @@ impl Store {
     /// The database refuses.
     pub fn snapshot(&self) -> Result<impl Sized + use<'_>, StoreError> {
         Ok(self.connection.unchecked_transaction()?)
+    }
+
+    /// From now on reading ends with an error soon after this says true.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn read_unless(
+        &mut self,
+        interrupted: impl FnMut() -> bool + Send + 'static,
+    ) -> Result<(), StoreError> {
+        Ok(self.connection.progress_handler(BETWEEN_QUESTIONS, Some(interrupted))?)
     }
 
     /// Refuses a solution that was found damaged when the folder was opened.
