@@ -5,7 +5,6 @@ use super::{attempt::Attempt, closing, locator::Locator};
 use crate::{
     error::StepDoubt,
     product::{distance, product, progress},
-    settings::Settings,
 };
 
 /// What lies between the last point and a candidate that is beyond doubt.
@@ -28,6 +27,12 @@ const DIP: f64 = 0.5;
 /// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole
 /// solution that leaves the default of `fold_tolerance` in a slope.
 const MATRIX_NOISE: f64 = 1000.0;
+/// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors
+/// of points.
+const BESIDE: f64 = 1000.0;
+/// Part of the parameter by which it has to go back: less is rounding, as among free vibrations of an undamped
+/// mode, which all have one frequency.
+const ROUNDED: f64 = 1e-13;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in
 /// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
@@ -57,32 +62,20 @@ pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<F
 /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to
 /// `d`, and errors `ε` of a point leave `ε/d` in its tangent: a sign of `t_λ` below that is rounding, and
 /// says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
-/// Nor does a sign say anything while the parameter goes back by no more than errors of points.
+/// Nor does a sign say anything there while the parameter goes back by no more than errors of points.
 pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
-    slope * attempt.state.parameter_sign < 0.0 && is_known(attempt, slope)
-}
-
-/// The sign of the slope of the trial where none was known at the start, if it is beyond doubt now.
-pub(super) fn first_sign(attempt: &mut Attempt<'_>) -> Option<f64> {
-    let slope = attempt.trial.tangent_parameter();
-    (attempt.state.parameter_sign == 0.0 && is_known(attempt, slope)).then(|| slope.signum())
-}
-
-/// Whether the sign of this slope of the trial is beyond doubt.
-fn is_known(attempt: &mut Attempt<'_>, slope: f64) -> bool {
+    if slope * attempt.state.parameter_sign >= 0.0 {
+        return false;
+    }
     let settings = &attempt.frame.settings;
     let error = attempt.trial.correction_norm.max(attempt.state.current.correction_norm);
-    let left = attempt.problem.judge().distance_to_simpler(&attempt.trial.point);
-    let step = distance(&attempt.frame.weights, &attempt.state.base().point, &attempt.trial.node.point);
-    !is_rounding(slope, (left, step), error, settings)
-}
-
-/// Whether the sign of a slope says nothing at this distance from a simpler path, behind a step, where a
-/// point is known to an error.
-pub(super) fn is_rounding(slope: f64, (left, step): (f64, f64), error: f64, settings: &Settings) -> bool {
     let error = error.max(settings.correction_floor);
     let of_matrix = MATRIX_NOISE * settings.correction_tolerance;
-    slope.abs() * left <= of_matrix || slope.abs() * left.min(step) <= NOISE * error
+    let left = attempt.problem.judge().distance_to_simpler(&attempt.trial.point);
+    let step = distance(&attempt.frame.weights, &attempt.state.base().point, &attempt.trial.node.point);
+    let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
+    let rounding = ROUNDED * attempt.trial.node.point.last().map_or(0.0, |parameter| parameter.abs());
+    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && slope.abs() * step > rounding
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.

@@ -63,7 +63,7 @@ use branch_point::arrive_at_branch_point;
 use change::arrive_at_change;
 use closing::arrive_at_start;
 use corner::turn_corner;
-use finding::{Finding, first_sign};
+use finding::Finding;
 use fold::arrive_at_fold;
 use known_corner::{Looks, turn_known_corner};
 use leap::leap;
@@ -314,10 +314,7 @@ impl Follower {
             Finding::Regular if attempt.changes_signature() => {
                 arrive_at_change(&mut attempt, locator, earlier)
             }
-            Finding::Regular => {
-                let parameter_sign = first_sign(&mut attempt);
-                Ok(Arrival { earlier, parameter_sign, ..Arrival::default() })
-            }
+            Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
             Finding::Closing(image) => arrive_at_start(&mut attempt, locator, image),
             Finding::Fold => arrive_at_fold(&mut attempt, locator),
             Finding::Reversed => arrive_at_branch_point(&mut attempt, locator),

@@ -50,6 +50,6 @@ fn check_end(attempt: &Attempt<'_>, end: f64) -> Result<(), StepDoubt> {
     check_defect(attempt, attempt.step)?;
     let outwards = if end == attempt.frame.range.high() { 1.0 } else { -1.0 };
     let leaves =
-        attempt.trial.tangent_parameter() * outwards > 0.0 && attempt.state.parameter_sign * outwards >= 0.0;
+        attempt.trial.tangent_parameter() * outwards > 0.0 && attempt.state.parameter_sign * outwards > 0.0;
     if leaves { Ok(()) } else { Err(StepDoubt::HiddenFolds) }
 }

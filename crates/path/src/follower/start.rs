@@ -1,6 +1,6 @@
 //! The first point of a branch.
 
-use super::{Follower, direction::StartDirection, finding::is_rounding};
+use super::{Follower, direction::StartDirection};
 use crate::{
     checkpoint::Checkpoint,
     corrector::{Candidate, Limits},
@@ -47,12 +47,6 @@ impl Follower {
         scale(&mut trial.node.tangent, direction.sign());
         let current = first_point(&trial, direction.sign(), counters);
         let mut state = PathState::at_start(current, &trial.node, settings.initial_step);
-        let slope = trial.tangent_parameter();
-        let simpler = problem.judge().distance_to_simpler(&trial.node.point);
-        if is_rounding(slope, (simpler, f64::INFINITY), trial.correction_norm, &settings) {
-            // The first point at which the sign is beyond doubt tells.
-            state.parameter_sign = 0.0;
-        }
         state.outside = problem.judge().outside(PathEvents::default()).map(|here| (here.least, here.most));
         if state.current.parameter() == range.end_ahead(state.parameter_sign) {
             state.stop = Some(PathStop::RangeEnd);
