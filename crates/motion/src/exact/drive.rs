@@ -5,7 +5,8 @@
 //! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the
 //! denominator (nearly) vanishes - a constant load on a rigid mode, a load on an undamped eigenfrequency -
 //! the load is *secular*: the solution that starts from rest with the stretch takes its place
-//! (`secular.rs`); it stays finite.
+//! (`secular.rs`); it stays finite. So it does for a constant load on a mode that hardly moves in a period,
+//! whose sag would be all that rounding leaves room for.
 
 use std::{cell::Cell, f64::consts::TAU};
 
@@ -22,6 +23,9 @@ use crate::{ModalLoad, Stretch, System};
 
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
 const RESONANT: f64 = 1e-4;
+
+/// Eigenfrequency and damping of a block, relative to the excitation, below which it is slow.
+const SLOW: f64 = 1e-2;
 
 /// Steady solution of one order.
 #[derive(Debug, Clone)]
@@ -49,6 +53,8 @@ pub(crate) struct Drive {
     secular_changes: Vec<SecularChange>,
     /// Scale of all orders above 0.
     pub(super) scale: f64,
+    /// Circular frequency below which constant loads on blocks are secular [rad/s].
+    slow: f64,
 }
 
 /// Value of an output and of its first two derivatives by time.
@@ -62,7 +68,17 @@ pub(crate) struct Jet {
 impl Drive {
     /// Solves for the particular solution of `system` over `stretch`.
     pub fn new(system: &System, blocks: &Blocks, outputs: &[Output], stretch: &Stretch) -> Self {
-        let mut drive = Self::silent(system, stretch);
+        Self { slow: SLOW * TAU * stretch.frequency_hz, ..Self::silent(system, stretch) }
+            .with_loads(system, blocks, outputs)
+    }
+
+    /// The steady motion, also of slow blocks.
+    pub fn steady_motion(system: &System, blocks: &Blocks, stretch: &Stretch) -> Self {
+        Self::silent(system, stretch).with_loads(system, blocks, &[])
+    }
+
+    fn with_loads(self, system: &System, blocks: &Blocks, outputs: &[Output]) -> Self {
+        let mut drive = self;
         for (index, &order) in system.orders().iter().enumerate() {
             drive.add_order(system, blocks, outputs, index, f64::from(order));
         }
@@ -100,7 +116,7 @@ impl Drive {
         let start_angle = Self::start_angle(stretch);
         let (secular, secular_changes) = (Vec::new(), Vec::new());
         let (orders, scale) = (Vec::new(), system.excitation_scale());
-        Self { circular_frequency, start_angle, orders, secular, secular_changes, scale }
+        Self { circular_frequency, start_angle, orders, secular, secular_changes, scale, slow: 0.0 }
     }
 
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
@@ -161,7 +177,8 @@ impl Drive {
                 continue;
             }
             let denominator = c64::new(k - w * w, w * c);
-            if denominator.norm() <= RESONANT * (k + w * w) {
+            let is_slow = w == 0.0 && k <= self.slow * self.slow && c <= k.sqrt();
+            if is_slow || denominator.norm() <= RESONANT * (k + w * w) {
                 let rate = TAU * order;
                 let angle = order * self.start_angle;
                 self.secular.push(SecularLoad::new(

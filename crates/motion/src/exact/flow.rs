@@ -37,9 +37,8 @@ impl ExactIntegrator {
     pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
         self.let_go();
         let n = self.blocks.count();
-        self.drive_over(stretch);
         let mut block = vec![0.0; 2 * n];
-        self.drive.add_state(0.0, 1.0, &mut block);
+        Drive::steady_motion(&self.system, &self.blocks, stretch).add_state(0.0, 1.0, &mut block);
         self.blocks.to_modal(block)
     }
 

@@ -2,15 +2,17 @@
 //!
 //! A load `Re(u exp(i w t))`, `u = [beta; phi]`, on a block `p' = s + beta`, `s' = -k p - c s + phi` has no
 //! steady response where `i w` is an eigenvalue of the block, and one that loses its digits nearby. There are
-//! two kinds of such *secular* loads, by what `drive.rs` takes for near:
+//! three kinds of such *secular* loads, by what `drive.rs` takes for near:
 //!
 //! - *free* (`free.rs`): a constant load on a block without stiffness, as gravity or a torque on a rigid
 //!   mode, damped or not;
 //! - *resonant* (`resonance.rs`): a harmonic load on a block of nearly that eigenfrequency and with hardly
-//!   any damping.
+//!   any damping;
+//! - *slow* (`resonance.rs` with `w = 0`): a constant load on a block that a period hardly moves. Its sag may
+//!   be a million times what moves, and rounding of it more than is known of that.
 //!
-//! For both the particular solution is the motion from rest at the start of the stretch. Of it this module
-//! tells, in closed form and without cancellation,
+//! For all of them the particular solution is the motion from rest at the start of the stretch. Of it this
+//! module tells, in closed form and without cancellation,
 //!
 //! - the state with its derivatives by the time, [`SecularLoad::derivatives`];
 //! - the derivative of state and rate by the frequency, [`SecularLoad::by_frequency`];
@@ -18,7 +20,8 @@
 //!   [`SecularLoad::majorant`] (`majorant.rs`);
 //! - what it does to another block where the damping changes, [`SecularLoad::change`] (`secular/change.rs`).
 //!
-//! A free load is constant: its motion from rest is the same whatever the phase at which a stretch begins.
+//! Free and slow loads are constant: their motion from rest is the same whatever the phase at which a stretch
+//! begins.
 
 mod change;
 mod divided;
@@ -51,8 +54,8 @@ enum Kind {
 }
 
 impl SecularLoad {
-    /// A load of order 0 acts on a block without stiffness, any other near the resonance of one with hardly
-    /// any damping.
+    /// A load of order 0 acts on a block without stiffness or on a slow one, any other near the resonance of
+    /// one with hardly any damping.
     ///
     /// * `(k, c)`: the block; `input`: `[beta, phi]`; `input_by_frequency` [1/Hz].
     /// * `(w, rate)`: circular frequency and its derivative by the excitation frequency.
@@ -67,7 +70,7 @@ impl SecularLoad {
     ) -> Self {
         let turned = c64::new(angle.cos(), angle.sin());
         let [input, by_frequency] = [input, input_by_frequency].map(|input| input.map(|u| u * turned));
-        let kind = if frequency == 0.0 {
+        let kind = if frequency == 0.0 && stiffness == 0.0 {
             Kind::Free(Free::new(damping, input.map(|u| u.re), by_frequency.map(|u| u.re)))
         } else {
             Kind::Resonant(Resonant::new((stiffness, damping), input, by_frequency, (frequency, rate)))
@@ -77,7 +80,7 @@ impl SecularLoad {
 
     /// Whether the load is of order 0.
     pub fn is_constant(&self) -> bool {
-        matches!(self.kind, Kind::Free(_))
+        self.source.frequency == 0.0
     }
 
     /// `[p, s]` at `time` after the start, and its derivatives by the time.

@@ -32,7 +32,7 @@ const MATRIX_NOISE: f64 = 1000.0;
 const BESIDE: f64 = 1000.0;
 /// Part of the parameter by which it has to go back: less is rounding, as among free vibrations of an undamped
 /// mode, which all have one frequency.
-const ROUNDED: f64 = 1e-13;
+const ROUNDED: f64 = 1e-12;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in
 /// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;

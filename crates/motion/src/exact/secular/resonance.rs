@@ -35,6 +35,11 @@
 //! = |u|` a time: `|X| <= e_0 = g t`. As the norm of A is at most `a = sqrt(k) + c`, the derivatives have
 //! the bounds `e_(j+1) = a e_j + w^j g`. With `r = max(a, w)` and all times up to T that is `e_j <= r^(j-1)
 //! g (j + r T)`, so for `2 <= j <= J` at most `r^(j-2) (r e_1 + r g (J - 1))` with `e_1 = g (1 + r T)`.
+//!
+//! **Constant loads** on slow blocks are the case `w = 0`, for which the power series serves up to [`EARLY`]
+//! radians of the block, and nothing is lost beyond. The energy norm knows nothing of how slow it is: its
+//! bound on p is `1/sqrt(k)` times that on s. But with `|s| <= g t`, `|p| <= |beta| t + g t^2/2`, and from
+//! the equation `|s'| <= k |p| + c |s| + |phi|` and so on.
 
 use faer::c64;
 
@@ -43,7 +48,7 @@ use super::{
     divided::complex_divided,
 };
 
-/// Radians of the load up to which the power series serves.
+/// Radians of the load, or of the block under a constant load, up to which the power series serves.
 const EARLY: f64 = 1.0;
 /// Its terms: they fall like `j/j!`, and the first one left out is below 1e-20 of the first.
 const TERMS: u32 = 22;
@@ -97,6 +102,9 @@ impl Resonant {
     ///
     /// * `block`: the place of the block.
     pub fn bounds<const N: usize>(&self, block: usize, output: &Output, until: f64) -> [f64; N] {
+        if self.frequency.0 == 0.0 {
+            return self.bounds_of_slow(block, output, until);
+        }
         let (size, rate) = (self.size(), self.rate());
         let (mut norm, mut load) = (size * until, size);
         std::array::from_fn(|_| {
@@ -106,12 +114,32 @@ impl Resonant {
         })
     }
 
+    /// The same for a constant load.
+    fn bounds_of_slow<const N: usize>(&self, block: usize, output: &Output, until: f64) -> [f64; N] {
+        let rows = [block, output.row.len() / 2 + block].map(|place| output.row[place].abs());
+        let [beta, phi] = self.input.map(|value| value.norm());
+        let speed = self.size() * until;
+        let (mut state, mut load) = ([(beta + 0.5 * speed) * until, speed], [beta, phi]);
+        std::array::from_fn(|_| {
+            let [p, s] = state;
+            state = [s + load[0], self.stiffness * p + self.damping * s + load[1]];
+            load = [0.0; 2];
+            rows[0] * p + rows[1] * s
+        })
+    }
+
     /// The same of all derivatives.
     pub fn majorant(&self, block: usize, output: &Output, until: f64) -> Majorant {
         let rate = self.rate().max(self.frequency.0);
         let size = output.value_bound[block] * self.size();
         let further = f64::from(Majorant::DERIVATIVES - 1);
-        Majorant { speed: size * (1.0 + rate * until), rate, acceleration: size * rate * further }
+        let speed = if self.frequency.0 == 0.0 {
+            let [_, speed] = self.bounds_of_slow(block, output, until);
+            speed
+        } else {
+            size * (1.0 + rate * until)
+        };
+        Majorant { speed, rate, acceleration: size * rate * further }
     }
 
     /// `|u|`.
@@ -125,6 +153,12 @@ impl Resonant {
         self.stiffness.sqrt() + self.damping
     }
 
+    /// Whether the power series serves.
+    fn is_early(&self, t: f64) -> bool {
+        let rate = if self.frequency.0 == 0.0 { self.rate() } else { self.frequency.0 };
+        rate * t.abs() <= EARLY
+    }
+
     /// `exp(m t)`.
     fn rotation(&self, t: f64) -> c64 {
         let (sin, cos) = sine_and_cosine(self.frequency.0 * t);
@@ -133,7 +167,7 @@ impl Resonant {
 
     /// `X`.
     fn motion(&self, t: f64, rotation: c64) -> [c64; 2] {
-        if self.frequency.0 * t.abs() <= EARLY {
+        if self.is_early(t) {
             return self.early(t, |now, _| self.input.map(|u| u * now));
         }
         let [motion, _] = self.at_eigenvalues(t, rotation);
@@ -143,7 +177,7 @@ impl Resonant {
     /// `X_f`.
     fn motion_by_frequency(&self, t: f64, rotation: c64) -> [c64; 2] {
         let turning = c64::new(0.0, self.frequency.1);
-        if self.frequency.0 * t.abs() <= EARLY {
+        if self.is_early(t) {
             let load = |row: usize, now: c64, before: c64| {
                 self.input_by_frequency[row] * now + self.input[row] * before * turning * t
             };

@@ -50,13 +50,13 @@ impl Case {
     }
 }
 
-/// Free blocks without damping and with light and heavy damping; blocks at resonance and on both sides of it,
-/// with damping and without, at both ends of what is near.
+/// Free blocks without damping and with light and heavy damping; slow ones, and one that is not; blocks at
+/// resonance and on both sides of it, with damping and without, at both ends of what is near.
 fn cases() -> Vec<Case> {
     let input = [c64::new(0.3, 0.0), c64::new(-1.7, 0.0)];
     let slope = [c64::new(-0.2, 0.0), c64::new(0.9, 0.0)];
-    let free = |c: f64| Case {
-        block: (0.0, c),
+    let constant = |block: (f64, f64)| Case {
+        block,
         order: 0.0,
         frequency_hz: 2.0,
         around_hz: 2.0,
@@ -87,7 +87,9 @@ fn cases() -> Vec<Case> {
         (0.0, 9e-5),
         (1e-5, 1e-7),
     ];
-    [0.0, 1e-9, 0.02, 1.0, 35.0].map(free).into_iter().chain(near.map(resonant)).collect()
+    let free = [0.0, 1e-9, 0.02, 1.0, 35.0].map(|c| (0.0, c));
+    let slow = [(1e-12, 0.0), (1e-6, 1e-4), (3e-3, 0.0), (0.01, 0.09), (2.0, 1.0)];
+    free.into_iter().chain(slow).map(constant).chain(near.map(resonant)).collect()
 }
 
 /// p, s, their derivatives by the frequency, C, S, t C and t S in one system with constant coefficients.
