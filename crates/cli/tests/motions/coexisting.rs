@@ -26,7 +26,7 @@ struct Nearest {
     contacts: f64,
 }
 
-/// One of every branch of the results.
+/// One of every branch of the results, of its stable solutions.
 fn nearest(workshop: &Workshop, frequency_hz: f64) -> Vec<Nearest> {
     let text = workshop.csv("results");
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -35,7 +35,8 @@ fn nearest(workshop: &Workshop, frequency_hz: f64) -> Vec<Nearest> {
         row[index].parse::<f64>().unwrap()
     };
     let mut found: Vec<Nearest> = Vec::new();
-    for row in &rows[1..] {
+    let stable = rows[0].iter().position(|column| *column == "stable").unwrap();
+    for row in rows[1..].iter().filter(|row| row[stable] == "true") {
         let new = Nearest {
             branch: number(row, "branch") as u64,
             period: number(row, "period_multiple"),

@@ -86,7 +86,7 @@ pub use quantity::VerifiedQuantity;
 pub use report::{Disagreement, Verification, VerifiedPlace, Worst};
 pub use settings::{TOLERANCE, VerifySettings};
 
-use compare::{Comparison, bound, compare};
+use compare::{Comparison, compare};
 use recompute::{recompute, scales, sensitivity};
 use stored::{StoredRow, StoredRows};
 
@@ -167,9 +167,7 @@ fn compare_with(
     };
     let comparisons = with(0.0);
     let doubtful = |comparison: &Comparison| {
-        let of_multipliers =
-            matches!(comparison.quantity, VerifiedQuantity::Multipliers | VerifiedQuantity::Events);
-        of_multipliers && comparison.difference > bound(comparison.quantity, tolerance)
+        comparison.quantity == VerifiedQuantity::Multipliers && comparison.difference > tolerance
     };
     if !comparisons.iter().any(doubtful) {
         return Ok(comparisons);

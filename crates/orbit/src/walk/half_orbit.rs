@@ -7,8 +7,8 @@
 //! goes to both sides until a multiplier passes -1. The orbit there, run through twice, is the last one of
 //! the branch of doubled period.
 //!
-//! That holds if the flip is near: nothing else is taken for it. At a corner of the path, as at the grazing
-//! of a rigid stop, multipliers jump over -1; that is no flip of this kind.
+//! That holds if the flip is near: nothing else is taken for it. Where a contact grazes, multipliers may jump
+//! over -1: then that grazing is the end.
 
 use hammerbeam_motion::exact::ExactIntegrator;
 use hammerbeam_path::{
