@@ -147,8 +147,8 @@ fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     assert!(figure.contains("marginal dotted"), "the description names them");
 }
 
-/// At a third of the eigenfrequency free vibrations of every phase touch the stop with nothing. Branches with a
-/// contact end there, and no fold is made of rounding on the way.
+/// At a third of the eigenfrequency free vibrations of every phase touch the stop with nothing. Branches with
+/// a contact end there, and no fold is made of rounding on the way.
 #[test]
 fn a_branch_that_comes_to_free_vibrations_ends_there() {
     let workshop = Workshop::exported(FREE);

@@ -3,10 +3,9 @@
 use super::{
     collocation::{FINE, NODES, PLACES, Rule},
     lanes::{add_products, vectorised},
+    parabola::closed_in,
 };
 
-/// Parabolas by which the largest value of a polynomial is closed in.
-pub(super) const PARABOLAS: usize = 6;
 /// Of places where it is as large up to this part, the table of a polynomial does not tell which is the
 /// largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros lie
 /// within the step.
@@ -41,30 +40,13 @@ impl Rule {
         let middle = place.clamp(0.5 * width, 1.0 - 0.5 * width);
         let places = [(middle - width).max(0.0), middle, (middle + width).min(1.0)];
         let found = self.sums(expansion, &places);
-        let mut points: [(f64, f64); 3] = std::array::from_fn(|k| (places[k], found[k].abs()));
-        let mut largest = (value, place);
-        for _ in 0..PARABOLAS {
-            let Some(s) = vertex(points) else { break };
-            let s = s.clamp(0.0, 1.0);
+        let points = std::array::from_fn(|k| (places[k], found[k].abs()));
+        let (place, value) = closed_in(points, (place, value), (0.0, 1.0), |s| {
             let [value] = self.sums(expansion, &[s]);
-            let next = (s, value.abs());
-            if next.1 > largest.0 {
-                largest = (next.1, s);
-            }
-            // Keep the three points around the best.
-            let worst = (0..3).fold(0, |w, k| if points[k].1 < points[w].1 { k } else { w });
-            points[worst] = next;
-        }
-        largest
+            value.abs()
+        });
+        (value, place)
     }
-}
-
-/// Place of the maximum of the parabola through three points, if it has one.
-pub(super) fn vertex([(a, at_a), (b, at_b), (c, at_c)]: [(f64, f64); 3]) -> Option<f64> {
-    let (left, right) = ((at_b - at_a) / (b - a), (at_c - at_b) / (c - b));
-    let curvature = (right - left) / (c - a);
-    let place = 0.5 * (a + b) - 0.5 * left / curvature;
-    (curvature < 0.0 && place.is_finite()).then_some(place)
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use super::{
     ExactIntegrator,
     collocation::NODES,
     course::CourseStep,
-    extremum::{PARABOLAS, vertex},
+    parabola::closed_in,
     step_maximum::{Peak, Peaks},
 };
 
@@ -73,7 +73,8 @@ impl ExactIntegrator {
             let (time, value, more) = match (before, after) {
                 (Some(before), Some(after)) if before + after < 2.0 * here => {
                     let three = [(middle - width, *before), (middle, here), (middle + width, *after)];
-                    let (time, value) = closed_in(three, length, at);
+                    // What is not of the load may bend more over three places than it does.
+                    let (time, value) = closed_in(three, three[1], (0.0, length), at);
                     (time, value, MISSED * amplitude * apart.powi(4))
                 }
                 // The top may lie beside an end of the step, in it or beyond.
@@ -82,21 +83,4 @@ impl ExactIntegrator {
             peaks.add(Peak { piece, step, output, value: value + more, place: place(time) }, value);
         }
     }
-}
-
-/// Time and value of a top between three places, by successive parabolas: what is not of the load may bend
-/// more over three places than it does.
-fn closed_in(mut points: [(f64, f64); 3], length: f64, at: impl Fn(f64) -> f64) -> (f64, f64) {
-    let mut highest = points[1];
-    for _ in 0..PARABOLAS {
-        let Some(time) = vertex(points) else { break };
-        let time = time.clamp(0.0, length);
-        let next = (time, at(time));
-        if next.1 > highest.1 {
-            highest = next;
-        }
-        let worst = (0..3).fold(0, |w, k| if points[k].1 < points[w].1 { k } else { w });
-        points[worst] = next;
-    }
-    highest
 }

@@ -126,8 +126,8 @@ fn turns(
     let (system, scales) = (problem.system(), problem.scale().values().to_vec());
     let (frequency_hz, samples) = (stretch.frequency_hz, &trace.samples);
     let mut turns = Vec::new();
-    // Across an impact the speed jumps from towards the stop to away from it, too, and what a stop held leaves
-    // it with a speed that was zero.
+    // Across an impact the speed jumps from towards the stop to away from it, too, and what a stop held
+    // leaves it with a speed that was zero.
     let is_touched = |element: usize, from: f64, to: f64| {
         let cycles = |seconds: f64| stretch.start + seconds * frequency_hz;
         trace.contacts.iter().any(|contact| {

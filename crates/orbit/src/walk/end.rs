@@ -69,7 +69,8 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
     }
 }
 
-/// What was wrong with the last step, and how unstable the orbit is if that is why: the limits of `shooting.rs`.
+/// What was wrong with the last step, and how unstable the orbit is if that is why: the limits of
+/// `shooting.rs`.
 fn doubt_in_unstable(path: &mut OrbitPath, doubt: String) -> String {
     let largest = largest_multiplier(path);
     if largest < HARDLY_FOLLOWED {
