@@ -7,7 +7,7 @@
 use hammerbeam_motion::{System, exact::ExactIntegrator};
 
 use crate::{
-    FoundOrbits, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    OrbitError, OrbitSettings, PeriodicSolution, Response,
     free_vibration::free_vibration,
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
@@ -27,6 +27,17 @@ pub(crate) struct Known {
     phases: Vec<Vec<f64>>,
     /// Whether its branch has been followed.
     pub followed: bool,
+}
+
+/// What a search has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundOrbits {
+    /// The orbits, in the order that the search promises.
+    pub orbits: Vec<PeriodicSolution>,
+    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its
+    /// bound, or an interruption; or why one of the orbits stands for a family of them
+    /// ([`OrbitError::FreeVibration`]).
+    pub incomplete: Option<OrbitError>,
 }
 
 /// The orbits known at one frequency.

@@ -14,7 +14,7 @@
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
     beginning::beginning_near,
     catalogue::Catalogue,
     crossings::Branches,
@@ -50,17 +50,6 @@ const HALVINGS: u32 = 2;
 const LADDER: [f64; 9] = [0.5, 0.25, 0.75, 0.125, 0.875, 0.375, 0.625, 0.0, 1.0];
 /// Motion spent at each of them.
 const ELSEWHERE_EFFORT: Effort = Effort { starts: 3, attempts: 3 };
-
-/// What a search has found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FoundOrbits {
-    /// The orbits, in the order that the search promises.
-    pub orbits: Vec<PeriodicSolution>,
-    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its
-    /// bound, or an interruption; or why one of the orbits stands for a family of them
-    /// ([`OrbitError::FreeVibration`]).
-    pub incomplete: Option<OrbitError>,
-}
 
 /// Finds the orbits of minimal period `period_multiple` at `frequency_hz`: stable before unstable, then
 /// largest displacement first.

@@ -140,12 +140,13 @@ mod test_oscillator;
 mod trials;
 mod walk;
 
+pub use catalogue::FoundOrbits;
 pub use continuation_parameter::ContinuationParameter;
 pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
 pub use eigenvalues::{NoEigenvalues, eigenvalues};
 pub use error::OrbitError;
 pub use event_kind::{BranchEventKind, EventSet};
-pub use find::{FoundOrbits, find_orbits};
+pub use find::find_orbits;
 pub use free::{FreeOrbit, free_orbit};
 pub use free_vibration::free_vibration;
 pub use hammerbeam_path::PathError;

@@ -45,8 +45,8 @@
 //! * `near_miss.rs`: least clearance of flights, least speed of touches, least penetration between two
 //!   presses: what vanishes at grazing.
 //! * `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `step_waves.rs`, `extremum.rs`, `parabola.rs`,
-//!   `sampling.rs`, `defect.rs`: maxima on the continuous motion, reading inside a step, and what its polynomials leave of a
-//!   force there.
+//!   `sampling.rs`, `defect.rs`: maxima on the continuous motion, reading inside a step, and what its
+//!   polynomials leave of a force there.
 //! * `trace.rs`: states at given phases, and every contact with its impulse and the energy it took.
 //! * `tracing.rs`: what each piece of motion adds to that.
 //! * `panels.rs`: a motion in smooth panels, for integrals over it and its extrema.

@@ -75,7 +75,8 @@ pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     let step = distance(&attempt.frame.weights, &attempt.state.base().point, &attempt.trial.node.point);
     let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
     let rounding = ROUNDED * attempt.trial.node.point.last().map_or(0.0, |parameter| parameter.abs());
-    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && slope.abs() * step > rounding
+    let way = step.max(settings.sheet_distance);
+    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && slope.abs() * way > rounding
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
