@@ -3,12 +3,10 @@
 //! lie where the linear response reaches the gap.
 use std::f64::consts::TAU;
 
-use hammerbeam_jobs::StoredBranches;
 use hammerbeam_orbit::StopReason;
 use hammerbeam_results::end::BranchEnd;
-use hammerbeam_study::{Model, StudyFile};
 
-use crate::common::{Workshop, assert_success, number};
+use crate::common::{Workshop, assert_success, number, stored};
 
 /// Two masses in a row with 2 % of damping, one stop: coming down, a walk on states alone lost its way at the
 /// corner at 0.04695 Hz, and another branch held the same orbits.
@@ -222,13 +220,6 @@ const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
 fn shares(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
-}
-
-/// The model of a study and the branches of its results.
-fn stored(workshop: &Workshop) -> (Model, StoredBranches) {
-    let file = StudyFile::read(&workshop.path("study.toml")).unwrap();
-    let branches = StoredBranches::open(&workshop.path("results"), &file).unwrap();
-    (Model::build(&file).unwrap(), branches)
 }
 
 /// How a branch ends that is whole.

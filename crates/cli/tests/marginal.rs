@@ -4,7 +4,10 @@
 
 use std::fs;
 
-use crate::common::{Workshop, assert_success, number, stdout};
+use hammerbeam_orbit::StopReason;
+use hammerbeam_results::end::BranchEnd;
+
+use crate::common::{Workshop, assert_success, stdout, stored};
 
 /// One undamped mass about a third of its eigenfrequency, where free vibrations repeat with the motion.
 const FREE: &str = r#"
@@ -153,16 +156,24 @@ fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
 fn a_branch_that_comes_to_free_vibrations_ends_there() {
     let workshop = Workshop::exported(FREE);
     let third = (55.0_f64 / 1.4).sqrt() / std::f64::consts::TAU / 3.0;
-    let ends = workshop.table("results/export/ends.csv");
-    let free: Vec<_> = ends.iter().filter(|end| end["end"] == "unbounded").collect();
-    assert_eq!(free.len(), 2, "{ends:?}");
-    for end in free {
-        assert!((number(end, "frequency_hz") - third).abs() < 1e-9 * third, "{end:?}");
-        assert!(end["message"].contains("mode 1"), "{end:?}");
+    let (_, branches) = stored(&workshop);
+    let sides = branches.branches().iter().flat_map(|branch| [&branch.record.up, &branch.record.down]);
+    let mut free = 0;
+    for side in sides {
+        match side.end.as_ref().unwrap() {
+            BranchEnd::Walk(StopReason::Unbounded { frequency_hz, mode: Some(mode) }) => {
+                assert!((frequency_hz - third).abs() < 1e-9 * third && mode.number == 1, "{mode:?}");
+                free += 1;
+            }
+            BranchEnd::Walk(StopReason::RangeEnd { .. }) => {}
+            other => panic!("{other:?}"),
+        }
     }
-    assert!(ends.iter().all(|end| ["unbounded", "range-end"].contains(&end["end"].as_str())), "{ends:?}");
-    let events = workshop.table("results/export/events.csv");
-    assert!(events.iter().all(|event| !event["event"].contains("fold")), "{events:?}");
+    assert_eq!(free, 2);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
+    let branches = document["branches"].as_array().unwrap();
+    assert!(branches.iter().all(|branch| branch["folds"].as_u64() == Some(0)), "{document}");
 }
 
 #[test]

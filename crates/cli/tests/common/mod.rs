@@ -14,6 +14,8 @@ use std::{
 };
 
 use assert_cmd::Command;
+use hammerbeam_jobs::StoredBranches;
+use hammerbeam_study::{Model, StudyFile};
 pub use hammerbeam_testkit::{SeededNumbers, extensive};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -87,6 +89,13 @@ steps = 100
 
 /// A row of a table by the names of its columns.
 pub type Row = BTreeMap<String, String>;
+
+/// The model of a study and the branches of its results.
+pub fn stored(workshop: &Workshop) -> (Model, StoredBranches) {
+    let file = StudyFile::read(&workshop.path("study.toml")).unwrap();
+    let branches = StoredBranches::open(&workshop.path("results"), &file).unwrap();
+    (Model::build(&file).unwrap(), branches)
+}
 
 /// A number of a row.
 pub fn number(row: &Row, key: &str) -> f64 {

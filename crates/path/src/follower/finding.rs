@@ -74,7 +74,7 @@ pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     let left = attempt.problem.judge().distance_to_simpler(&attempt.trial.point);
     let step = distance(&attempt.frame.weights, &attempt.state.base().point, &attempt.trial.node.point);
     let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
-    let rounding = ROUNDED * attempt.trial.node.point.last().map_or(0.0, |parameter| parameter.abs());
+    let rounding = ROUNDED * attempt.trial.parameter().abs();
     let way = step.max(settings.sheet_distance);
     slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && slope.abs() * way > rounding
 }
