@@ -59,7 +59,7 @@ impl ExactIntegrator {
         precision: f64,
     ) -> Option<()> {
         self.counts.solves += 1;
-        let (unknowns, states) = (NODES * self.step.active.len(), 2 * self.blocks.count());
+        let (unknowns, states) = (NODES * self.step.coinciding.first().len(), 2 * self.blocks.count());
         self.counts.operations += (unknowns * unknowns * unknowns / 3 + unknowns * states) as u64;
         let before = self.step.length;
         self.step.known_ends.clear();

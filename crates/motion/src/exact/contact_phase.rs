@@ -146,7 +146,13 @@ impl ExactIntegrator {
                 self.step.active.push(element);
             }
         }
-        self.step.damped = self.step.active.iter().any(|&e| self.laws[e].depends_on_velocity());
+        let step = &mut self.step;
+        step.damped = step.active.iter().any(|&e| self.laws[e].depends_on_velocity());
+        if step.damped || step.has_holes() {
+            step.coinciding.part(step.active.len());
+        } else {
+            step.coinciding.set(&step.active, &self.outputs, &self.inputs);
+        }
     }
 
     /// How a step is graded; a step from a touch that ends with a release cannot be.

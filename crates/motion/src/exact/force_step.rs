@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::{
+    coinciding::Coinciding,
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
     lanes::{add_products, fixed_dot, raise, vectorised},
@@ -19,7 +20,7 @@ use super::{
     step_error::{Tail, Unresolved},
     weights::StepWeights,
 };
-use crate::{Law, Parameter};
+use crate::{Law, LawConstant, Parameter};
 
 /// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom
 /// longer.
@@ -37,6 +38,7 @@ pub(crate) struct ForceStep {
     /// Start of the step in the time of the stretch [s].
     pub start: f64,
     pub active: Vec<usize>,
+    pub(super) coinciding: Coinciding,
     /// Outputs at its end that were read, apart from the direct part of the forces.
     pub known_ends: Vec<(usize, Jet)>,
     pub displacement: Vec<f64>,
@@ -208,6 +210,9 @@ impl ForceStep {
         if self.damped {
             return self.solve_damped_sensitivity(drive, (laws, outputs), sensitivity, parameter);
         }
+        if matches!(parameter, Some(Parameter::OfLaw { constant: LawConstant::Gap, .. })) {
+            self.coinciding.part(self.active.len());
+        }
         self.factorise()?;
         let columns = sensitivity.columns();
         let size = self.active.len() * NODES;
@@ -226,11 +231,12 @@ impl ForceStep {
         if let Some((parameter, column)) = column {
             self.add_parameter(parameter, drive, (laws, outputs), (column, columns));
         }
-        if self.active.len() == 1 {
-            self.fixed_lu.solve_rows(&mut self.work, columns);
-        } else {
-            self.lu.solve(&mut self.work, columns);
+        self.coinciding.gather(&mut self.work, columns);
+        match self.coinciding.first().len() {
+            1 => self.fixed_lu.solve_rows(&mut self.work[..NODES * columns], columns),
+            unknowns => self.lu.solve_rows(&mut self.work[..unknowns * NODES * columns], columns),
         }
+        self.coinciding.spread(&mut self.work, columns);
         self.turn_into_forces(columns);
         if let Some((parameter, column)) = column {
             self.add_direct_part(parameter, laws, (column, columns));

@@ -1,6 +1,6 @@
 //! A small dense LU factorisation for the forces of a step.
 
-use super::lanes::{add_to_row, vectorised};
+use super::lanes::{add_to_row, dot, vectorised};
 
 /// `P A = L U` of a small square matrix, row by row.
 #[derive(Debug, Clone, Default)]
@@ -19,6 +19,15 @@ impl SmallLu {
         self.factors.resize(size * size, 0.0);
         self.pivots.clear();
         fill(&mut self.factors);
+        vectorised(
+            #[inline(always)]
+            || self.eliminate(),
+        )
+    }
+
+    #[inline(always)]
+    fn eliminate(&mut self) -> Option<()> {
+        let size = self.size;
         for k in 0..size {
             let magnitude = |row: usize| self.factors[row * size + k].abs();
             let pivot =
@@ -43,34 +52,40 @@ impl SmallLu {
         Some(())
     }
 
-    /// Solves in place for `columns` right-hand sides stored row by row (`[row * columns + column]`).
-    pub fn solve(&self, right: &mut [f64], columns: usize) {
-        let size = self.size;
-        // All exchanges first: later ones have moved the factors of earlier columns too.
-        for (k, &pivot) in self.pivots.iter().enumerate() {
-            if pivot != k {
-                let (upper, lower) = right.split_at_mut(pivot * columns);
-                upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
-            }
-        }
-        for k in 0..size {
-            let (upper, lower) = right.split_at_mut((k + 1) * columns);
-            let top = &upper[k * columns..];
-            for (row, target) in lower.chunks_exact_mut(columns).enumerate() {
-                let factor = self.factors[(k + 1 + row) * size + k];
-                target.iter_mut().zip(top).for_each(|(r, t)| *r -= factor * t);
-            }
-        }
-        for k in (0..size).rev() {
-            let (upper, lower) = right.split_at_mut((k + 1) * columns);
-            let target = &mut upper[k * columns..];
-            for (row, source) in lower[..(size - k - 1) * columns].chunks_exact(columns).enumerate() {
-                let factor = self.factors[k * size + k + 1 + row];
-                target.iter_mut().zip(source).for_each(|(r, t)| *r -= factor * t);
-            }
-            let inverse = 1.0 / self.factors[k * size + k];
-            target.iter_mut().for_each(|r| *r *= inverse);
-        }
+    /// Solves in place.
+    pub fn solve(&self, right: &mut [f64]) {
+        self.pivots.iter().enumerate().for_each(|(k, &pivot)| right.swap(k, pivot));
+        vectorised(
+            #[inline(always)]
+            || {
+                let rows = self.factors.chunks_exact(self.size.max(1)).enumerate();
+                for (k, row) in rows.clone() {
+                    right[k] -= dot(&row[..k], right);
+                }
+                for (k, row) in rows.rev() {
+                    right[k] = (right[k] - dot(&row[k + 1..], &right[k + 1..])) / row[k];
+                }
+            },
+        );
+    }
+
+    /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row *
+    /// columns + column]`).
+    pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
+        exchange_rows(&self.pivots, right, columns);
+        let row = |i: usize| &self.factors[i * self.size..(i + 1) * self.size];
+        substitute(
+            right,
+            columns,
+            (
+                #[inline(always)]
+                |i| row(i)[..i].iter().map(|factor| -factor),
+                #[inline(always)]
+                |i| row(i)[i + 1..].iter().map(|factor| -factor),
+                #[inline(always)]
+                |i| 1.0 / row(i)[i],
+            ),
+        );
     }
 }
 
@@ -166,42 +181,76 @@ impl<const N: usize> FixedLu<N> {
     /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row *
     /// columns + column]`).
     pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
-        for (k, &pivot) in self.pivots.iter().enumerate() {
-            if pivot != k {
-                let (upper, lower) = right.split_at_mut(pivot * columns);
-                upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
-            }
+        exchange_rows(&self.pivots, right, columns);
+        substitute(
+            right,
+            columns,
+            (
+                #[inline(always)]
+                |i| self.lower_columns[..i].iter().map(move |column| -column[i]),
+                #[inline(always)]
+                |i| self.upper[i][i + 1..].iter().map(|factor| -factor),
+                #[inline(always)]
+                |i| self.inverse[i],
+            ),
+        );
+    }
+}
+
+/// All exchanges, before anything else: later ones have moved the factors of earlier columns too.
+fn exchange_rows(pivots: &[usize], right: &mut [f64], columns: usize) {
+    for (k, &pivot) in pivots.iter().enumerate() {
+        if pivot != k {
+            let (upper, lower) = right.split_at_mut(pivot * columns);
+            upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
         }
-        pulp::Arch::new().dispatch(Substitution { lu: self, right, columns });
     }
 }
 
 /// Both substitutions for several right-hand sides at once.
-struct Substitution<'a, const N: usize> {
-    lu: &'a FixedLu<N>,
-    right: &'a mut [f64],
+///
+/// * `factors`: of row i the negative entries of L before its diagonal, those of U behind it, and the inverse
+///   of the diagonal entry of U.
+#[inline(always)]
+fn substitute<L, U>(
+    right: &mut [f64],
     columns: usize,
+    factors: (impl Fn(usize) -> L, impl Fn(usize) -> U, impl Fn(usize) -> f64),
+) where
+    L: Iterator<Item = f64> + Clone,
+    U: Iterator<Item = f64> + Clone,
+{
+    pulp::Arch::new().dispatch(Substitution { right, columns, factors });
 }
 
-impl<const N: usize> pulp::WithSimd for Substitution<'_, N> {
+struct Substitution<'a, F> {
+    right: &'a mut [f64],
+    columns: usize,
+    factors: F,
+}
+
+impl<L, U, Lower, Upper, Inverse> pulp::WithSimd for Substitution<'_, (Lower, Upper, Inverse)>
+where
+    L: Iterator<Item = f64> + Clone,
+    U: Iterator<Item = f64> + Clone,
+    Lower: Fn(usize) -> L,
+    Upper: Fn(usize) -> U,
+    Inverse: Fn(usize) -> f64,
+{
     type Output = ();
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
-        let Self { lu, right, columns } = self;
-        for i in 1..N {
+        let Self { right, columns, factors: (lower, upper, inverse) } = self;
+        let size = right.len() / columns;
+        for i in 1..size {
             let (known, open) = right.split_at_mut(i * columns);
-            add_to_row(
-                simd,
-                &mut open[..columns],
-                known,
-                lu.lower_columns[..i].iter().map(|column| -column[i]),
-            );
+            add_to_row(simd, &mut open[..columns], known, lower(i));
         }
-        for i in (0..N).rev() {
+        for i in (0..size).rev() {
             let (open, known) = right.split_at_mut((i + 1) * columns);
-            let target = &mut open[i * columns..];
-            add_to_row(simd, target, known, lu.upper[i][i + 1..].iter().map(|factor| -factor));
-            target.iter_mut().for_each(|t| *t *= lu.inverse[i]);
+            let (target, factor) = (&mut open[i * columns..], inverse(i));
+            add_to_row(simd, target, known, upper(i));
+            target.iter_mut().for_each(|t| *t *= factor);
         }
     }
 }
@@ -215,12 +264,16 @@ mod tests {
         let matrix = [0.0, 2.0, 1.0, 1.0, 1e-3, 3.0, 4.0, 1.0, 0.5];
         let mut lu = SmallLu::default();
         lu.factorise(3, |m| m.copy_from_slice(&matrix)).unwrap();
-        let mut x = [1.0, 4.0, 2.0, 5.0, 3.0, 6.0];
-        lu.solve(&mut x, 2);
-        for (row, expected) in [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].iter().enumerate() {
-            for column in 0..2 {
-                let sum: f64 = (0..3).map(|k| matrix[row * 3 + k] * x[k * 2 + column]).sum();
-                assert!((sum - expected[column]).abs() < 1e-14);
+        let rights = [[1.0, 4.0, -1.0, 0.0], [2.0, 5.0, 3.0, 1.0], [3.0, 6.0, 7.0, -2.0]];
+        let mut x = rights.as_flattened().to_vec();
+        lu.solve_rows(&mut x, 4);
+        for column in 0..4 {
+            let mut single = rights.map(|row| row[column]);
+            lu.solve(&mut single);
+            for (row, right) in rights.iter().enumerate() {
+                let sum: f64 = (0..3).map(|k| matrix[row * 3 + k] * x[k * 4 + column]).sum();
+                assert!((sum - right[column]).abs() < 1e-14);
+                assert!((single[row] - x[row * 4 + column]).abs() < 1e-14);
             }
         }
     }
@@ -235,7 +288,7 @@ mod tests {
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
         let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
         let mut expected = single.to_vec();
-        variable.solve(&mut expected, 1);
+        variable.solve(&mut expected);
         for columns in [4, 12, 16] {
             let mut rows: Vec<f64> =
                 (0..6 * columns).map(|i| single[i / columns] * (1 + i % columns) as f64).collect();

@@ -60,6 +60,7 @@ mod by_family;
 mod by_parameter;
 mod change;
 mod clearance;
+mod coinciding;
 mod collocation;
 mod contact_phase;
 mod course;

@@ -34,7 +34,7 @@ impl ForceStep {
         let size = self.free.len();
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
-        self.correction.resize(size, 0.0);
+        self.coinciding.equalise(&mut self.displacement);
         self.evaluate(laws);
         if !again {
             self.improve_guess(laws);
@@ -47,11 +47,13 @@ impl ForceStep {
             }
             self.solve_correction();
             let (mut largest, mut range, mut sum) = (0.0_f64, 0.0_f64, 0.0);
-            for i in 0..size {
-                self.displacement[i] -= self.correction[i];
-                sum += self.correction[i];
-                largest = largest.max(self.correction[i].abs());
-                range = range.max((self.displacement[i] - self.displacement[0]).abs());
+            for correction in &self.correction {
+                sum += correction;
+                largest = largest.max(correction.abs());
+            }
+            self.correct();
+            for displacement in &self.displacement {
+                range = range.max((displacement - self.displacement[0]).abs());
             }
             // Maxima pass over what is not a number, sums do not.
             if !largest.is_finite() || sum.is_nan() {
@@ -79,14 +81,15 @@ impl ForceStep {
     /// where the step is short against the period of the loaded contact: an error of the guess grows with a
     /// power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
     fn improve_guess(&mut self, laws: &[Law]) {
-        let count = self.active.len();
+        let count = self.coinciding.first().len();
         let mut before = f64::INFINITY;
         for _ in 0..MAX_SUBSTITUTIONS {
             let gain = |w: &NodeMatrix, slope: &[f64]| -> f64 {
                 w.iter().zip(slope).map(|(w, slope)| (w[NODES - 1] * slope).abs()).sum()
             };
-            let slopes = || self.slope.chunks_exact(NODES).cycle();
-            let largest = self.weights.convolution.iter().zip(slopes()).map(|(w, slope)| gain(w, slope));
+            let slopes = self.coinciding.summed(&self.slope);
+            let largest =
+                self.convolutions().zip(slopes.chunks_exact(NODES).cycle()).map(|(w, slope)| gain(w, slope));
             if largest.fold(0.0, f64::max) * count as f64 > SHORT {
                 return;
             }
@@ -95,19 +98,33 @@ impl ForceStep {
             if size.is_nan() || size > 0.5 * before {
                 return;
             }
-            self.displacement.iter_mut().zip(&self.correction).for_each(|(r, defect)| *r -= defect);
+            self.correct();
             self.evaluate(laws);
             before = size;
         }
     }
 
+    /// Between displacements that differ, row by row.
+    fn convolutions(&self) -> impl Iterator<Item = &NodeMatrix> {
+        let (first, count) = (self.coinciding.first(), self.active.len());
+        first.iter().flat_map(move |a| first.iter().map(move |b| &self.weights.convolution[a * count + b]))
+    }
+
+    fn correct(&mut self) {
+        let corrections = self.correction.as_chunks::<NODES>().0;
+        let displacements = self.displacement.as_chunks_mut::<NODES>().0;
+        for (nodes, &unknown) in displacements.iter_mut().zip(self.coinciding.unknown()) {
+            nodes.iter_mut().zip(&corrections[unknown]).for_each(|(r, correction)| *r -= correction);
+        }
+    }
+
     pub(super) fn solve_correction(&mut self) {
-        if let [_] = self.active.as_slice() {
+        if let [_] = self.coinciding.first() {
             let mut right: [f64; NODES] = std::array::from_fn(|k| self.correction[k]);
             self.fixed_lu.solve(&mut right);
             self.correction.copy_from_slice(&right);
         } else {
-            self.lu.solve(&mut self.correction, 1);
+            self.lu.solve(&mut self.correction);
         }
     }
 
@@ -134,14 +151,17 @@ impl ForceStep {
         }
     }
 
-    /// `r - r_free - W f(r)`.
+    /// `r - r_free - W f(r)` for the displacements that differ.
     fn fill_defect(&mut self) {
-        let count = self.active.len();
-        self.correction.clear();
-        self.correction.extend(self.displacement.iter().zip(&self.free).map(|(r, free)| r - free));
-        let targets = self.correction.as_chunks_mut::<NODES>().0.iter_mut();
-        for (target, convolutions) in targets.zip(self.weights.convolution.chunks_exact(count.max(1))) {
-            for (w, force) in convolutions.iter().zip(self.force.as_chunks::<NODES>().0) {
+        let Self { coinciding, correction, weights, .. } = self;
+        let (first, count) = (coinciding.first(), self.active.len());
+        let forces = coinciding.summed(&self.force);
+        correction.resize(first.len() * NODES, 0.0);
+        for (target, &a) in correction.as_chunks_mut::<NODES>().0.iter_mut().zip(first) {
+            let at = |k: usize| a * NODES + k;
+            *target = std::array::from_fn(|k| self.displacement[at(k)] - self.free[at(k)]);
+            for (&b, force) in first.iter().zip(forces.as_chunks::<NODES>().0) {
+                let w = &weights.convolution[a * count + b];
                 add_products(target, w.as_flattened(), NODES, |_| force.iter().map(|f| -f));
             }
         }
@@ -149,7 +169,9 @@ impl ForceStep {
 
     /// Factorises `I - W f'`.
     pub(super) fn factorise(&mut self) -> Result<(), NotSolved> {
-        let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
+        let (first, active) = (self.coinciding.first(), self.active.len());
+        let (count, weights) = (first.len(), &self.weights);
+        let slope = self.coinciding.summed(&self.slope);
         let (holes, cross) = (&self.holes, &self.cross);
         if count == 1 {
             let (convolution, slope) = (&weights.convolution[0], &slope[..NODES]);
@@ -172,7 +194,7 @@ impl ForceStep {
         let fill = |matrix: &mut [f64]| {
             for a in 0..count {
                 for b in 0..count {
-                    let convolution = &weights.convolution[a * count + b];
+                    let convolution = &weights.convolution[first[a] * active + first[b]];
                     for k in 0..NODES {
                         for j in 0..NODES {
                             matrix[(a * NODES + k) * size + b * NODES + j] =
@@ -183,8 +205,8 @@ impl ForceStep {
             }
             (0..size).for_each(|i| matrix[i * size + i] += 1.0);
             // The derivative of one direction's force by the displacement in the other.
-            for (first, a) in holes.iter().flat_map(|hole| (0..count).map(move |a| (*hole, a))) {
-                for (b, other) in [(first, first + 1), (first + 1, first)] {
+            for (hole, a) in holes.iter().flat_map(|hole| (0..count).map(move |a| (*hole, a))) {
+                for (b, other) in [(hole, hole + 1), (hole + 1, hole)] {
                     let convolution = &weights.convolution[a * count + other];
                     for k in 0..NODES {
                         for j in 0..NODES {
