@@ -11,7 +11,7 @@ use crate::common::{
 };
 use faer::Mat;
 use hammerbeam_motion::{
-    Law, Load, LocalElement, Stretch, System,
+    Law, LawConstant, Load, LocalElement, Parameter, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe, sample},
     law::{
@@ -128,6 +128,41 @@ fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
             assert_eq!((touches as usize, inside[0]), (expected, load != -1.2), "{what}");
             assert!(if load > 0.0 { touches > 1 } else { touches == 1 }, "{what}: {touches}");
             assert!(load != -0.5 || inside.iter().all(|inside| *inside), "{what}");
+        }
+    }
+}
+
+/// Stops at one mass have one displacement, and the columns of a parameter are each stop's own. Stops whose
+/// lever differs by a millionth of a millionth have as many displacements as stops.
+#[test]
+fn columns_of_several_stops_at_a_mass_are_those_of_stops_taken_apart() {
+    let linear = |share: f64, gap: f64| {
+        Law::Linear(LinearStop::with_gap(share * 300.0 * W * W, gap * STATIC).unwrap())
+    };
+    let hertz = Law::Hertz(HertzStop::with_gap(90.0 * W * W / STATIC.sqrt(), 0.1 * STATIC).unwrap());
+    let laws = [linear(0.2, 0.1), linear(0.5, 0.1), linear(0.3, 0.2), hertz];
+    let levers = |apart: f64| [0.0, 1.0, 2.0, 3.0].map(|k| 0.8 * (1.0 + k * apart));
+    let [mut together, mut apart] = [0.0, 1e-12].map(|apart| {
+        let stops: Vec<(f64, Law)> = levers(apart).into_iter().zip(laws.clone()).collect();
+        ExactIntegrator::new(mass(&stops, 2.0), ExactSettings { tolerance: 1e-12 }).unwrap()
+    });
+    let of_law = |element: usize, constant: LawConstant| Parameter::OfLaw { element, constant };
+    let parameters = [
+        Parameter::ExcitationScale,
+        of_law(1, LawConstant::Gap),
+        of_law(3, LawConstant::Gap),
+        of_law(4, LawConstant::Gap),
+        of_law(2, LawConstant::Stiffness),
+    ];
+    let stretch = Stretch { frequency_hz: 3.7, start: 0.0, end: 0.8 };
+    for parameter in parameters {
+        let [found, expected] = [&mut together, &mut apart].map(|integrator| {
+            integrator.differentiate_by(Some(parameter)).unwrap();
+            integrator.flow(&stretch, &[0.4 * STATIC, 0.0]).unwrap()
+        });
+        assert!(together.touches().iter().skip(1).all(|touches| *touches > 1), "{:?}", together.touches());
+        for (found, expected) in found.by_parameter.iter().zip(&expected.by_parameter) {
+            assert!((found - expected).abs() <= 1e-7 * expected.abs(), "{parameter:?}: {found} {expected}");
         }
     }
 }

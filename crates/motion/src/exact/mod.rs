@@ -15,6 +15,7 @@
 //! * `collocation.rs`, `recurrence.rs`: the nodes of a step and its constants.
 //! * `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs`: the matrices of a step.
 //! * `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs`: one step with forces, and its error.
+//! * `coinciding.rs`: elements that read one displacement, an unknown for all of them.
 //! * `damped_step.rs`, `onset.rs`: forces that depend on the velocity; sensitivities where they set in with a
 //!   jump.
 //! * `rounding.rs`: what rounding leaves unknown of the sensitivities behind hard contacts.
