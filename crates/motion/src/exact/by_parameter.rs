@@ -5,9 +5,9 @@
 //!
 //! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to
 //!   `a`.
-//! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V -
-//!   level_g`. The gap of a rigid stop that holds the structure moves the particular solution (`held.rs`).
-//! - Clearance of a hole: the same with the normal, `dF = f' (dr - n)`, since `f' n = (df/drho) n`.
+//! - Gap: `f(r - level)`, so `f_p = -f' level_g`. The gap of a rigid stop that holds the structure moves the
+//!   particular solution (`held.rs`).
+//! - Clearance of a hole: the same with the normal, `f_p = -f' n = -(df/drho) n`.
 //! - Another constant of a law: `f_p` by the law, as `F/k` for a stiffness (of forces that depend on the
 //!   velocity in `damped_step.rs`).
 //! - A number of a family: differences (`by_family.rs`).
@@ -41,20 +41,11 @@ impl ForceStep {
         for (a, &e) in self.active.iter().enumerate() {
             let values: [f64; NODES] = match parameter {
                 Parameter::ExcitationScale => drive.values_by_scale(e, &outputs[e], span, c),
-                Parameter::OfLaw { element, constant: LawConstant::Gap }
-                    if element == hole::owner(laws, e) && laws[element].round_hole().is_some() =>
-                {
-                    self.normals(laws, a).map(|normal| -normal)
-                }
-                Parameter::OfLaw { element, constant: LawConstant::Gap } if element == e => {
-                    std::array::from_fn(|k| -laws[e].level_by_gap(self.displacement[a * NODES + k]))
-                }
                 Parameter::AddedDamping { .. } | Parameter::OfLaw { constant: LawConstant::Gap, .. }
                     if !self.driven.nodes.is_empty() =>
                 {
                     std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
                 }
-                Parameter::OfLaw { constant: LawConstant::Gap, .. } => continue,
                 Parameter::OfLaw { element, constant } => {
                     let Some(b) = self.active.iter().position(|&other| other == element) else { return };
                     let mut values = [0.0; NODES];
@@ -83,9 +74,6 @@ impl ForceStep {
     ) {
         let Parameter::OfLaw { element, constant } = parameter else { return };
         let Some(a) = self.active.iter().position(|&e| e == element) else { return };
-        if constant == LawConstant::Gap {
-            return;
-        }
         for a in a..=a + usize::from(laws[element].round_hole().is_some()) {
             let (part, of) = self.direct(a, constant, laws);
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
@@ -93,18 +81,28 @@ impl ForceStep {
         }
     }
 
-    /// The normal of a hole at the nodes, in the direction of its element that is the a-th active one.
-    fn normals(&self, laws: &[Law], a: usize) -> [f64; NODES] {
-        let first = if laws[self.active[a]].is_across_hole() { a - 1 } else { a };
+    /// Derivative of the force of the a-th active element at the nodes by the gap of its law.
+    fn by_gap(&self, laws: &[Law], a: usize) -> [f64; NODES] {
+        let element = self.active[a];
+        let Some(hole) = laws[hole::owner(laws, element)].round_hole() else {
+            let level = |k: usize| laws[element].level_by_gap(self.displacement[a * NODES + k]);
+            return std::array::from_fn(|k| -self.slope[a * NODES + k] * level(k));
+        };
+        let first = if laws[element].is_across_hole() { a - 1 } else { a };
         std::array::from_fn(|k| {
             let [y, z] = [0, 1].map(|part| self.displacement[(first + part) * NODES + k]);
-            laws[self.active[first]].round_hole().map_or(0.0, |hole| hole.force_at([y, z]).normal[a - first])
+            let normal = hole.force_at([y, z]).normal;
+            let place = a * NODES + k;
+            -self.slope[place] * normal[a - first] - self.cross[place] * normal[1 - (a - first)]
         })
     }
 
     /// `f_p` of the a-th active element at the nodes, times the second number.
     fn direct(&self, a: usize, constant: LawConstant, laws: &[Law]) -> ([f64; NODES], f64) {
         let law = &laws[hole::owner(laws, self.active[a])];
+        if constant == LawConstant::Gap {
+            return (self.by_gap(laws, a), 1.0);
+        }
         if let Some(value) = law.proportional_to(constant) {
             return (std::array::from_fn(|k| self.force[a * NODES + k]), value);
         }

@@ -2,10 +2,10 @@
 //!
 //! Their displacements are equal in every step, so that the equations of the step have one unknown for all of
 //! them: with `R` for the displacements that differ and `F_R` for the sums of the forces there,
-//! `R = R_free + W F_R(R)`. Twenty stops at one mass then cost what one costs in Newton's method.
+//! `R = R_free + W F_R(R)`. Twenty stops at one mass are then solved for as one; the matrices of the step are
+//! still made for each pair of them.
 //!
-//! By a gap the equations of coinciding elements differ (each counts its displacement from its own level);
-//! then, beside holes, and for laws that depend on the velocity all elements are taken apart.
+//! Beside holes and for laws that depend on the velocity all elements are taken apart.
 
 use std::borrow::Cow;
 
@@ -25,12 +25,13 @@ impl Coinciding {
         self.unknown.clear();
         self.first.clear();
         for (a, &e) in active.iter().enumerate() {
-            let same = |&first: &usize| {
-                let (e, f) = (&outputs[e], &outputs[active[first]]);
-                e.row == f.row && e.support_ratios == f.support_ratios
+            let coincides = |&first: &usize| {
+                let f = active[first];
+                outputs[e].row == outputs[f].row
+                    && outputs[e].support_ratios == outputs[f].support_ratios
+                    && inputs[e] == inputs[f]
             };
-            let pressed_alike = |&first: &usize| inputs[active[first]] == inputs[e];
-            let found = self.first.iter().position(|first| same(first) && pressed_alike(first));
+            let found = self.first.iter().position(coincides);
             self.unknown.push(found.unwrap_or(self.first.len()));
             if found.is_none() {
                 self.first.push(a);
@@ -70,16 +71,6 @@ impl Coinciding {
             target.iter_mut().zip(nodes).for_each(|(sum, value)| *sum += value);
         }
         Cow::Owned(sums)
-    }
-
-    /// Gives coinciding elements the values at the nodes of the first of them: guesses know of each law.
-    pub fn equalise(&self, values: &mut [f64]) {
-        for (a, &unknown) in self.unknown.iter().enumerate() {
-            let first = self.first[unknown];
-            if first != a {
-                values.copy_within(first * NODES..(first + 1) * NODES, a * NODES);
-            }
-        }
     }
 
     /// Keeps of rows at the nodes of all active elements those of displacements that differ, at the front.

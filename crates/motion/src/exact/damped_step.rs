@@ -204,11 +204,7 @@ impl ForceStep {
                 }
             }
         }
-        if self.active.len() == 1 {
-            self.fixed_lu.solve_rows(&mut self.work, columns);
-        } else {
-            self.lu.solve_rows(&mut self.work, columns);
-        }
+        self.solve_rows(columns);
         Ok(())
     }
 }

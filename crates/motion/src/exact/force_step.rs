@@ -20,7 +20,7 @@ use super::{
     step_error::{Tail, Unresolved},
     weights::StepWeights,
 };
-use crate::{Law, LawConstant, Parameter};
+use crate::{Law, Parameter};
 
 /// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom
 /// longer.
@@ -210,9 +210,6 @@ impl ForceStep {
         if self.damped {
             return self.solve_damped_sensitivity(drive, (laws, outputs), sensitivity, parameter);
         }
-        if matches!(parameter, Some(Parameter::OfLaw { constant: LawConstant::Gap, .. })) {
-            self.coinciding.part(self.active.len());
-        }
         self.factorise()?;
         let columns = sensitivity.columns();
         let size = self.active.len() * NODES;
@@ -231,12 +228,7 @@ impl ForceStep {
         if let Some((parameter, column)) = column {
             self.add_parameter(parameter, drive, (laws, outputs), (column, columns));
         }
-        self.coinciding.gather(&mut self.work, columns);
-        match self.coinciding.first().len() {
-            1 => self.fixed_lu.solve_rows(&mut self.work[..NODES * columns], columns),
-            unknowns => self.lu.solve_rows(&mut self.work[..unknowns * NODES * columns], columns),
-        }
-        self.coinciding.spread(&mut self.work, columns);
+        self.solve_rows(columns);
         self.turn_into_forces(columns);
         if let Some((parameter, column)) = column {
             self.add_direct_part(parameter, laws, (column, columns));

@@ -34,7 +34,9 @@ impl ForceStep {
         let size = self.free.len();
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
-        self.coinciding.equalise(&mut self.displacement);
+        // Guesses know of each law; coinciding elements have the first one's.
+        self.coinciding.gather(&mut self.displacement, 1);
+        self.coinciding.spread(&mut self.displacement, 1);
         self.evaluate(laws);
         if !again {
             self.improve_guess(laws);
@@ -126,6 +128,16 @@ impl ForceStep {
         } else {
             self.lu.solve(&mut self.correction);
         }
+    }
+
+    /// Solves for the rows in `work`, of `columns` entries for each node of each active element.
+    pub(super) fn solve_rows(&mut self, columns: usize) {
+        self.coinciding.gather(&mut self.work, columns);
+        match self.coinciding.first().len() {
+            1 => self.fixed_lu.solve_rows(&mut self.work[..NODES * columns], columns),
+            unknowns => self.lu.solve_rows(&mut self.work[..unknowns * NODES * columns], columns),
+        }
+        self.coinciding.spread(&mut self.work, columns);
     }
 
     fn evaluate(&mut self, laws: &[Law]) {
