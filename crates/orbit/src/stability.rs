@@ -114,6 +114,10 @@ pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f6
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let (mut left, mut right) = (before.to_vec(), behind.to_vec());
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+    // Either way one lies outside on each side; pairing all of two hundred modes takes as long as the motion.
+    if [before, behind].iter().any(|side| side.iter().all(|pair| beyond(*pair) <= ON_CIRCLE)) {
+        return false;
+    }
     let (mut leaves, mut enters) = (false, false);
     while let Some((one, other)) = nearest_two(&left, &right) {
         let (from, to) = (left.swap_remove(one), right.swap_remove(other));
