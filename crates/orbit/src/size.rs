@@ -23,6 +23,10 @@ use crate::{
 /// States in each excitation period.
 const PER_PERIOD: usize = 8;
 
+/// Least deviation from its mean that an orbit is measured by, relative to its size: tolerances of a motion
+/// are relative to that.
+const LEAST_DEVIATION: f64 = 1e-2;
+
 /// A motion cut at equal phases: an orbit or a guess of one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut<'a> {
@@ -93,8 +97,10 @@ impl<'a> Cut<'a> {
     }
 
     /// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to
-    /// the orbit, as the root of the mean of squares over the states of its first excitation period; infinite
-    /// for an orbit of one excitation period.
+    /// its motion about its mean, as the root of the mean of squares over the states of its first excitation
+    /// period; infinite for an orbit of one excitation period.
+    ///
+    /// A sag that a stop carries is part of the size of an orbit, but not of this.
     ///
     /// At a single phase the orbits of a structure that rests there on its stop are all alike.
     ///
@@ -113,7 +119,8 @@ impl<'a> Cut<'a> {
         let stretch = Stretch { frequency_hz: self.frequency_hz, start, end: phases[count - 1] };
         let states = integrator.trace(&stretch, &self.nodes[0], &phases)?.samples;
         let first = &states[..PER_PERIOD];
-        let size = scale.size_of_motion(first).max(1e-3);
+        let whole = scale.size_of_motion(first).max(1e-3);
+        let size = scale.deviation(first).max(LEAST_DEVIATION * whole);
         let distance = |periods: usize| {
             let later = &states[periods * PER_PERIOD..];
             let squares = first.iter().zip(later).map(|(a, b)| scale.distance(a, b).powi(2));

@@ -112,15 +112,13 @@ pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f6
 /// another one enters, or one that is outside at both points is inside half-way, which the line between them
 /// tells. Which is which is told by their distances, the nearest two first.
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
-    let (mut left, mut right) = (before.to_vec(), behind.to_vec());
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
     // Either way one lies outside on each side; pairing all of two hundred modes takes as long as the motion.
     if [before, behind].iter().any(|side| side.iter().all(|pair| beyond(*pair) <= ON_CIRCLE)) {
         return false;
     }
     let (mut leaves, mut enters) = (false, false);
-    while let Some((one, other)) = nearest_two(&left, &right) {
-        let (from, to) = (left.swap_remove(one), right.swap_remove(other));
+    for (from, to) in nearest_first(before, behind) {
         let outside = beyond(from) > ON_CIRCLE && beyond(to) > ON_CIRCLE;
         if outside && beyond(nearest_to_zero(from, to)) < -WITHIN {
             return true;
@@ -140,13 +138,21 @@ fn nearest_to_zero(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     [from[0] + share * way[0], from[1] + share * way[1]]
 }
 
-/// Places of the two, one of each kind, that are nearest to each other.
-fn nearest_two(left: &[[f64; 2]], right: &[[f64; 2]]) -> Option<(usize, usize)> {
-    let places = (0..left.len()).flat_map(|one| (0..right.len()).map(move |other| (one, other)));
-    let distance = |&(one, other): &(usize, usize)| {
-        (left[one][0] - right[other][0]).hypot(left[one][1] - right[other][1])
-    };
-    places.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+/// Each of the first kind with one of the second, those nearest to each other first.
+fn nearest_first(left: &[[f64; 2]], right: &[[f64; 2]]) -> Vec<([f64; 2], [f64; 2])> {
+    let distance = |(a, b): (usize, usize)| (left[a][0] - right[b][0]).hypot(left[a][1] - right[b][1]);
+    let places = (0..left.len()).flat_map(|a| (0..right.len()).map(move |b| (a, b)));
+    let mut places: Vec<(f64, usize, usize)> = places.map(|(a, b)| (distance((a, b)), a, b)).collect();
+    places.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let (mut left_is_free, mut right_is_free) = (vec![true; left.len()], vec![true; right.len()]);
+    let mut pairs = Vec::new();
+    for (_, a, b) in places {
+        if left_is_free[a] && right_is_free[b] {
+            (left_is_free[a], right_is_free[b]) = (false, false);
+            pairs.push((left[a], right[b]));
+        }
+    }
+    pairs
 }
 
 /// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps

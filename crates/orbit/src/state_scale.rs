@@ -90,6 +90,16 @@ impl StateScale {
         self.size_of_scaled(scaled, states.len())
     }
 
+    /// Root of the mean square of the deviations of states from their mean, relative to the scale.
+    pub fn deviation(&self, states: &[impl AsRef<[f64]>]) -> f64 {
+        let count = states.len() as f64;
+        let mean: Vec<f64> = (0..self.scales.len())
+            .map(|i| states.iter().map(|z| z.as_ref()[i]).sum::<f64>() / count)
+            .collect();
+        let squares: f64 = states.iter().map(|state| self.distance(state.as_ref(), &mean).powi(2)).sum();
+        (squares / count).sqrt()
+    }
+
     /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the
     /// origin, whichever is less.
     pub fn size(&self, state: &[f64]) -> f64 {
