@@ -64,6 +64,29 @@ gap_m = 1.0
 side = "below"
 "#;
 
+/// A mass between two stops with 1.2 % of damping: both impacts behind the grazing of its symmetric orbit
+/// multiply what is between two motions, by `1/v` each. A first point as near as behind one impact was lost.
+const LIGHTLY_BETWEEN_STOPS: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m", mass_kg = 0.45 }]
+spring = [{ between = ["m", "ground"], stiffness_n_m = 130.0 }]
+[damping]
+modal_ratio = 0.012
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 0.9
+frequency_hz = [4.2, 5.5]
+[[stop]]
+name = "walls"
+at = "m"
+law = "rigid"
+restitution = 0.65
+side = "both"
+gap_m = 4.0e-3
+"#;
+
 /// Two masses with 1 % of damping. A branch of period 3 passes a corner onto itself some periods later, and
 /// was stored three times; one of period 2 went on as the harmonic orbit that it meets where that grazes.
 /// Three walks end in chatter.
@@ -247,6 +270,22 @@ fn a_branch_goes_on_across_corners_and_no_other_one_holds_its_orbits() {
 #[test]
 fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4), WHOLE);
+}
+
+#[test]
+fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
+    let workshop = Workshop::exported(LIGHTLY_BETWEEN_STOPS);
+    assert_whole(&workshop, (4.2, 5.5), WHOLE);
+    let events = workshop.table("results/export/events.csv");
+    let grazings = events.iter().filter(|row| row["event"].contains("grazing"));
+    // The linear response of `k - m W^2 + i c W` reaches the gap.
+    let distance = |row: &crate::common::Row| {
+        let w = TAU * number(row, "frequency_hz");
+        let stiffness = (130.0 - 0.45 * w * w).hypot(2.0 * 0.012 * (130.0_f64 * 0.45).sqrt() * w);
+        0.9 / stiffness / 4.0e-3 - 1.0
+    };
+    let off: Vec<f64> = grazings.map(distance).collect();
+    assert!(off.len() == 1 && off[0].abs() < 1e-8, "{off:?}");
 }
 
 #[test]

@@ -143,7 +143,7 @@ fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary
         peaks.add(&row);
         Ok(())
     })?;
-    summary.peaks = peaks.found;
+    summary.peaks = peaks.finish();
     Ok(summary)
 }
 
@@ -165,11 +165,20 @@ struct PeakFinder {
     highest: Option<Peak>,
     lowest: Option<f64>,
     rising: bool,
+    largest: f64,
 }
 
 impl PeakFinder {
+    /// The peaks, without those of rounding: where the point rests on a rigid stop, its displacement is zero
+    /// but for that.
+    fn finish(mut self) -> Vec<Peak> {
+        self.found.retain(|peak| peak.max_abs_displacement_m > EQUAL * self.largest);
+        self.found
+    }
+
     fn add(&mut self, row: &Row) {
         let value = row.maxima.displacement;
+        self.largest = self.largest.max(value);
         let lowest = self.lowest.get_or_insert(value);
         *lowest = lowest.min(value);
         let rise = PROMINENCE * value.max(*lowest);
@@ -242,7 +251,12 @@ mod tests {
     fn peaks(values: &[f64]) -> Vec<f64> {
         let mut finder = PeakFinder::default();
         values.iter().enumerate().for_each(|(index, value)| finder.add(&row(index as f64, *value)));
-        finder.found.iter().map(|peak| peak.frequency_hz).collect()
+        finder.finish().iter().map(|peak| peak.frequency_hz).collect()
+    }
+
+    #[test]
+    fn what_rounding_makes_of_a_point_at_rest_is_no_peak() {
+        assert_eq!(peaks(&[0.0, 8e-15, 0.0, 4e-15, 2e-15, 3e-3, 1e-3]), [5.0]);
     }
 
     #[test]

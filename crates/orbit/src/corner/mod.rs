@@ -50,6 +50,10 @@ const SLOWEST: f64 = 3e-7;
 const SLOWER: [f64; 3] = [1.0, 0.1, 0.03];
 /// Distance from the corner at which that point lies if it can, relative to the orbit.
 const NEAR: f64 = 1e-5;
+/// How many times faster and farther that is where several touches become impacts at once: each multiplies
+/// what is between two motions by one over its speed. From 1e8 or so rounding of a state is more than the
+/// tolerance after a period.
+const AT_ONCE_FASTER: f64 = 30.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// So many touches are tried, those nearest to grazing first.
@@ -160,6 +164,8 @@ impl Search {
         unknowns: &Unknowns,
         corner: &[f64],
     ) -> Option<Vec<[Vec<f64>; 2]>> {
+        let faster = if equations.elements.len() > 1 { AT_ONCE_FASTER } else { 1.0 };
+        let (slow, near) = (faster * self.slow, faster * NEAR);
         let hertz_per_norm = equations.hertz_per_norm();
         let mut point = |speed: f64| {
             let beside = Beside::WithImpact { speed };
@@ -167,10 +173,10 @@ impl Search {
             equations.point(&solution, beside)
         };
         // A touch near by may not leave room for the first.
-        let slower = |share: f64| (share * self.slow).max(SLOWEST);
+        let slower = |share: f64| (share * slow).max(SLOWEST);
         let (speed, first) = SLOWER.into_iter().map(slower).find_map(|speed| Some((speed, point(speed)?)))?;
         let far = relative_distance(&first, corner, hertz_per_norm);
-        let slow = (speed * (NEAR / far).min(1.0)).max(SLOWEST);
+        let slow = (speed * (near / far).min(1.0)).max(SLOWEST);
         let points = FASTER.map(|factor| point(factor * slow));
         self.evaluations += equations.evaluations();
         Some(points.into_iter().flatten().map(|point| [point.clone(), point]).collect())

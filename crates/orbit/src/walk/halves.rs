@@ -7,8 +7,10 @@
 //! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
 //!
 //! The phases at which a cut orbit begins and is cut must all be clear of impacts. Where an impact comes
-//! near one of them the orbit is made one segment again, whose begin may move. A branch of doubled period
-//! begins with twice the segments of the orbit that it leaves: with four, where that one was cut.
+//! near one of them the orbit is made one segment again, whose begin may move. An orbit of one segment with
+//! an impact near its ends, as behind the corner of two stops, is cut elsewhere (`recut.rs`). A branch of
+//! doubled period begins with twice the segments of the orbit that it leaves: with four, where that one was
+//! cut.
 
 use hammerbeam_path::{ContinuationPoint, Node};
 
@@ -22,7 +24,7 @@ use crate::cut::{contacts, folded, longest_of_orbit};
 /// second segment, and there may be no room for it.
 pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     let of_rigid_stops = path.problem.system().has_rigid_stops();
-    if path.problem.segments() != 1 || !of_rigid_stops || ends_are_clear(path, 2) != Some(true) {
+    if path.problem.segments() != 1 || !of_rigid_stops || offset_to_clear_ends(path, 2) != Some(0.0) {
         return false;
     }
     let OrbitPath { problem, follower, .. } = path;
@@ -38,7 +40,7 @@ pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
 /// is to be found again.
 pub(super) fn join_at_contacts(path: &mut OrbitPath) {
     let segments = path.problem.segments();
-    if ends_are_clear(path, segments) == Some(true) && !path.is_near_lost_start() {
+    if offset_to_clear_ends(path, segments) == Some(0.0) && !path.is_near_lost_start() {
         return;
     }
     let size = path.problem.node_size();
@@ -48,9 +50,10 @@ pub(super) fn join_at_contacts(path: &mut OrbitPath) {
     go_on_with(path, 1, &current, start.as_ref());
 }
 
-/// Whether the ends of so many segments of the present orbit are clear of impacts; none where it has a
-/// single one, for which more than one are of no use, or cannot be followed.
-fn ends_are_clear(path: &mut OrbitPath, segments: usize) -> Option<bool> {
+/// By how much later the present orbit would have to begin for the ends of so many segments to be clear of
+/// impacts [cycles]; zero if they are. None where it has a single impact, for which more than one segment is
+/// of no use, or cannot be followed.
+pub(super) fn offset_to_clear_ends(path: &mut OrbitPath, segments: usize) -> Option<f64> {
     let OrbitPath { problem, follower, .. } = path;
     let point = &follower.current().point;
     problem.move_to(point).ok()?;
@@ -58,13 +61,13 @@ fn ends_are_clear(path: &mut OrbitPath, segments: usize) -> Option<bool> {
     let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
     let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
     match contacts.len() {
-        0 => return Some(true),
+        0 => return Some(0.0),
         1 => return None,
         _ => {}
     }
     let length = cycles / segments as f64;
     let (gap, nearest) = longest_of_orbit(&folded(&contacts, length), length, false)?;
-    Some(!gap.asks_to_move(nearest))
+    Some(if gap.asks_to_move(nearest) { gap.middle(phase).rem_euclid(length) } else { 0.0 })
 }
 
 fn go_on_with(path: &mut OrbitPath, segments: usize, current: &Node, start: Option<&Node>) -> bool {

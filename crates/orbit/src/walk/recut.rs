@@ -20,8 +20,9 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
-    halves::join_at_contacts,
+    halves::{join_at_contacts, offset_to_clear_ends},
     orbit_path::{OrbitPath, Origin},
+    refine::refine,
 };
 use crate::{
     OrbitError, Segments,
@@ -100,10 +101,44 @@ fn move_phase(path: &mut OrbitPath, offset: f64) -> bool {
         return false;
     }
     *origin = Some(start_of_walk);
-    // Before the phases of the new one the journal has a point without unknowns.
+    begin_journal_anew(path);
+    true
+}
+
+/// Before the phases of the new one the journal has a point without unknowns.
+fn begin_journal_anew(path: &mut OrbitPath) {
     path.journal.push(ContinuationPoint::empty(0));
     path.note_in_journal();
     path.measures_anew = true;
+}
+
+/// Cuts the present orbit of one segment into two that begin elsewhere: an impact is near an end of the two
+/// that it could be cut into (`halves.rs`). False if the walk stays as it was.
+///
+/// Behind a corner in which several stops were grazed a disturbance grows so fast over one segment that its
+/// phase cannot be moved any more.
+pub(super) fn cut_in_halves_elsewhere(path: &mut OrbitPath) -> bool {
+    if path.problem.segments() != 1 || !path.problem.system().has_rigid_stops() {
+        return false;
+    }
+    let Some(offset) = offset_to_clear_ends(path, 2).filter(|offset| *offset > 0.0) else { return false };
+    let OrbitPath { problem, follower, origin, .. } = path;
+    let (before, state) = (problem.phase(), follower.state());
+    let begun = || Origin { phase: before, point: state.in_first_units(&state.start) };
+    let start_of_walk = origin.clone().unwrap_or_else(begun);
+    let Ok(begin) = carried(problem, follower.current(), (before, offset)) else { return false };
+    let begin =
+        ContinuationPoint { point: begin.point, tangent: begin.tangent, ..follower.current().clone() };
+    problem.set_phase((before + offset).rem_euclid(f64::from(problem.period_multiple())));
+    let halves = refine(problem, &begin, 2);
+    problem.set_segments(2);
+    if !halves.is_ok_and(|halves| follower.transfer_afresh(problem, &halves, None).is_ok()) {
+        problem.set_segments(1);
+        problem.set_phase(before);
+        return false;
+    }
+    *origin = Some(start_of_walk);
+    begin_journal_anew(path);
     true
 }
 
