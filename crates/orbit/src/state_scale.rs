@@ -149,6 +149,14 @@ pub(crate) fn state_of_rest(system: &System) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    /// A sag far larger than the motion does not count.
+    #[test]
+    fn a_deviation_is_that_from_the_mean() {
+        let scale = StateScale::from_values(vec![2.0, 1.0]);
+        let states = [[1e3 + 6.0, -4.0], [1e3 - 6.0, -4.0], [1e3 + 6.0, 4.0], [1e3 - 6.0, 4.0]];
+        assert!((scale.deviation(&states) - 5.0).abs() < 1e-12);
+    }
+
     fn scale(rest: f64) -> StateScale {
         StateScale::new(&[2.0], 1.0, 1.0).about(vec![rest, 0.0])
     }
