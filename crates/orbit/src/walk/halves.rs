@@ -20,13 +20,9 @@ use super::{
 };
 use crate::cut::{contacts, folded, longest_of_orbit};
 
-/// Goes on with orbits of two segments; false if the walk stays as it was: an orbit of one impact needs no
-/// second segment, and there may be no room for it.
+/// Cuts orbits of one segment, whose begin and half are clear of impacts, in two; false if the walk stays as
+/// it was.
 pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
-    let of_rigid_stops = path.problem.system().has_rigid_stops();
-    if path.problem.segments() != 1 || !of_rigid_stops || offset_to_clear_ends(path, 2) != Some(0.0) {
-        return false;
-    }
     let OrbitPath { problem, follower, .. } = path;
     let Ok(current) = refine(problem, follower.current(), 2) else {
         return false;
@@ -90,7 +86,7 @@ fn go_on_with(path: &mut OrbitPath, segments: usize, current: &Node, start: Opti
 }
 
 /// The start of the walk as an orbit of one segment.
-fn origin_now(path: &OrbitPath) -> Option<Origin> {
+pub(super) fn origin_now(path: &OrbitPath) -> Option<Origin> {
     let state = path.follower.state();
     let of_start = || {
         let mut point = state.in_first_units(&state.start);

@@ -20,7 +20,7 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
-    halves::{join_at_contacts, offset_to_clear_ends},
+    halves::{cut_in_halves, join_at_contacts, offset_to_clear_ends, origin_now},
     orbit_path::{OrbitPath, Origin},
     refine::refine,
 };
@@ -112,20 +112,27 @@ fn begin_journal_anew(path: &mut OrbitPath) {
     path.measures_anew = true;
 }
 
-/// Cuts the present orbit of one segment into two that begin elsewhere: an impact is near an end of the two
-/// that it could be cut into (`halves.rs`). False if the walk stays as it was.
-///
-/// Behind a corner in which several stops were grazed a disturbance grows so fast over one segment that its
-/// phase cannot be moved any more.
-pub(super) fn cut_in_halves_elsewhere(path: &mut OrbitPath) -> bool {
+/// Goes on with orbits of two segments, which begin elsewhere where an impact is near an end of the two.
+/// False if the walk stays as it was.
+pub(super) fn halve(path: &mut OrbitPath) -> bool {
     if path.problem.segments() != 1 || !path.problem.system().has_rigid_stops() {
         return false;
     }
-    let Some(offset) = offset_to_clear_ends(path, 2).filter(|offset| *offset > 0.0) else { return false };
+    match offset_to_clear_ends(path, 2) {
+        Some(offset) if offset > 0.0 => cut_in_halves_elsewhere(path, offset),
+        Some(_) => cut_in_halves(path),
+        None => false,
+    }
+}
+
+/// Cuts the present orbit of one segment into two, the first of which begins this much later.
+///
+/// Behind a corner in which several stops were grazed a disturbance grows so fast over one segment that its
+/// phase cannot be moved any more.
+fn cut_in_halves_elsewhere(path: &mut OrbitPath, offset: f64) -> bool {
+    let start_of_walk = origin_now(path);
     let OrbitPath { problem, follower, origin, .. } = path;
-    let (before, state) = (problem.phase(), follower.state());
-    let begun = || Origin { phase: before, point: state.in_first_units(&state.start) };
-    let start_of_walk = origin.clone().unwrap_or_else(begun);
+    let before = problem.phase();
     let Ok(begin) = carried(problem, follower.current(), (before, offset)) else { return false };
     let begin =
         ContinuationPoint { point: begin.point, tangent: begin.tangent, ..follower.current().clone() };
@@ -137,7 +144,7 @@ pub(super) fn cut_in_halves_elsewhere(path: &mut OrbitPath) -> bool {
         problem.set_phase(before);
         return false;
     }
-    *origin = Some(start_of_walk);
+    *origin = start_of_walk;
     begin_journal_anew(path);
     true
 }

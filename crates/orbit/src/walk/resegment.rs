@@ -6,7 +6,7 @@
 //! unknowns with all that it knows: a loop still closes at its start. Neither the orientation of the path nor
 //! its memory, which holds first nodes alone, depends on the number of segments.
 
-use super::{halves::cut_in_halves, orbit_path::OrbitPath, recut::cut_in_halves_elsewhere, refine::refine};
+use super::{orbit_path::OrbitPath, recut::halve, refine::refine};
 use crate::{OrbitError, cut::begins_with_care};
 
 /// Segments become this many times as many,
@@ -20,7 +20,7 @@ pub(super) fn resegment(path: &mut OrbitPath) -> Result<bool, OrbitError> {
     let OrbitPath { problem, follower, .. } = path;
     let segments = problem.segments();
     if begins_with_care(problem.system()) {
-        return Ok(cut_in_halves(path) || cut_in_halves_elsewhere(path));
+        return Ok(halve(path));
     }
     if segments * FACTOR > MOST {
         return Ok(false);
