@@ -66,3 +66,15 @@ fn free_vibrations_that_repeat_with_the_motion_are_one_solution_and_no_branch() 
     let document: serde_json::Value = serde_json::from_str(&stdout(&again)).unwrap();
     assert_eq!(document["branches"].as_array().unwrap().len(), 1, "{document}");
 }
+
+/// At the eigenfrequency there is no periodic motion, and `orbit` says why.
+#[test]
+fn at_the_resonance_of_an_undamped_mode_there_is_no_orbit() {
+    let resonance_hz = 0.5 / std::f64::consts::PI;
+    let workshop = undamped([0.12, 0.2]);
+    let orbit =
+        workshop.hammerbeam(&["orbit", "study.toml", "--frequency", &resonance_hz.to_string(), "--json"]);
+    assert!(!orbit.status.success());
+    let reason = "mode 1 (0.159155 Hz) has no damping and is driven at its frequency";
+    assert!(stderr(&orbit).contains(reason), "{}", stderr(&orbit));
+}

@@ -25,7 +25,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_000a;
+const MAGIC: u64 = 0x4842_5741_4c4b_000b;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -48,11 +48,10 @@ impl BranchWalk {
             out.floats(&node.tangent);
         }
         out.word(state.most_earlier as u64);
-        for value in
-            [state.step_length, state.orientation, state.parameter_sign, state.unit, state.change_ahead]
-        {
+        for value in [state.step_length, state.orientation, state.parameter_sign, state.change_ahead] {
             out.float(value);
         }
+        out.floats(&state.units);
         out.tests(&tests.values);
         out.tests(&tests.before);
         out.floats(&tests.noted);
@@ -219,8 +218,8 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
         step_length: reader.float()?,
         orientation: reader.float()?,
         parameter_sign: reader.float()?,
-        unit: reader.float()?,
         change_ahead: reader.float()?,
+        units: reader.floats()?,
         outside: None,
         stop: None,
     };

@@ -62,6 +62,12 @@ pub enum OrbitError {
         of it are periodic; with damping ([damping]) there is one"
     )]
     FreeVibration { base_hz: f64, mode: ResonantMode },
+    /// The excitation drives an undamped mode at its own frequency.
+    #[error(
+        "{mode} and is driven at its frequency, {frequency_hz:.6} Hz or a multiple: its motion has no bound; \
+        with damping ([damping]) it has one"
+    )]
+    Resonance { frequency_hz: f64, mode: ResonantMode },
     /// The caller asked to stop.
     #[error("interrupted")]
     Interrupted,

@@ -24,24 +24,53 @@ pub fn free_vibration(system: &System, orbit: &PeriodicSolution) -> Option<Orbit
     Some(OrbitError::FreeVibration { base_hz, mode })
 }
 
+/// Why a structure that is driven at this frequency has no periodic motion: it resonates with an undamped mode
+/// ([`OrbitError::Resonance`]). `None` where no load drives such a mode, or where elements act without a
+/// contact; contacts may bound the motion all the same.
+#[must_use]
+pub fn resonance(system: &System, frequency_hz: f64) -> Option<OrbitError> {
+    let drives = |mode: &usize| {
+        let of_mode = harmonic(system, *mode, frequency_hz);
+        let resonates = |order: u32| f64::from(order) == of_mode.round();
+        let load = |index: usize| system.modal_load(index, TAU * frequency_hz).amplitude[*mode].norm();
+        (0..system.orders().len()).any(|index| resonates(system.orders()[index]) && load(index) > 0.0)
+    };
+    let mode = free_modes(system, frequency_hz)?.find(drives)?;
+    Some(OrbitError::Resonance { frequency_hz, mode: described(system, mode) })
+}
+
 /// The undamped mode whose frequency is a multiple of that of an orbit that touches nothing; `None` where
 /// elements act without a contact.
 pub(crate) fn resonant_mode(system: &System, base_hz: f64) -> Option<ResonantMode> {
+    free_modes(system, base_hz)?.next().map(|mode| described(system, mode))
+}
+
+/// The undamped modes whose frequencies are multiples of this one; `None` where elements act without a
+/// contact.
+fn free_modes(system: &System, base_hz: f64) -> Option<impl Iterator<Item = usize>> {
     let always_acts = |element: &LocalElement| element.law.contacts().is_empty();
     if system.elements().iter().any(always_acts) {
         return None;
     }
-    let frequencies = &system.model().natural_frequencies;
-    let resonates = |w: f64| {
-        let harmonic = w / TAU / base_hz;
-        w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
+    let is_free = move |mode: &usize| {
+        let harmonic = harmonic(system, *mode, base_hz);
+        let is_whole = (harmonic - harmonic.round()).abs() <= RESONANT * harmonic;
+        harmonic > 0.5 && is_whole && !is_damped(system, *mode)
     };
-    let is_free = |mode: &usize| resonates(frequencies[*mode]) && !is_damped(system, *mode);
-    (0..frequencies.len()).find(is_free).map(|mode| ResonantMode {
+    Some((0..system.dof()).filter(is_free))
+}
+
+/// Frequency of a mode over this one.
+fn harmonic(system: &System, mode: usize, base_hz: f64) -> f64 {
+    system.model().natural_frequencies[mode] / TAU / base_hz
+}
+
+fn described(system: &System, mode: usize) -> ResonantMode {
+    ResonantMode {
         number: mode + 1,
-        frequency_hz: frequencies[mode] / TAU,
+        frequency_hz: system.model().natural_frequencies[mode] / TAU,
         damping_ratio: damping_ratio(system, mode),
-    })
+    }
 }
 
 /// Whether a mode vibrates and is damped.

@@ -235,9 +235,9 @@ impl ShootingProblem {
         self.condensed = vec![0.0; (size + 1) * (size + 1)];
     }
 
-    /// Measures states in units this many times as large; the problem must be evaluated again.
-    pub fn rescale(&mut self, factor: f64) {
-        self.scale.multiply(factor);
+    /// Measures states in units these many times as large; the problem must be evaluated again.
+    pub fn rescale(&mut self, factors: &[f64]) {
+        self.scale.multiply_each(factors);
     }
 
     /// Size of the orbit at a point relative to the scale: the root of the mean square over the nodes.

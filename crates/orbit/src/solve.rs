@@ -125,7 +125,7 @@ pub(crate) fn approach(
         return Ok((point, correction));
     }
     // A guess far larger than the orbit has measured the error too coarsely.
-    problem.rescale(factor);
+    problem.rescale(&vec![factor; problem.node_size()]);
     point = problem.point(&reached, frequency_hz);
     let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
     Ok((point, correction))

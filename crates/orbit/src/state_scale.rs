@@ -44,6 +44,11 @@ impl StateScale {
         self.scales.iter_mut().for_each(|scale| *scale *= factor);
     }
 
+    /// Multiplies each scale by its factor.
+    pub fn multiply_each(&mut self, factors: &[f64]) {
+        self.scales.iter_mut().zip(factors).for_each(|(scale, factor)| *scale *= factor);
+    }
+
     /// Scales, one per entry of a state.
     pub fn values(&self) -> &[f64] {
         &self.scales

@@ -35,4 +35,5 @@ mod touch_over_the_begin;
 mod unbounded;
 mod vary;
 mod walk_resume;
+mod wide_range;
 mod work;

@@ -17,7 +17,7 @@
 
 use std::collections::HashMap;
 
-use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings};
+use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings, state::in_units};
 
 const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
@@ -80,10 +80,10 @@ impl PathMemory {
 
     /// Adds the next accepted point of the branch, whose unknowns have these units (one for those of the
     /// memory).
-    pub fn remember(&mut self, point: &ContinuationPoint, unit: f64) {
-        let tangent = in_units(&point.tangent, unit);
+    pub fn remember(&mut self, point: &ContinuationPoint, units: &[f64]) {
+        let tangent = in_units(&point.tangent, units);
         let vertex = Vertex {
-            place: self.sketch(&in_units(&point.point, unit)),
+            place: self.sketch(&in_units(&point.point, units)),
             tangent: self.sketch(&tangent),
             arc_length: point.arc_length,
             orientation: point.orientation,
@@ -105,10 +105,10 @@ impl PathMemory {
     }
 
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
-    pub fn meets(&self, candidate: &Candidate, orientation: f64, unit: f64) -> Option<f64> {
-        let tangent = in_units(&candidate.node.tangent, unit);
+    pub fn meets(&self, candidate: &Candidate, orientation: f64, units: &[f64]) -> Option<f64> {
+        let tangent = in_units(&candidate.node.tangent, units);
         let probe = Vertex {
-            place: self.sketch(&in_units(&candidate.node.point, unit)),
+            place: self.sketch(&in_units(&candidate.node.point, units)),
             tangent: self.sketch(&tangent),
             arc_length: 0.0,
             orientation,
@@ -119,11 +119,11 @@ impl PathMemory {
             let (_, i, j) = self.cell_of(size, &probe.place);
             (-1..=1)
                 .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
-                .find_map(|cell| self.meets_in(cell, &probe, unit))
+                .find_map(|cell| self.meets_in(cell, &probe, units))
         })
     }
 
-    fn meets_in(&self, cell: Cell, probe: &Vertex, unit: f64) -> Option<f64> {
+    fn meets_in(&self, cell: Cell, probe: &Vertex, units: &[f64]) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
@@ -131,7 +131,7 @@ impl PathMemory {
             if segment + RECENT < self.vertices.len() {
                 let found = {
                     let ends = (&self.vertices[segment - 1], &self.vertices[segment]);
-                    self.meets_segment(ends, probe, unit)
+                    self.meets_segment(ends, probe, units)
                 };
                 if found.is_some() {
                     return found;
@@ -142,9 +142,9 @@ impl PathMemory {
         None
     }
 
-    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, unit: f64) -> Option<f64> {
+    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, units: &[f64]) -> Option<f64> {
         // Points are as accurate as their units are large.
-        let point_tolerance = unit.max(1.0) * self.tolerance;
+        let point_tolerance = units.iter().fold(1.0, |most: f64, &unit| most.max(unit)) * self.tolerance;
         let margin = point_tolerance + self.largest_defect;
         let (low, high) = (a.place[0].min(b.place[0]), a.place[0].max(b.place[0]));
         let near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;
@@ -216,14 +216,6 @@ impl PathMemory {
             }
         }
     }
-}
-
-/// Unknowns in other units, `unit` times as small; the parameter, which comes last, stays.
-pub(crate) fn in_units(values: &[f64], unit: f64) -> Vec<f64> {
-    let mut values = values.to_vec();
-    let last = values.len() - 1;
-    values[..last].iter_mut().for_each(|value| *value *= unit);
-    values
 }
 
 /// Signature of either end, and a determinant like that of the segment: interpolation leaves it some room.
@@ -330,7 +322,7 @@ mod tests {
     fn helix_memory(step: f64) -> PathMemory {
         let settings = Settings { max_step_length: step, ..Settings::default() };
         let mut memory = PathMemory::new(&[1.0; 13], &settings);
-        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k)), 1.0));
+        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k)), &[1.0]));
         memory
     }
 
@@ -338,7 +330,7 @@ mod tests {
     fn a_point_between_stored_ones_is_met_at_its_arc_length() {
         let memory = helix_memory(0.02);
         for s in [0.011, 3.337, 12.345] {
-            let met = memory.meets(&candidate(&on_helix(s)), 1.0, 1.0).unwrap();
+            let met = memory.meets(&candidate(&on_helix(s)), 1.0, &[1.0]).unwrap();
             assert!((met - s).abs() < 1e-3, "{met} for {s}");
         }
     }
@@ -348,12 +340,12 @@ mod tests {
         let memory = helix_memory(0.02);
         let mut beside = on_helix(3.337);
         beside.point[3] += 1e-5;
-        assert_eq!(memory.meets(&candidate(&beside), 1.0, 1.0), None);
+        assert_eq!(memory.meets(&candidate(&beside), 1.0, &[1.0]), None);
         let mut back = on_helix(3.337);
         back.tangent.iter_mut().for_each(|t| *t = -*t);
-        assert_eq!(memory.meets(&candidate(&back), 1.0, 1.0), None);
+        assert_eq!(memory.meets(&candidate(&back), 1.0, &[1.0]), None);
         assert!(
-            memory.meets(&candidate(&back), -1.0, 1.0).is_some(),
+            memory.meets(&candidate(&back), -1.0, &[1.0]).is_some(),
             "with the other orientation it is a retrace"
         );
     }
@@ -366,16 +358,16 @@ mod tests {
             let parameter = values.pop().unwrap();
             values.extend([7.0, -3.0, parameter]);
         }
-        let met = memory.meets(&candidate(&longer), 1.0, 1.0).unwrap();
+        let met = memory.meets(&candidate(&longer), 1.0, &[1.0]).unwrap();
         assert!((met - 3.337).abs() < 1e-3, "{met}");
     }
 
     #[test]
     fn the_end_of_the_stored_path_is_not_met() {
         let memory = helix_memory(0.02);
-        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0, 1.0), None);
+        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0, &[1.0]), None);
         assert_eq!(
-            memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0, 1.0),
+            memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0, &[1.0]),
             None,
             "nor is the step before"
         );
@@ -397,10 +389,10 @@ mod tests {
             (point.point[0], point.point[12], point.arc_length) = (0.8 * s, 0.6 * s, s);
             point
         };
-        at.iter().for_each(|s| memory.remember(&straight(*s), 1.0));
+        at.iter().for_each(|s| memory.remember(&straight(*s), &[1.0]));
         for k in [20, 150, 300, 390] {
             let s = at[k] + 0.4 * (at[k + 1] - at[k]);
-            let met = memory.meets(&candidate(&straight(s)), 1.0, 1.0);
+            let met = memory.meets(&candidate(&straight(s)), 1.0, &[1.0]);
             assert!(met.is_some_and(|met| (met - s).abs() < 1e-6 * s), "{met:?} for {s}");
         }
         assert!(memory.links.len() < 40 * at.len(), "{} links", memory.links.len());

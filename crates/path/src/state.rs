@@ -3,7 +3,6 @@
 use crate::{
     corrector::Candidate,
     error::PathStop,
-    memory::in_units,
     point::{ContinuationPoint, PathEvents},
     predictor::{History, MOST_EARLIER_NODES, Node},
     product::{norm, scale},
@@ -30,8 +29,8 @@ pub struct PathState {
     /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is
     /// known of them.
     pub outside: Option<(u32, u32)>,
-    /// Units of the unknowns now, in those of the start.
-    pub unit: f64,
+    /// Units of the unknowns now, in those of the start: of the first ones, and again of as many that follow.
+    pub units: Vec<f64>,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.
     pub change_ahead: f64,
     /// Why the branch ended, if it did.
@@ -51,7 +50,7 @@ impl PathState {
             orientation: start.orientation,
             parameter_sign: if start.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
             outside: None,
-            unit: 1.0,
+            units: vec![1.0],
             change_ahead: 0.0,
             stop: None,
             current: start,
@@ -67,8 +66,13 @@ impl PathState {
     /// A point as it is in the units of the start.
     #[must_use]
     pub fn in_first_units(&self, point: &ContinuationPoint) -> ContinuationPoint {
-        let of = |values: &[f64]| in_units(values, self.unit);
-        ContinuationPoint { point: of(&point.point), tangent: of(&point.tangent), ..point.clone() }
+        in_units_of(point, &self.units)
+    }
+
+    /// A point that is given in the units of the start, in the present ones.
+    #[must_use]
+    pub fn in_present_units(&self, point: &ContinuationPoint) -> ContinuationPoint {
+        in_units_of(point, &inverses(&self.units))
     }
 
     /// The base of the next step.
@@ -96,41 +100,64 @@ impl PathState {
         current.uncertainty = uncertainty;
     }
 
-    /// Goes on in units of the unknowns that are `factor` times as large.
+    /// Goes on in units of the unknowns that are `factors` times as large, of one after the other, and again
+    /// of as many that follow.
     ///
     /// Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit
-    /// the start. Where the unknowns grow or shrink by orders of magnitude, a problem may change its units:
-    /// `x' = x/c`, `R' = R/c`, the parameter and the weights as they are. A unit tangent `t` then has the
-    /// length `ρ = ‖[t_x/c; t_λ]‖` and becomes `[t_x/c; t_λ]/ρ`; a step along it keeps its end if its length
-    /// is multiplied by `ρ`. The vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a
-    /// point, so that `D' = ρ D`: no sign changes. The memory stays in the first units.
-    pub(crate) fn rescale(&mut self, factor: f64, weights: &[f64], shortest_step: f64) {
-        self.unit *= factor;
+    /// the start. Where the unknowns grow or shrink by orders of magnitude, a problem may change their units,
+    /// and its equations with them: `x' = C⁻¹ x`, `R' = C⁻¹ R` with the factors on the diagonal of C, the
+    /// parameter and the weights as they are. A unit tangent `t` then has the length `ρ = ‖[C⁻¹ t_x; t_λ]‖`
+    /// and becomes `[C⁻¹ t_x; t_λ]/ρ`; a step along it keeps its end if its length is multiplied by `ρ`. The
+    /// vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a point, so that `D' = ρ D`: no
+    /// sign changes. The memory stays in the first units.
+    pub(crate) fn rescale(&mut self, factors: &[f64], weights: &[f64], shortest_step: f64) {
+        let inverse = inverses(factors);
+        self.units =
+            factors.iter().zip(self.units.iter().cycle()).map(|(factor, unit)| factor * unit).collect();
         for node in &mut self.history.nodes {
-            divide(&mut node.point, factor);
-            renormalise(&mut node.tangent, weights, factor);
+            multiply(&mut node.point, &inverse);
+            renormalise(&mut node.tangent, weights, &inverse);
         }
         for point in [&mut self.current, &mut self.start] {
-            divide(&mut point.point, factor);
-            let length = renormalise(&mut point.tangent, weights, factor);
+            multiply(&mut point.point, &inverse);
+            let length = renormalise(&mut point.tangent, weights, &inverse);
             point.log_determinant += length.ln();
         }
         // A step may be tried along the tangent of the present point.
         let mut tangent = self.current.tangent.clone();
-        let grown = 1.0 / renormalise(&mut tangent, weights, 1.0 / factor);
+        let grown = 1.0 / renormalise(&mut tangent, weights, factors);
         self.step_length = (self.step_length * grown).max(shortest_step);
         self.change_ahead *= grown;
     }
 }
 
-fn divide(values: &mut [f64], factor: f64) {
+/// Unknowns of a point in units in which they are so many times as large, one after the other and again; the
+/// parameter, which comes last, stays.
+fn multiply(values: &mut [f64], by: &[f64]) {
     let last = values.len() - 1;
-    scale(&mut values[..last], 1.0 / factor);
+    values[..last].iter_mut().zip(by.iter().cycle()).for_each(|(value, by)| *value *= by);
+}
+
+fn inverses(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| value.recip()).collect()
+}
+
+/// Point and tangent in units in which they are so many times as large.
+fn in_units_of(point: &ContinuationPoint, units: &[f64]) -> ContinuationPoint {
+    let of = |values: &[f64]| in_units(values, units);
+    ContinuationPoint { point: of(&point.point), tangent: of(&point.tangent), ..point.clone() }
+}
+
+/// [`multiply`] for a copy.
+pub(crate) fn in_units(values: &[f64], units: &[f64]) -> Vec<f64> {
+    let mut values = values.to_vec();
+    multiply(&mut values, units);
+    values
 }
 
 /// Length in the new units, which becomes one.
-fn renormalise(tangent: &mut [f64], weights: &[f64], factor: f64) -> f64 {
-    divide(tangent, factor);
+fn renormalise(tangent: &mut [f64], weights: &[f64], by: &[f64]) -> f64 {
+    multiply(tangent, by);
     let length = norm(weights, tangent);
     if length > 0.0 {
         scale(tangent, 1.0 / length);

@@ -3,7 +3,7 @@
 use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{PreparedStudy, counted, orbits::orbits};
-use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_orbit::{PeriodicSolution, resonance};
 use hammerbeam_study::readable_to;
 
 use crate::{
@@ -31,7 +31,10 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
             counted(multiple.into(), "excitation period"),
             output.frequency_unit.words(frequency_hz)
         );
-        return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
+        let resonance = resonance(&study.model.system, frequency_hz).map(|why| why.to_string());
+        let reasons: Vec<String> = [resonance, incomplete].into_iter().flatten().collect();
+        let why = if reasons.is_empty() { String::new() } else { format!("; {}", reasons.join("; ")) };
+        return Err(Failure::NoResult(nothing + &why));
     }
     if let Some(why) = incomplete {
         notify(&why);

@@ -80,9 +80,9 @@ impl<'a> SystemField<'a> {
             stiffness: system.model().natural_frequencies.iter().map(|w| w * w).collect(),
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
             supports: (0..loads.len()).map(|k| support_amplitudes(system, k, frequency_hz)).collect(),
-            loads,
             switches: system.elements().iter().map(switches_of).sum(),
-            length: 1e-3 * shortest_length(system, frequency_hz),
+            length: 1e-3 * least_length(system, &loads, frequency_hz),
+            loads,
             slopes: vec![(0.0, 0.0); system.elements().len()],
             cross: vec![0.0; system.elements().len()],
             laws: system.elements().iter().map(|element| element.law.clone()).collect(),
@@ -280,6 +280,22 @@ fn shortest_length(system: &System, frequency_hz: f64) -> f64 {
         levels.map(|length| length / dot(&element.shape, &element.shape).sqrt())
     });
     lengths.filter(|length| *length > 0.0 && length.is_finite()).reduce(f64::min).unwrap_or(0.0)
+}
+
+/// [`shortest_length`], or how far the loads move the structure where that is less: far above its frequencies
+/// they move it by a millionth of a gap.
+fn least_length(system: &System, loads: &[ModalLoad], frequency_hz: f64) -> f64 {
+    let shortest = shortest_length(system, frequency_hz);
+    let moved = |mode: usize, natural: f64| {
+        let by = |(load, order): (&ModalLoad, &u32)| {
+            let rate = natural.max(TAU * frequency_hz * f64::from((*order).max(1)));
+            load.amplitude[mode].norm() / (rate * rate)
+        };
+        loads.iter().zip(system.orders()).map(by).sum::<f64>()
+    };
+    let modes = system.model().natural_frequencies.iter().enumerate();
+    let driven = modes.map(|(mode, &natural)| moved(mode, natural)).fold(0.0, f64::max);
+    if driven > 0.0 { shortest.min(driven) } else { shortest }
 }
 
 /// Amplitudes of the displacements of all supports of an order.

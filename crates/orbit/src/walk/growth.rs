@@ -64,17 +64,16 @@ impl Growth {
         amplitude / self.amplitude
     }
 
-    /// Why the walk ends, if its present orbit, of this size in the present units, belongs to a branch that
-    /// goes to infinity.
+    /// Why the walk ends, if its present orbit belongs to a branch that goes to infinity.
     ///
+    /// * `size`: of the orbit [kg^1/2 m/s].
     /// * `touches`: of each contact at the row before.
     pub fn end_of(&mut self, path: &mut OrbitPath, size: f64, touches: &[u32]) -> Option<StopReason> {
         let parameter = path.parameter();
         let (low, high) = path.range_hz;
         let of_itself = STILL * path.problem.parameter_size(&path.current().point);
         let still = of_itself.min(OF_RANGE * (high - low));
-        let unit = path.problem.scale().values().last().copied().unwrap_or(1.0);
-        let growth = self.note(size * unit, parameter, still);
+        let growth = self.note(size, parameter, still);
         let unbounded = growth >= FOR_ANY || (growth >= GROWTH && is_beyond_all_levels(path));
         let ends = |mode| StopReason::Unbounded { frequency_hz: parameter, mode };
         if unbounded {

@@ -21,7 +21,7 @@ use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
     halves::{cut_in_halves, join_at_contacts, offset_to_clear_ends, origin_now},
-    orbit_path::{OrbitPath, Origin},
+    orbit_path::OrbitPath,
     refine::refine,
 };
 use crate::{
@@ -80,18 +80,18 @@ fn is_cut(path: &OrbitPath) -> bool {
 
 /// Cuts the present orbit and the start of the walk this much later; false if the walk stays as it was.
 fn move_phase(path: &mut OrbitPath, offset: f64) -> bool {
+    let start_of_walk = origin_now(path);
     let OrbitPath { problem, follower, origin, .. } = path;
     let (before, cycles) = (problem.phase(), f64::from(problem.period_multiple()));
     let phase = (before + offset).rem_euclid(cycles);
     let Ok(current) = carried(problem, follower.current(), (before, offset)) else { return false };
-    let state = follower.state();
-    let begun = || Origin { phase: before, point: state.in_first_units(&state.start) };
-    let start_of_walk = origin.clone().unwrap_or_else(begun);
-    let in_units = in_units(&start_of_walk.point, state.unit);
-    let from_origin = (phase - start_of_walk.phase).rem_euclid(cycles);
-    let start = carried(problem, &in_units, (start_of_walk.phase, from_origin)).ok();
+    let start = start_of_walk.as_ref().and_then(|origin| {
+        let old = follower.state().in_present_units(&origin.point);
+        let later = (phase - origin.phase).rem_euclid(cycles);
+        Some((carried(problem, &old, (origin.phase, later)).ok()?, old))
+    });
     problem.set_phase(phase);
-    let with_start = start.as_ref().map(|start| (start, &in_units));
+    let with_start = start.as_ref().map(|(start, old)| (start, old));
     let mut moved = with_start.is_some() && follower.transfer_afresh(problem, &current, with_start).is_ok();
     if !moved && offset > 0.0 {
         moved = follower.transfer_afresh(problem, &current, None).is_ok();
@@ -100,7 +100,7 @@ fn move_phase(path: &mut OrbitPath, offset: f64) -> bool {
         problem.set_phase(before);
         return false;
     }
-    *origin = Some(start_of_walk);
+    *origin = start_of_walk;
     begin_journal_anew(path);
     true
 }
@@ -147,16 +147,6 @@ fn cut_in_halves_elsewhere(path: &mut OrbitPath, offset: f64) -> bool {
     *origin = start_of_walk;
     begin_journal_anew(path);
     true
-}
-
-/// A point of an orbit of one segment in units that are `unit` times the first ones.
-fn in_units(point: &ContinuationPoint, unit: f64) -> ContinuationPoint {
-    let mut point = point.clone();
-    for values in [&mut point.point, &mut point.tangent] {
-        let last = values.len() - 1;
-        values[..last].iter_mut().for_each(|value| *value /= unit);
-    }
-    point
 }
 
 /// Point and tangent of an orbit whose first node lies this much later than at the phase `from`.

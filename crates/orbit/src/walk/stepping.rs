@@ -11,7 +11,7 @@ use super::{
     shorter_period::meets_shorter_period,
     splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
 };
-use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
+use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate, state_scale::unit_scale};
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new
 /// units.
@@ -157,7 +157,8 @@ impl BranchWalk {
     ///
     /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself
     /// decides, at every [`LOOK`]th point, or where the nodes have outgrown the units, and then the orbit
-    /// with them. Points are counted in the checkpoint.
+    /// with them. Points are counted in the checkpoint. Displacements are measured beside velocities as the
+    /// present frequency asks: with those of a fast orbit a slow one would be known too coarsely.
     ///
     /// # Returns
     /// Why the walk ends, if its amplitude has no bound.
@@ -167,16 +168,21 @@ impl BranchWalk {
         if !due && path.problem.size(&path.follower.current().point) <= OUTGROWN {
             return None;
         }
-        let size = path.of_present(|orbit, integrator, scale| orbit.size(integrator, scale));
+        let mut wanted = unit_scale(path.problem.system(), path.problem.frequency(&path.current().point));
+        let size = path.of_present(|orbit, integrator, _| orbit.size(integrator, &wanted));
         let size = size.filter(|size| size.is_normal())?;
         let end = self.growth.end_of(path, size, &self.record.touches);
-        if end.is_some() || (1.0 / OUTGROWN..=OUTGROWN).contains(&size) {
+        wanted.multiply(size);
+        let of_present = wanted.values().iter().zip(path.problem.scale().values());
+        let factors: Vec<f64> = of_present.map(|(wanted, present)| wanted / present).collect();
+        if end.is_some() || factors.iter().all(|factor| (1.0 / OUTGROWN..=OUTGROWN).contains(factor)) {
             return end;
         }
         // Powers of two change no digit.
-        let factor = 2f64.powi(size.log2().round() as i32);
-        path.problem.rescale(factor);
-        path.follower.rescale(factor);
+        let factors: Vec<f64> =
+            factors.iter().map(|factor| 2f64.powi(factor.log2().round() as i32)).collect();
+        path.problem.rescale(&factors);
+        path.follower.rescale(&factors);
         path.measures_anew = true;
         None
     }

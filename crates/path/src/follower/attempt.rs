@@ -140,7 +140,7 @@ impl Attempt<'_> {
 
     /// Arc length of an earlier stretch that runs through the oriented trial, if there is one.
     pub fn meets_earlier_stretch(&self) -> Option<f64> {
-        self.memory.meets(self.trial, self.state.orientation, self.state.unit)
+        self.memory.meets(self.trial, self.state.orientation, &self.state.units)
     }
 
     /// See [`Frame::allowed_displacement`].

@@ -195,12 +195,13 @@ impl Follower {
     /// ([`PathState::in_first_units`]), to the memory; the start comes first. It may be one of before a
     /// [`transfer`](Self::transfer).
     pub fn remember(&mut self, point: &ContinuationPoint) {
-        self.memory.remember(point, 1.0);
+        self.memory.remember(point, &[1.0]);
     }
 
-    /// The problem has made the units of its unknowns `factor` times as large.
-    pub fn rescale(&mut self, factor: f64) {
-        self.state.rescale(factor, &self.frame.weights, self.frame.settings.min_step);
+    /// The problem has made the units of its unknowns and equations `factors` times as large, of one after
+    /// the other, and again of as many that follow; of as many every time.
+    pub fn rescale(&mut self, factors: &[f64]) {
+        self.state.rescale(factors, &self.frame.weights, self.frame.settings.min_step);
     }
 
     /// Goes to the next point of the path.
@@ -403,6 +404,6 @@ impl Follower {
         state.step_length = next_step(frame, state, &accepted);
         let harmless = HARMLESS * settings.tolerance_at(state.step_length);
         state.most_earlier = best_predictor(&errors, state.step_length / chord, harmless);
-        self.memory.remember(&state.current, state.unit);
+        self.memory.remember(&state.current, &state.units);
     }
 }

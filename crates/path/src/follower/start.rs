@@ -52,7 +52,7 @@ impl Follower {
             state.stop = Some(PathStop::RangeEnd);
         }
         let mut follower = Self::resume(problem, Checkpoint { state, tests, counters }, range, settings);
-        follower.memory.remember(&follower.state.current, 1.0);
+        follower.memory.remember(&follower.state.current, &[1.0]);
         Ok(follower)
     }
 }

@@ -76,10 +76,9 @@ impl Follower {
         state.step_length = state.step_length.min(self.frame.settings.initial_step);
         state.stop = None;
         (state.start, state.current) = (start, current);
-        let unit = state.unit;
         let checkpoint = Checkpoint { state, tests: self.tests.clone(), counters };
         *self = Self::resume(problem, checkpoint, self.frame.range, self.frame.settings.clone());
-        self.memory.remember(&self.state.current, unit);
+        self.memory.remember(&self.state.current, &self.state.units);
         Ok(())
     }
 
