@@ -2,7 +2,9 @@
 //! orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::common::{Workshop, assert_success, stdout};
+use hammerbeam_orbit::BranchEventKind;
+
+use crate::common::{Workshop, assert_success, stdout, stored};
 
 /// 1 kg on 100 N/m, critically damped, pressed with 2 N against a stiff stop; the force of 10 N presses it on
 /// at phase 0.
@@ -64,4 +66,56 @@ fn solutions_agree_whatever_the_phase_at_which_the_structure_rests() {
 fn a_close_tolerance_does_not_keep_a_walk_from_its_way() {
     let (loose, close) = (verified(0.0, 1e-10), verified(0.0, 1e-12));
     assert!(close < 2 * loose, "{close}, {loose}");
+}
+
+/// A tip that rests on its seat is driven open. Where it opens its displacement grows from zero like a power
+/// of the distance: beside a motion a million times as large no row need tell its digits. With the tip at
+/// rest the blade is an oscillator, and the seat presses until it moves by 0.35/2500 m: at 220.6 Hz.
+#[test]
+fn a_seat_that_opens_takes_few_rows_and_is_a_contact_up_to_there_and_beyond() {
+    let workshop = Workshop::with(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "blade", mass_kg = 0.004 }, { name = "tip", mass_kg = 0.0015 }]
+spring = [
+    { between = ["blade", "ground"], stiffness_n_m = 900.0 },
+    { between = ["blade", "tip"], stiffness_n_m = 2500.0 },
+]
+[damping]
+modal_ratio = 0.02
+[excitation]
+kind = "force"
+at = "blade"
+amplitude_n = 0.6
+frequency_hz = [219.0, 222.0]
+[[load]]
+kind = "force"
+at = "tip"
+amplitude_n = -0.35
+order = 0
+[[stop]]
+at = "tip"
+law = "rigid"
+restitution = 0.55
+side = "below"
+gap_m = 0.0
+[search]
+frequencies = 1
+trials = 0
+[continuation]
+max_step_hz = 0.01
+"#,
+    );
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_success(&run);
+    let (_, branches) = stored(&workshop);
+    let rows: Vec<_> =
+        branches.branches().iter().flat_map(|branch| &branch.rows).map(|placed| &placed.row).collect();
+    let opens: Vec<_> = rows.iter().filter(|row| row.events.has(BranchEventKind::Grazing)).collect();
+    assert_eq!(opens.len(), 1);
+    assert!((opens[0].frequency_hz - 220.6).abs() < 0.05, "{}", opens[0].frequency_hz);
+    let beside = rows.iter().filter(|row| (row.frequency_hz - opens[0].frequency_hz).abs() < 0.02).count();
+    assert!(beside < 200, "{beside} rows");
+    assert!(rows.iter().all(|row| row.maxima.contacts >= 1));
 }

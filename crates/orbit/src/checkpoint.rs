@@ -134,7 +134,8 @@ impl BranchWalk {
         let (journal, settings) = (Vec::new(), *settings);
         let Beside { touches, outside, begins_with_present, origin, growth, effort } = beside;
         let path = OrbitPath { problem, follower, settings, range_hz, journal, origin, measures_anew: false };
-        let record = RowRecord { touches, outside, last_rows, evaluations_between };
+        let record =
+            RowRecord { touches, outside, last_rows, shape: response.shape.clone(), evaluations_between };
         let mut walk = Self { path, record, growth, effort, begins_with_present };
         walk.effort.counted = counted_operations(&walk.path, walk.evaluations());
         Ok(walk)

@@ -56,8 +56,13 @@ impl Gap {
 
     /// Its middle after the phase `from`, which is one of a grid, so that the phase there is one, too.
     pub fn middle(self, from: f64) -> f64 {
-        let grid = if self.length() < SHORTEST { FINE_GRID } else { GRID };
+        let grid = if self.is_short() { FINE_GRID } else { GRID };
         ((from + 0.5 * (self.begin + self.end)) * grid).round() / grid - from
+    }
+
+    /// Whether it is shorter than what an orbit begins in where it is looked for first.
+    pub fn is_short(self) -> bool {
+        self.length() < SHORTEST
     }
 
     /// Whether an orbit that begins so near a contact had better begin in the middle of the gap.
@@ -227,10 +232,10 @@ pub(crate) fn search_cut(
     }
     contacts.sort_by(|a, b| a.begin.total_cmp(&b.begin));
     let gap = longest_gap(&contacts, (0.0, cycles));
-    if gap.length() < SHORTEST && !integrator.system().remembers_impacts() {
+    if gap.is_short() && !integrator.system().remembers_impacts() {
         return Ok((at_zero(), None));
     }
-    if gap.length() < SHORTEST {
+    if gap.is_short() {
         let element = longest_contact(&trace.contacts, cycles / frequency_hz);
         let element = integrator.system().elements()[element].name.clone();
         return Err(OrbitError::NeverOpens { element, frequency_hz });

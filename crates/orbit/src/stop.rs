@@ -81,6 +81,12 @@ pub enum StopReason {
         /// The mode that resonates, where that is one of the structure alone.
         mode: Option<ResonantMode>,
     },
+    /// Nothing takes energy out of the motion, and no step was found: motions that differ by a free vibration
+    /// lie closer together than rounding tells apart.
+    WithoutLosses {
+        /// Where [Hz].
+        frequency_hz: f64,
+    },
     /// The walk took more work than it may, or than it may without getting on.
     TooMuchWork {
         /// Where [Hz].
@@ -126,6 +132,7 @@ impl StopReason {
             | Self::ContactReopens { frequency_hz, .. }
             | Self::NoProgress { frequency_hz, .. }
             | Self::Unbounded { frequency_hz, .. }
+            | Self::WithoutLosses { frequency_hz }
             | Self::TooMuchWork { frequency_hz, .. }
             | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
             Self::Closed | Self::Budget { .. } => None,

@@ -40,6 +40,9 @@ impl Display for StopReason {
             Self::Unbounded { frequency_hz, .. } => {
                 write!(formatter, "the amplitude has no bound at {frequency_hz}")
             }
+            Self::WithoutLosses { frequency_hz } => {
+                write!(formatter, "no motion without losses was told from its neighbours at {frequency_hz}")
+            }
             Self::TooMuchWork { frequency_hz, solutions, .. } => {
                 write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")
             }

@@ -175,7 +175,7 @@ fn leave(
         return Ok(None);
     }
     let path = OrbitPath::new(problem, follower, (settings, range_hz));
-    let mut walk = BranchWalk::of(path, orbit.maxima.displacement);
+    let mut walk = BranchWalk::of(path, orbit.maxima.displacement, response);
     walk.begins_with_present = true;
     Ok(Some((walk, same_contacts)))
 }

@@ -128,12 +128,12 @@ impl BranchWalk {
         let started = Follower::start(&mut problem, &point, direction, range, path);
         let follower = started.map_err(|error| problem.failure_or(error))?;
         let path = OrbitPath::new(problem, follower, (settings, range_hz));
-        Ok(Self::of(path, start.maxima.displacement))
+        Ok(Self::of(path, start.maxima.displacement, response))
     }
 
     /// A walk at its start, whose maximum displacement is given.
-    pub(crate) fn of(path: OrbitPath, displacement: f64) -> Self {
-        let record = RowRecord::at_start(&path, displacement);
+    pub(crate) fn of(path: OrbitPath, displacement: f64, response: &Response) -> Self {
+        let record = RowRecord::at_start(&path, displacement, &response.shape);
         let (growth, effort) = (Growth::default(), Effort::default());
         Self { path, record, growth, effort, begins_with_present: false }
     }

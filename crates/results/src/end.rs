@@ -174,6 +174,7 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
             StoredEnd::at("unbounded", *frequency_hz).with(of_mode.unwrap_or_default())
         }
+        StopReason::WithoutLosses { frequency_hz } => StoredEnd::at("without-losses", *frequency_hz),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
             StoredEnd::at("too-much-work", *frequency_hz).with(numbers)
@@ -215,6 +216,7 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
             let mode = ResonantMode { number: *number as usize, frequency_hz: *at_hz, damping_ratio: *ratio };
             StopReason::Unbounded { frequency_hz, mode: Some(mode) }
         }
+        ("without-losses", [], frequency_hz) => StopReason::WithoutLosses { frequency_hz },
         ("too-much-work", [solutions, gets_on], frequency_hz) => {
             let solutions = *solutions as u64;
             StopReason::TooMuchWork { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
@@ -301,6 +303,7 @@ pub(crate) mod tests {
             StopReason::NoProgress { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
             StopReason::Unbounded { frequency_hz, mode: Some(mode) },
             StopReason::Unbounded { frequency_hz, mode: None },
+            StopReason::WithoutLosses { frequency_hz },
             StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },
             StopReason::Motion { frequency_hz, message: text() },
         ];

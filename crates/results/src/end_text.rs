@@ -145,6 +145,12 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::Unbounded { frequency_hz, mode } => {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))
         }
+        StopReason::WithoutLosses { frequency_hz } => format!(
+            "beyond {} no motion was told from its neighbours: nothing takes energy out of it, and motions \
+                that differ by a free vibration lie closer together than rounding; with damping \
+                ([damping]) they are apart",
+            at(*frequency_hz)
+        ),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             format!("at {} {}", at(*frequency_hz), too_much_work(*solutions, *gets_on))
         }

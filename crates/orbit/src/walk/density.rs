@@ -16,6 +16,9 @@
 //! true error there, which for one kink is at least half the largest one; above [`MEASURED`] both halves are
 //! cut again.
 //!
+//! Errors are relative to `y`, or to a millionth of what it is at the size of the motion, if that is more: the
+//! response may rest on a stop up to a place from which `y` grows like a power of the distance.
+//!
 //! The estimate rests on rows of the past alone, so rows come in order and a walk that is taken up again
 //! inserts the same ones.
 
@@ -33,6 +36,8 @@ use crate::{BranchRow, OrbitError};
 const ESTIMATED: f64 = 5e-4;
 /// Error in the middle, relative to `y`, from which on both halves are looked at.
 const MEASURED: f64 = 4e-4;
+/// Displacement to which errors are relative at least, over that of the motion.
+const LEAST: f64 = 1e-6;
 /// An interval is halved so often at most.
 const MOST_HALVINGS: u32 = 10;
 
@@ -49,7 +54,7 @@ impl RowRecord {
         let end = RowPlace::new(to, row.solution.maxima.displacement);
         let slopes = [from.tangent_parameter(), to.tangent_parameter()];
         let mut between = Vec::new();
-        if self.last_rows.estimate(end, slopes) > ESTIMATED {
+        if self.last_rows.estimate(end, slopes, self.least_displacement(path)) > ESTIMATED {
             self.halve(path, [from, to], (end, MOST_HALVINGS), &mut between)?;
         }
         if path.settings.locates_stability_changes {
@@ -75,6 +80,12 @@ impl RowRecord {
         rows.extend([at_corner, row]);
     }
 
+    /// Displacement of the response to which errors are relative at least.
+    fn least_displacement(&self, path: &OrbitPath) -> f64 {
+        let displacements = self.shape.iter().zip(path.problem.scale().values());
+        LEAST * displacements.map(|(shape, scale)| shape.abs() * scale).sum::<f64>()
+    }
+
     /// Appends the middle of the interval, and what belongs into its halves; nothing if there is no orbit of
     /// the same arc.
     fn halve(
@@ -94,7 +105,9 @@ impl RowRecord {
             Err(error) => return Err(error),
         };
         let middle = RowPlace::new(&point, row.solution.maxima.displacement);
-        let again = halvings > 0 && self.last_rows.0.last().is_some_and(|&begin| missed(begin, middle, end));
+        let least = self.least_displacement(path);
+        let is_missed = |&begin: &RowPlace| missed(begin, middle, end, least);
+        let again = halvings > 0 && self.last_rows.0.last().is_some_and(is_missed);
         if again {
             self.halve(path, [from, &point], (middle, halvings - 1), rows)?;
         }
@@ -107,10 +120,11 @@ impl RowRecord {
     }
 }
 
-/// Whether the straight line from begin to end misses the row between by too much.
-fn missed(begin: RowPlace, middle: RowPlace, end: RowPlace) -> bool {
+/// Whether the straight line from begin to end misses the row between by too much; `least` is the displacement
+/// to which that is relative at least.
+fn missed(begin: RowPlace, middle: RowPlace, end: RowPlace, least: f64) -> bool {
     let share = (middle.frequency_hz - begin.frequency_hz) / (end.frequency_hz - begin.frequency_hz);
     let line = begin.displacement + share * (end.displacement - begin.displacement);
     let error = (middle.displacement - line).abs();
-    error.is_nan() || error > MEASURED * middle.displacement
+    error.is_nan() || error > MEASURED * middle.displacement.max(least)
 }

@@ -4,7 +4,7 @@ use hammerbeam_path::PathStop;
 
 use super::{
     chatter::chatters,
-    growth::{free_mode, is_far_beyond_gaps_without_losses},
+    growth::{free_mode, has_no_losses, is_far_beyond_gaps},
     orbit_path::OrbitPath,
     row::row_at,
     shorter_period::is_near_shorter_period,
@@ -35,9 +35,11 @@ fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<St
     if let Some((element, impacts)) = chatters(path) {
         return Some(StopReason::Chatter { frequency_hz, element, impacts });
     }
-    let mode = free_mode(path);
-    let has_no_bound = mode.is_some() || is_far_beyond_gaps_without_losses(path);
-    has_no_bound.then_some(StopReason::Unbounded { frequency_hz, mode })
+    let (mode, has_no_losses) = (free_mode(path), has_no_losses(path.problem.system()));
+    if mode.is_some() || has_no_losses && is_far_beyond_gaps(path) {
+        return Some(StopReason::Unbounded { frequency_hz, mode });
+    }
+    has_no_losses.then_some(StopReason::WithoutLosses { frequency_hz })
 }
 
 /// The reason of a path, in terms of orbits.

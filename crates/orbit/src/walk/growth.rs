@@ -25,7 +25,7 @@
 //! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
 //! there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
 
-use hammerbeam_motion::{Law, LocalElement};
+use hammerbeam_motion::{Law, LocalElement, System};
 use hammerbeam_path::Node;
 
 use super::orbit_path::OrbitPath;
@@ -116,23 +116,21 @@ fn goes_beyond(path: &mut OrbitPath, levels: &[(Vec<f64>, f64)]) -> Option<f64> 
     })
 }
 
-/// Whether nothing takes energy out of the motion, and it goes [`BEYOND`] times as far as the gap of each
-/// element.
-pub(super) fn is_far_beyond_gaps_without_losses(path: &mut OrbitPath) -> bool {
-    let system = path.problem.system();
+/// Whether the motion goes [`BEYOND`] times as far as the gap of each element.
+pub(super) fn is_far_beyond_gaps(path: &mut OrbitPath) -> bool {
+    let gap = |element: &LocalElement| Some((element.shape.clone(), element.law.gap()?));
+    let gaps: Vec<(Vec<f64>, f64)> = path.problem.system().elements().iter().filter_map(gap).collect();
+    goes_beyond(path, &gaps).is_some_and(|least| least.is_finite() && least >= BEYOND)
+}
+
+/// Whether nothing takes energy out of any motion.
+pub(super) fn has_no_losses(system: &System) -> bool {
     let loses = |law: &Law| {
         let gives_less = law.rigid().is_some_and(|stop| stop.restitution() < 1.0);
         gives_less || law.depends_on_velocity() || law.remembers_impact()
     };
-    let elements = system.elements();
-    if (0..system.dof()).any(|mode| is_damped(system, mode))
-        || elements.iter().any(|element| loses(&element.law))
-    {
-        return false;
-    }
-    let gap = |element: &LocalElement| Some((element.shape.clone(), element.law.gap()?));
-    let gaps: Vec<(Vec<f64>, f64)> = elements.iter().filter_map(gap).collect();
-    goes_beyond(path, &gaps).is_some_and(|least| least.is_finite() && least >= BEYOND)
+    let is_damped = (0..system.dof()).any(|mode| is_damped(system, mode));
+    !is_damped && !system.elements().iter().any(|element| loses(&element.law))
 }
 
 /// The undamped mode whose free vibration repeats with the present orbit where no contact is closed.

@@ -58,11 +58,12 @@ impl LastRows {
     /// displacement.
     ///
     /// * `slopes`: `df/ds` at both.
-    pub fn estimate(&self, end: RowPlace, slopes: [f64; 2]) -> f64 {
+    /// * `least`: the displacement to which it is relative at least.
+    pub fn estimate(&self, end: RowPlace, slopes: [f64; 2], least: f64) -> f64 {
         let chain = self.with(end);
         let [.., begin, _] = chain[..] else { return 0.0 };
         let (h, rise) = (end.arc_length - begin.arc_length, end.displacement - begin.displacement);
-        let size = begin.displacement.min(end.displacement);
+        let size = begin.displacement.min(end.displacement).max(least);
         let Some(newest) = chain.last_chunk().map(divided_difference) else { return rise.abs() / size };
         let earlier = chain[..chain.len() - 1].last_chunk().map_or(0.0, divided_difference);
         let bend = bend(begin, end, slopes);
@@ -102,7 +103,7 @@ mod tests {
         let place = |s: f64| RowPlace { arc_length: s, frequency_hz: f(s).0, displacement: y(s) };
         let mut rows = LastRows::default();
         [-2.0 * h, -h, 0.0].into_iter().for_each(|s| rows.push(place(s)));
-        rows.estimate(place(h), [f(0.0).1, f(h).1])
+        rows.estimate(place(h), [f(0.0).1, f(h).1], 0.0)
     }
 
     /// `f = s^2`, `y = 1 + s`: over the frequency a square root, which misses its chord by a quarter of the

@@ -4,7 +4,8 @@
 //! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the
 //! orbit is cut anew in the middle of its longest time without contact: the state and its tangent are carried
 //! there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that
-//! appears by grazing just at the phase, the present phase counts as a contact. Multipliers and the
+//! appears by grazing just at the phase, the present phase counts as a contact. Where a rigid stop holds the
+//! structure but for an instant, the begin stays within that contact. Multipliers and the
 //! orientation of the path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix
 //! `P` in between.
 //!
@@ -26,7 +27,7 @@ use super::{
 };
 use crate::{
     OrbitError, Segments,
-    cut::{begins_with_care, contacts, longest_of_orbit},
+    cut::{Gap, begins_with_care, contacts, longest_of_orbit},
     shooting::ShootingProblem,
 };
 
@@ -67,7 +68,11 @@ fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
     let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
     let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
     let (gap, nearest) = longest_of_orbit(&contacts, cycles, flees)?;
-    let moves = flees || gap.asks_to_move(nearest);
+    // A stop that holds the structure is as good a begin as a flight, and a better one than a flight of an
+    // instant.
+    let holds = |contact: &Gap| contact.begin <= 0.0 && contact.end > gap.length();
+    let is_held = !problem.system().remembers_impacts() && gap.is_short() && contacts.iter().any(holds);
+    let moves = flees || gap.asks_to_move(nearest) && !is_held;
     let offset = gap.middle(phase).rem_euclid(cycles);
     (moves && offset > 0.0).then_some(offset)
 }

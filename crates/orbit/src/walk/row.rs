@@ -21,15 +21,18 @@ pub(crate) struct RowRecord {
     pub outside: Option<(u32, u32)>,
     /// For the density of rows.
     pub last_rows: LastRows,
+    /// That of the response, whose maximum displacement rows show.
+    pub shape: Vec<f64>,
     /// Shooting evaluations spent on rows between points of the path.
     pub evaluations_between: u64,
 }
 
 impl RowRecord {
-    /// At the start of a walk, whose maximum displacement is given.
-    pub fn at_start(path: &OrbitPath, displacement: f64) -> Self {
+    /// At the start of a walk, whose maximum displacement of the response with this shape is given.
+    pub fn at_start(path: &OrbitPath, displacement: f64, shape: &[f64]) -> Self {
         let last_rows = LastRows(vec![RowPlace::new(path.current(), displacement)]);
-        Self { touches: path.problem.touches().to_vec(), last_rows, ..Self::default() }
+        let (touches, shape) = (path.problem.touches().to_vec(), shape.to_vec());
+        Self { touches, last_rows, shape, ..Self::default() }
     }
 
     /// The row of the point at which the problem was evaluated last.
