@@ -5,7 +5,7 @@ mod places;
 use hammerbeam_orbit::{
     BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
     ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, TrialEffort, Wanted, find_orbits,
-    find_start_unless, free_vibration, newton_trials, probe, reach_orbit, resonance, settled_orbit, survey,
+    find_start_unless, free_vibration, newton_trials, probe, reach_orbit, settled_orbit, survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -194,11 +194,7 @@ impl Solver for OrbitSolver<'_> {
             }
             found => found,
         };
-        let explained = |error: OrbitError| match error {
-            OrbitError::NoOrbit { .. } => resonance(system, frequency_hz).unwrap_or(error),
-            error => error,
-        };
-        let found = found.map_err(|error| explained(error).to_string())?;
+        let found = found.map_err(|error| error.to_string())?;
         free_vibration(system, &found).map_or(Ok(found), |error| Err(error.to_string()))
     }
 

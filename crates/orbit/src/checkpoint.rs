@@ -175,6 +175,9 @@ fn read(
         Err(error) => return Some(Err(error)),
     };
     let mut state = read_follower(reader, point_length)?;
+    if ![1, scale.values().len()].contains(&state.state.units.len()) {
+        return None;
+    }
     let evaluations_between = reader.word()?;
     state.state.stop = end_of_word(reader.word()?)?;
     let mut last_rows = LastRows::default();

@@ -19,6 +19,7 @@ use crate::{
     catalogue::Catalogue,
     crossings::Branches,
     cut::search_cut,
+    free_vibration::resonance,
     matching::nearest_returns,
     noise::Noise,
     sampling::{Passed, Patience, Sought, sample},
@@ -82,6 +83,9 @@ pub fn find_orbits(
     }
     let is_wanted = |orbit: &PeriodicSolution| orbit.period_multiple == period_multiple;
     let mut found = search.catalogue.into_found(is_wanted, search.branches.incomplete);
+    if found.orbits.is_empty() && found.incomplete.is_none() {
+        found.incomplete = resonance(system, frequency_hz);
+    }
     found.orbits.sort_by(|x, y| {
         y.may_be_stable()
             .cmp(&x.may_be_stable())

@@ -12,6 +12,8 @@ use crate::{OrbitError, PeriodicSolution, ResonantMode};
 
 /// Relative distance of a harmonic of the orbit from an eigenfrequency up to which that resonates.
 const RESONANT: f64 = 1e-6;
+/// Load on a mode, relative to the largest on any, that is more than rounding.
+const DRIVEN: f64 = 1e-12;
 /// Damping ratio up to which a mode counts as undamped here.
 const UNDAMPED: f64 = 1e-6;
 
@@ -24,16 +26,18 @@ pub fn free_vibration(system: &System, orbit: &PeriodicSolution) -> Option<Orbit
     Some(OrbitError::FreeVibration { base_hz, mode })
 }
 
-/// Why a structure that is driven at this frequency has no periodic motion: it resonates with an undamped mode
-/// ([`OrbitError::Resonance`]). `None` where no load drives such a mode, or where elements act without a
-/// contact; contacts may bound the motion all the same.
-#[must_use]
-pub fn resonance(system: &System, frequency_hz: f64) -> Option<OrbitError> {
+/// Why a structure that is driven at this frequency may have no periodic motion: it resonates with an undamped
+/// mode ([`OrbitError::Resonance`]). `None` where no load drives such a mode, or where elements act without a
+/// contact.
+pub(crate) fn resonance(system: &System, frequency_hz: f64) -> Option<OrbitError> {
     let drives = |mode: &usize| {
-        let of_mode = harmonic(system, *mode, frequency_hz);
-        let resonates = |order: u32| f64::from(order) == of_mode.round();
-        let load = |index: usize| system.modal_load(index, TAU * frequency_hz).amplitude[*mode].norm();
-        (0..system.orders().len()).any(|index| resonates(system.orders()[index]) && load(index) > 0.0)
+        let order = harmonic(system, *mode, frequency_hz).round();
+        let of_order = |index: &usize| f64::from(system.orders()[*index]) == order;
+        (0..system.orders().len()).filter(of_order).any(|index| {
+            let load = system.modal_load(index, TAU * frequency_hz).amplitude;
+            let largest = load.iter().map(|part| part.norm()).fold(0.0, f64::max);
+            load[*mode].norm() > DRIVEN * largest
+        })
     };
     let mode = free_modes(system, frequency_hz)?.find(drives)?;
     Some(OrbitError::Resonance { frequency_hz, mode: described(system, mode) })
@@ -53,9 +57,9 @@ fn free_modes(system: &System, base_hz: f64) -> Option<impl Iterator<Item = usiz
         return None;
     }
     let is_free = move |mode: &usize| {
-        let harmonic = harmonic(system, *mode, base_hz);
-        let is_whole = (harmonic - harmonic.round()).abs() <= RESONANT * harmonic;
-        harmonic > 0.5 && is_whole && !is_damped(system, *mode)
+        let times = harmonic(system, *mode, base_hz);
+        let is_whole = (times - times.round()).abs() <= RESONANT * times;
+        times > 0.5 && is_whole && !is_damped(system, *mode)
     };
     Some((0..system.dof()).filter(is_free))
 }
@@ -73,12 +77,12 @@ fn described(system: &System, mode: usize) -> ResonantMode {
     }
 }
 
-/// Whether a mode vibrates and is damped.
+/// Whether a mode is damped; of a rigid one any damping counts.
 pub(crate) fn is_damped(system: &System, mode: usize) -> bool {
-    system.model().natural_frequencies[mode] > 0.0 && damping_ratio(system, mode) > UNDAMPED
+    damping_ratio(system, mode) > UNDAMPED
 }
 
-/// Ratio to critical damping of a mode, which vibrates.
+/// Ratio to critical damping of a mode; of a rigid one infinite, or not a number without damping.
 fn damping_ratio(system: &System, mode: usize) -> f64 {
     let model = system.model();
     model.damping[(mode, mode)] / (2.0 * model.natural_frequencies[mode])

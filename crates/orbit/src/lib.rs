@@ -148,7 +148,7 @@ pub use error::OrbitError;
 pub use event_kind::{BranchEventKind, EventSet};
 pub use find::find_orbits;
 pub use free::{FreeOrbit, free_orbit};
-pub use free_vibration::{free_vibration, resonance};
+pub use free_vibration::free_vibration;
 pub use hammerbeam_path::PathError;
 pub use linear_contact::linear_contact_ranges;
 pub use located::{ContactChange, EventStatus, LocatedEvent};

@@ -4,7 +4,7 @@ use hammerbeam_motion::System;
 
 use crate::{
     BranchWalk, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response, Side, find_start_unless,
-    start::attempt_nodes, walk::Walked,
+    free_vibration::resonance, start::attempt_nodes, walk::Walked,
 };
 
 /// Frequencies from which another one is reached, relative to it.
@@ -16,8 +16,8 @@ const MOST_ON_A_SIDE: usize = 5000;
 /// its branch.
 ///
 /// # Errors
-/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, [`OrbitError::Motion`] if none does and
-/// some motion could not be computed, [`OrbitError::Interrupted`].
+/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, or [`OrbitError::Resonance`] if that is why;
+/// [`OrbitError::Motion`] if none does and some motion could not be computed, [`OrbitError::Interrupted`].
 pub fn reach_orbit(
     system: &System,
     response: &Response,
@@ -66,5 +66,8 @@ pub fn reach_orbit(
             return Ok(solution);
         }
     }
-    Err(failure)
+    Err(match failure {
+        OrbitError::NoOrbit { .. } => resonance(system, frequency_hz).unwrap_or(failure),
+        failure => failure,
+    })
 }

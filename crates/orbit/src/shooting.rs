@@ -3,7 +3,7 @@
 //!
 //! An orbit of N excitation periods is cut at m equal phases, the first of them the phase at which it begins
 //! (0 unless a law needs another one). The unknowns are the states `z_k` there, scaled: displacements with
-//! `V/w_i`, velocities with `V`, so that the Euclidean norm of a node is its energy norm relative to `V`.
+//! `V/max(w_i, 2 pi f)`, velocities with `V`, which fit the orbit to a factor of four (`state_scale.rs`).
 //! With the flow `Z_k` of segment k the equations are
 //!
 //! `R_k = Z_k(z_k, f) - z_{k+1} = 0`, `k = 0..m`, `z_m = z_0`.

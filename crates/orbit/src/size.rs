@@ -91,9 +91,18 @@ impl<'a> Cut<'a> {
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn scale(&self, integrator: &mut ExactIntegrator) -> Result<StateScale, MotionError> {
+        Ok(self.fitting_scale(integrator)?.0)
+    }
+
+    /// [`Cut::scale`], and the size of the motion [kg^1/2 m/s]; without one the scale is that of one
+    /// kg^1/2 m/s.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn fitting_scale(&self, integrator: &mut ExactIntegrator) -> Result<(StateScale, f64), MotionError> {
         let mut scale = unit_scale(integrator.system(), self.frequency_hz);
-        scale.fit_to(&self.states(integrator)?);
-        Ok(scale)
+        let size = scale.fit_to(&self.states(integrator)?);
+        Ok((scale, size))
     }
 
     /// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to

@@ -11,7 +11,7 @@ use hammerbeam_motion::System;
 /// Least size of a motion, relative to its state.
 const LEAST_MOTION: f64 = 1e-3;
 
-/// Scales of a state: displacements `V/w_i`, velocities `V`.
+/// Scales of a state: displacements `V/max(w_i, 2 pi f)`, velocities `V`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateScale {
     scales: Vec<f64>,
@@ -20,7 +20,7 @@ pub(crate) struct StateScale {
 }
 
 impl StateScale {
-    /// * `natural_frequencies`: `w_i` [rad/s]; rigid modes take `reference` [rad/s] instead.
+    /// * `natural_frequencies`: `w_i` [rad/s]; slower modes than `reference`, `2 pi f` [rad/s], take that.
     /// * `velocity`: `V` [kg^1/2 m/s].
     pub fn new(natural_frequencies: &[f64], reference: f64, velocity: f64) -> Self {
         let displacement = natural_frequencies.iter().map(|w| velocity / w.max(reference));
@@ -80,12 +80,13 @@ impl StateScale {
         square.sqrt() < bound
     }
 
-    /// Multiplies the scales by the size of a motion, if it has one.
-    pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) {
+    /// Multiplies the scales by the size of a motion, if it has one; returns the size.
+    pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) -> f64 {
         let size = self.size_of_motion(states);
         if size > 0.0 {
             self.multiply(size);
         }
+        size
     }
 
     /// [`StateScale::size`] of the root of the mean square over states.

@@ -35,6 +35,9 @@ pub enum StopReason {
         residual: f64,
         /// What was wrong with it.
         doubt: String,
+        /// Nothing takes energy out of the motion: motions that differ by a free vibration may lie closer
+        /// together than rounding tells apart.
+        has_no_losses: bool,
     },
     /// No step, however short, led to an acceptable solution, and the last motion chatters at a rigid stop.
     Chatter {
@@ -81,12 +84,6 @@ pub enum StopReason {
         /// The mode that resonates, where that is one of the structure alone.
         mode: Option<ResonantMode>,
     },
-    /// Nothing takes energy out of the motion, and no step was found: motions that differ by a free vibration
-    /// lie closer together than rounding tells apart.
-    WithoutLosses {
-        /// Where [Hz].
-        frequency_hz: f64,
-    },
     /// The walk took more work than it may, or than it may without getting on.
     TooMuchWork {
         /// Where [Hz].
@@ -132,7 +129,6 @@ impl StopReason {
             | Self::ContactReopens { frequency_hz, .. }
             | Self::NoProgress { frequency_hz, .. }
             | Self::Unbounded { frequency_hz, .. }
-            | Self::WithoutLosses { frequency_hz }
             | Self::TooMuchWork { frequency_hz, .. }
             | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
             Self::Closed | Self::Budget { .. } => None,

@@ -14,7 +14,7 @@ impl Display for StopReason {
                 write!(formatter, "met the {what} of a branch of shorter period at {frequency_hz}")
             }
             Self::Budget { solutions } => write!(formatter, "the budget of {solutions} solutions is used up"),
-            Self::StepTooShort { frequency_hz, step, residual, doubt } => write!(
+            Self::StepTooShort { frequency_hz, step, residual, doubt, .. } => write!(
                 formatter,
                 "no solution was accepted beyond {frequency_hz} (last step {step:.1e}, residual \
                 {residual:.1e}: {doubt})"
@@ -39,9 +39,6 @@ impl Display for StopReason {
             ),
             Self::Unbounded { frequency_hz, .. } => {
                 write!(formatter, "the amplitude has no bound at {frequency_hz}")
-            }
-            Self::WithoutLosses { frequency_hz } => {
-                write!(formatter, "no motion without losses was told from its neighbours at {frequency_hz}")
             }
             Self::TooMuchWork { frequency_hz, solutions, .. } => {
                 write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")

@@ -4,7 +4,11 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
+use crate::common::events;
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, LocalElement, System,
+    law::{LinearStop, PowerSpring},
+};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, ResonantMode, Response, Side, StopReason, find_orbits,
     find_start, settled_orbit,
@@ -169,4 +173,19 @@ fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
     let beyond = rows.iter().filter(|row| row.solution.maxima.displacement > 1.5 * gap);
     let highest = beyond.map(|row| row.solution.frequency_hz).fold(0.0, f64::max);
     assert!(highest > 1.1 * NATURAL, "{highest}");
+}
+
+/// A superharmonic branch of an undamped hardening oscillator climbs until the forced motion and its
+/// neighbours, which differ in a free vibration, are closer than rounding tells apart: its end says so.
+#[test]
+fn a_branch_of_motions_without_losses_ends_with_that_word() {
+    let law = Law::Power(PowerSpring::cubic(0.0353).unwrap());
+    let subject = events::oscillator(1.0, 0.0, 1.0, law);
+    let (settings, range) = (events::step_of(5e-4), (0.0759, 0.3163));
+    let found = find_orbits(&subject.0, &subject.1, (0.08, 1), range, &settings, &mut || false).unwrap();
+    // The largest comes first.
+    assert!(found.orbits[0].maxima.displacement > 5.0);
+    let (rows, reason) = events::side(&subject, &found.orbits[0], Side::Up, range, &settings);
+    assert!(rows.len() > 500, "{} rows", rows.len());
+    assert!(matches!(reason, StopReason::StepTooShort { has_no_losses: true, .. }), "{reason}");
 }

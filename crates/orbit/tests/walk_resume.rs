@@ -21,11 +21,20 @@ fn oscillator() -> (System, Response) {
 
 const RANGE: (f64, f64) = (0.1, 0.4);
 
-/// Walks to the end, storing and resuming after every `pieces` steps.
+/// Walks up to the end of [`RANGE`], storing and resuming after every `pieces` steps.
 fn walk(settings: &OrbitSettings, pieces: usize) -> Vec<BranchRow> {
+    walk_from((0.12, Side::Up, RANGE), settings, pieces)
+}
+
+/// Walks from a frequency to the end of a range, storing and resuming after every `pieces` steps.
+fn walk_from(
+    (from_hz, side, range): (f64, Side, (f64, f64)),
+    settings: &OrbitSettings,
+    pieces: usize,
+) -> Vec<BranchRow> {
     let (system, response) = oscillator();
-    let start = find_start(&system, &response, 0.12, 1, settings).unwrap();
-    let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, settings).unwrap();
+    let start = find_start(&system, &response, from_hz, 1, settings).unwrap();
+    let mut walk = BranchWalk::new(&system, &response, &start, side, range, settings).unwrap();
     let (mut rows, mut journal) = (Vec::new(), Vec::new());
     for step in 1.. {
         if walk.step(&mut rows).unwrap().is_some() {
@@ -34,7 +43,7 @@ fn walk(settings: &OrbitSettings, pieces: usize) -> Vec<BranchRow> {
         if step % pieces == 0 {
             journal.extend(walk.take_journal());
             let checkpoint = walk.checkpoint();
-            walk = BranchWalk::resume(&system, &response, (&checkpoint, &journal), RANGE, settings).unwrap();
+            walk = BranchWalk::resume(&system, &response, (&checkpoint, &journal), range, settings).unwrap();
         }
     }
     rows
@@ -49,6 +58,17 @@ fn a_resumed_walk_has_the_bits_of_an_undisturbed_one() {
         assert!(undisturbed.len() > 200);
         assert!(undisturbed == walk(&settings, 7));
     }
+}
+
+/// From fifty times the eigenfrequency down to a part of it: the units of displacements and velocities change,
+/// each by its own factors.
+#[test]
+fn a_walk_that_is_resumed_in_other_units_has_the_same_bits() {
+    let settings = OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() };
+    let walk = |pieces| walk_from((8.0, Side::Down, (0.02, 10.0)), &settings, pieces);
+    let undisturbed = walk(usize::MAX);
+    assert!(undisturbed.last().unwrap().solution.frequency_hz < 0.021);
+    assert!(undisturbed == walk(7));
 }
 
 /// With long steps rows are put between the points of the path, from what is known of the rows before.

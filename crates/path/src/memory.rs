@@ -115,15 +115,17 @@ impl PathMemory {
             log_determinant: self.log_determinant(candidate.log_determinant, &tangent),
             signature: candidate.signature,
         };
+        // Points are as accurate as their units are large; the largest bounds all.
+        let point_tolerance = units.iter().fold(1.0, |most: f64, &unit| most.max(unit)) * self.tolerance;
         (0..self.sizes).find_map(|size| {
             let (_, i, j) = self.cell_of(size, &probe.place);
             (-1..=1)
                 .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
-                .find_map(|cell| self.meets_in(cell, &probe, units))
+                .find_map(|cell| self.meets_in(cell, &probe, point_tolerance))
         })
     }
 
-    fn meets_in(&self, cell: Cell, probe: &Vertex, units: &[f64]) -> Option<f64> {
+    fn meets_in(&self, cell: Cell, probe: &Vertex, point_tolerance: f64) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
@@ -131,7 +133,7 @@ impl PathMemory {
             if segment + RECENT < self.vertices.len() {
                 let found = {
                     let ends = (&self.vertices[segment - 1], &self.vertices[segment]);
-                    self.meets_segment(ends, probe, units)
+                    self.meets_segment(ends, probe, point_tolerance)
                 };
                 if found.is_some() {
                     return found;
@@ -142,9 +144,7 @@ impl PathMemory {
         None
     }
 
-    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, units: &[f64]) -> Option<f64> {
-        // Points are as accurate as their units are large.
-        let point_tolerance = units.iter().fold(1.0, |most: f64, &unit| most.max(unit)) * self.tolerance;
+    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, point_tolerance: f64) -> Option<f64> {
         let margin = point_tolerance + self.largest_defect;
         let (low, high) = (a.place[0].min(b.place[0]), a.place[0].max(b.place[0]));
         let near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;

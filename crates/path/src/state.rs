@@ -29,7 +29,7 @@ pub struct PathState {
     /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is
     /// known of them.
     pub outside: Option<(u32, u32)>,
-    /// Units of the unknowns now, in those of the start: of the first ones, and again of as many that follow.
+    /// Units of the unknowns now, in those of the start: unknown `i` has number `i` modulo their number.
     pub units: Vec<f64>,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.
     pub change_ahead: f64,
@@ -100,8 +100,7 @@ impl PathState {
         current.uncertainty = uncertainty;
     }
 
-    /// Goes on in units of the unknowns that are `factors` times as large, of one after the other, and again
-    /// of as many that follow.
+    /// Goes on in units of the unknowns that are `factors` times as large ([`rescale`](crate::Follower::rescale)).
     ///
     /// Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit
     /// the start. Where the unknowns grow or shrink by orders of magnitude, a problem may change their units,
@@ -111,6 +110,7 @@ impl PathState {
     /// vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a point, so that `D' = ρ D`: no
     /// sign changes. The memory stays in the first units.
     pub(crate) fn rescale(&mut self, factors: &[f64], weights: &[f64], shortest_step: f64) {
+        debug_assert!(self.units.len() == 1 || self.units.len() == factors.len(), "as many as before");
         let inverse = inverses(factors);
         self.units =
             factors.iter().zip(self.units.iter().cycle()).map(|(factor, unit)| factor * unit).collect();
@@ -131,8 +131,8 @@ impl PathState {
     }
 }
 
-/// Unknowns of a point in units in which they are so many times as large, one after the other and again; the
-/// parameter, which comes last, stays.
+/// Unknowns of a point in units in which they are so many times as large, taken over and over; the parameter,
+/// which comes last, stays.
 fn multiply(values: &mut [f64], by: &[f64]) {
     let last = values.len() - 1;
     values[..last].iter_mut().zip(by.iter().cycle()).for_each(|(value, by)| *value *= by);

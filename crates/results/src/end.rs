@@ -155,8 +155,9 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             StoredEnd::at("shorter-period", *frequency_hz).with([f64::from(u8::from(*grazes))])
         }
         StopReason::Budget { solutions } => StoredEnd::plain("budget").with([*solutions as f64]),
-        StopReason::StepTooShort { frequency_hz, step, residual, doubt } => {
-            StoredEnd::at("step-too-short", *frequency_hz).with([*step, *residual]).saying(doubt)
+        StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
+            let numbers = [*step, *residual, f64::from(u8::from(*has_no_losses))];
+            StoredEnd::at("step-too-short", *frequency_hz).with(numbers).saying(doubt)
         }
         StopReason::Chatter { frequency_hz, element, impacts } => {
             StoredEnd::at("chatter", *frequency_hz).with([*impacts as f64]).saying(element)
@@ -174,7 +175,6 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
             StoredEnd::at("unbounded", *frequency_hz).with(of_mode.unwrap_or_default())
         }
-        StopReason::WithoutLosses { frequency_hz } => StoredEnd::at("without-losses", *frequency_hz),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
             StoredEnd::at("too-much-work", *frequency_hz).with(numbers)
@@ -197,8 +197,9 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         ("shorter-period", [grazes], frequency_hz) => {
             StopReason::ShorterPeriod { frequency_hz, grazes: *grazes != 0.0 }
         }
-        ("step-too-short", [step, residual], frequency_hz) => {
-            StopReason::StepTooShort { frequency_hz, step: *step, residual: *residual, doubt: text()? }
+        ("step-too-short", [step, residual, lossless], frequency_hz) => {
+            let (step, residual, doubt, has_no_losses) = (*step, *residual, text()?, *lossless != 0.0);
+            StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
         }
         ("chatter", [impacts], frequency_hz) => {
             StopReason::Chatter { frequency_hz, element: text()?, impacts: *impacts as usize }
@@ -216,7 +217,6 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
             let mode = ResonantMode { number: *number as usize, frequency_hz: *at_hz, damping_ratio: *ratio };
             StopReason::Unbounded { frequency_hz, mode: Some(mode) }
         }
-        ("without-losses", [], frequency_hz) => StopReason::WithoutLosses { frequency_hz },
         ("too-much-work", [solutions, gets_on], frequency_hz) => {
             let solutions = *solutions as u64;
             StopReason::TooMuchWork { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
@@ -290,20 +290,27 @@ pub(crate) mod tests {
         let parameter = 12.5;
         let text = || "x".to_owned();
         let mode = ResonantMode { number: 2, frequency_hz: 12.0, damping_ratio: 0.0 };
+        let too_short = |has_no_losses: bool| StopReason::StepTooShort {
+            frequency_hz,
+            step: 1e-9,
+            residual: f64::INFINITY,
+            doubt: text(),
+            has_no_losses,
+        };
         let walks = [
             StopReason::RangeEnd { frequency_hz },
             StopReason::Closed,
             StopReason::ShorterPeriod { frequency_hz, grazes: true },
             StopReason::ShorterPeriod { frequency_hz, grazes: false },
             StopReason::Budget { solutions: 3 },
-            StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: f64::INFINITY, doubt: text() },
+            too_short(false),
+            too_short(true),
             StopReason::Chatter { frequency_hz, element: "stop".to_owned(), impacts: 12 },
             StopReason::RunsBack { frequency_hz, met_arc_length: 3.0 },
             StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
             StopReason::NoProgress { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
             StopReason::Unbounded { frequency_hz, mode: Some(mode) },
             StopReason::Unbounded { frequency_hz, mode: None },
-            StopReason::WithoutLosses { frequency_hz },
             StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },
             StopReason::Motion { frequency_hz, message: text() },
         ];

@@ -93,6 +93,10 @@ impl std::fmt::Display for BranchEnd {
     }
 }
 
+/// Why a walk among motions without losses may end, and what to do.
+const NO_LOSSES: &str = "nothing takes energy out of it, and motions that differ by a free vibration may lie \
+    closer together than rounding tells apart; with damping ([damping]) they are apart";
+
 fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
     let (at, look) = (|value: f64| along.place(value), along.look());
     match reason {
@@ -119,11 +123,14 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
                 ([continuation]) {}",
             along.larger_budget()
         ),
-        StopReason::StepTooShort { frequency_hz, step, residual, doubt } => format!(
-            "no periodic motion next to the last one was found beyond {}, however near it was looked for; \
-                {look} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
-            at(*frequency_hz)
-        ),
+        StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
+            let advice = if *has_no_losses { NO_LOSSES } else { look };
+            format!(
+                "no periodic motion next to the last one was found beyond {}, however near it was looked for; \
+                {advice} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
+                at(*frequency_hz)
+            )
+        }
         StopReason::Chatter { frequency_hz, element, impacts } => format!(
             "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each \
                 slower than the one before, and no motion next to it was found; {look}",
@@ -145,12 +152,6 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::Unbounded { frequency_hz, mode } => {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))
         }
-        StopReason::WithoutLosses { frequency_hz } => format!(
-            "beyond {} no motion was told from its neighbours: nothing takes energy out of it, and motions \
-                that differ by a free vibration lie closer together than rounding; with damping \
-                ([damping]) they are apart",
-            at(*frequency_hz)
-        ),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             format!("at {} {}", at(*frequency_hz), too_much_work(*solutions, *gets_on))
         }

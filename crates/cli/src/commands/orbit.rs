@@ -3,7 +3,7 @@
 use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_jobs::{PreparedStudy, counted, orbits::orbits};
-use hammerbeam_orbit::{PeriodicSolution, resonance};
+use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::readable_to;
 
 use crate::{
@@ -24,20 +24,17 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
     let mut watch = Watch::new(Interrupt::listen(output)?);
     let mut report = orbits(&study, frequency_hz, multiple, &mut watch)?;
-    let incomplete = report.incomplete.as_ref().map(|reason| format!("the search is not complete: {reason}"));
     if report.orbits.is_empty() {
         let nothing = format!(
             "no periodic solution of {} was found at {}",
             counted(multiple.into(), "excitation period"),
             output.frequency_unit.words(frequency_hz)
         );
-        let resonance = resonance(&study.model.system, frequency_hz).map(|why| why.to_string());
-        let reasons: Vec<String> = [resonance, incomplete].into_iter().flatten().collect();
-        let why = if reasons.is_empty() { String::new() } else { format!("; {}", reasons.join("; ")) };
+        let why = report.incomplete.map_or(String::new(), |reason| format!(": {reason}"));
         return Err(Failure::NoResult(nothing + &why));
     }
-    if let Some(why) = incomplete {
-        notify(&why);
+    if let Some(reason) = &report.incomplete {
+        notify(&format!("the search is not complete: {reason}"));
     }
     if let Some(folder) = &options.out {
         let low_pass_hz = options.low_pass.or(study.file.study.figures.low_pass_hz);

@@ -188,7 +188,13 @@ impl Walk for FakeWalk<'_> {
         let [low, high] = self.solver.range_hz;
         if self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
             let doubt = "lost where it was to be".to_owned();
-            let reason = StopReason::StepTooShort { frequency_hz, step: 1e-9, residual: 1.0, doubt };
+            let reason = StopReason::StepTooShort {
+                frequency_hz,
+                step: 1e-9,
+                residual: 1.0,
+                doubt,
+                has_no_losses: false,
+            };
             return Ok(Some(reason.into()));
         }
         let is_end = frequency_hz <= low || frequency_hz >= high;

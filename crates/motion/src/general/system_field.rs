@@ -288,8 +288,8 @@ fn least_length(system: &System, loads: &[ModalLoad], frequency_hz: f64) -> f64 
     let shortest = shortest_length(system, frequency_hz);
     let moved = |mode: usize, natural: f64| {
         let by = |(load, order): (&ModalLoad, &u32)| {
-            let rate = natural.max(TAU * frequency_hz * f64::from((*order).max(1)));
-            load.amplitude[mode].norm() / (rate * rate)
+            let rate = natural.max(TAU * frequency_hz * f64::from(*order));
+            if rate > 0.0 { load.amplitude[mode].norm() / (rate * rate) } else { 0.0 }
         };
         loads.iter().zip(system.orders()).map(by).sum::<f64>()
     };

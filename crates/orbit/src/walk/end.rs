@@ -35,11 +35,9 @@ fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<St
     if let Some((element, impacts)) = chatters(path) {
         return Some(StopReason::Chatter { frequency_hz, element, impacts });
     }
-    let (mode, has_no_losses) = (free_mode(path), has_no_losses(path.problem.system()));
-    if mode.is_some() || has_no_losses && is_far_beyond_gaps(path) {
-        return Some(StopReason::Unbounded { frequency_hz, mode });
-    }
-    has_no_losses.then_some(StopReason::WithoutLosses { frequency_hz })
+    let mode = free_mode(path);
+    let has_no_bound = mode.is_some() || has_no_losses(path.problem.system()) && is_far_beyond_gaps(path);
+    has_no_bound.then_some(StopReason::Unbounded { frequency_hz, mode })
 }
 
 /// The reason of a path, in terms of orbits.
@@ -51,7 +49,8 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, frequency_hz)
             .unwrap_or_else(|| {
                 let doubt = doubt_in_unstable(path, doubt.to_string());
-                StopReason::StepTooShort { frequency_hz, step, residual, doubt }
+                let has_no_losses = has_no_losses(path.problem.system());
+                StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
             }),
         PathStop::NoProgress { steps, .. } => {
             splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::NoProgress {

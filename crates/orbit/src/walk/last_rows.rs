@@ -55,10 +55,9 @@ impl LastRows {
     }
 
     /// Estimated error of linear interpolation from the newest row to `end`, relative to the smaller
-    /// displacement.
+    /// displacement or to `least`, if that is more.
     ///
     /// * `slopes`: `df/ds` at both.
-    /// * `least`: the displacement to which it is relative at least.
     pub fn estimate(&self, end: RowPlace, slopes: [f64; 2], least: f64) -> f64 {
         let chain = self.with(end);
         let [.., begin, _] = chain[..] else { return 0.0 };

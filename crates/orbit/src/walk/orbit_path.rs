@@ -66,10 +66,10 @@ impl OrbitPath {
     }
 
     /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
-    pub fn of_present(
+    pub fn of_present<T>(
         &mut self,
-        ask: impl FnOnce(Cut<'_>, &mut ExactIntegrator, &StateScale) -> Result<f64, MotionError>,
-    ) -> Option<f64> {
+        ask: impl FnOnce(Cut<'_>, &mut ExactIntegrator, &StateScale) -> Result<T, MotionError>,
+    ) -> Option<T> {
         let point = &self.follower.current().point;
         self.problem.move_to(point).ok()?;
         let (frequency_hz, nodes) = (self.problem.frequency(point), self.problem.nodes(point));

@@ -68,13 +68,20 @@ fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
     let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
     let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
     let (gap, nearest) = longest_of_orbit(&contacts, cycles, flees)?;
-    // A stop that holds the structure is as good a begin as a flight, and a better one than a flight of an
-    // instant.
-    let holds = |contact: &Gap| contact.begin <= 0.0 && contact.end > gap.length();
-    let is_held = !problem.system().remembers_impacts() && gap.is_short() && contacts.iter().any(holds);
-    let moves = flees || gap.asks_to_move(nearest) && !is_held;
+    let keeps_begin = !problem.system().remembers_impacts()
+        && gap.is_short()
+        && lasts_over_begin(&contacts, cycles, gap.length());
+    let moves = flees || gap.asks_to_move(nearest) && !keeps_begin;
     let offset = gap.middle(phase).rem_euclid(cycles);
     (moves && offset > 0.0).then_some(offset)
+}
+
+/// Whether a contact lasts so long before the begin of an orbit, and behind it: a stop that holds the structure
+/// is a better begin than a flight of an instant.
+fn lasts_over_begin(contacts: &[Gap], cycles: f64, long: f64) -> bool {
+    let behind = |contact: &Gap| contact.begin <= 0.0 && contact.end > long;
+    let before = |contact: &Gap| contact.end >= cycles && contact.begin < cycles - long;
+    contacts.iter().any(behind) && contacts.iter().any(before)
 }
 
 /// Whether its orbits were cut (`halves.rs`).

@@ -11,7 +11,7 @@ use super::{
     shorter_period::meets_shorter_period,
     splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
 };
-use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate, state_scale::unit_scale};
+use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new
 /// units.
@@ -32,7 +32,7 @@ impl BranchWalk {
     /// again then.
     ///
     /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good
-    /// to 1e-3.
+    /// to 1e-3 of it, or of a millionth of the motion if that is more (`density.rs`).
     ///
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
@@ -168,19 +168,19 @@ impl BranchWalk {
         if !due && path.problem.size(&path.follower.current().point) <= OUTGROWN {
             return None;
         }
-        let mut wanted = unit_scale(path.problem.system(), path.problem.frequency(&path.current().point));
-        let size = path.of_present(|orbit, integrator, _| orbit.size(integrator, &wanted));
-        let size = size.filter(|size| size.is_normal())?;
+        let (fitting, size) = path.of_present(|orbit, integrator, _| orbit.fitting_scale(integrator))?;
+        if !size.is_normal() {
+            return None;
+        }
         let end = self.growth.end_of(path, size, &self.record.touches);
-        wanted.multiply(size);
-        let of_present = wanted.values().iter().zip(path.problem.scale().values());
-        let factors: Vec<f64> = of_present.map(|(wanted, present)| wanted / present).collect();
-        if end.is_some() || factors.iter().all(|factor| (1.0 / OUTGROWN..=OUTGROWN).contains(factor)) {
+        let units = fitting.values().iter().zip(path.problem.scale().values());
+        let outgrown: Vec<f64> = units.map(|(fitting, present)| fitting / present).collect();
+        if end.is_some() || outgrown.iter().all(|factor| (1.0 / OUTGROWN..=OUTGROWN).contains(factor)) {
             return end;
         }
         // Powers of two change no digit.
         let factors: Vec<f64> =
-            factors.iter().map(|factor| 2f64.powi(factor.log2().round() as i32)).collect();
+            outgrown.iter().map(|factor| 2f64.powi(factor.log2().round() as i32)).collect();
         path.problem.rescale(&factors);
         path.follower.rescale(&factors);
         path.measures_anew = true;

@@ -198,8 +198,10 @@ impl Follower {
         self.memory.remember(point, &[1.0]);
     }
 
-    /// The problem has made the units of its unknowns and equations `factors` times as large, of one after
-    /// the other, and again of as many that follow; of as many every time.
+    /// The problem has made the units of its unknowns and equations larger.
+    ///
+    /// * `factors`: positive, as many in every call; unknown and equation `i` take number `i` modulo their
+    ///   number, which divides that of the unknowns.
     pub fn rescale(&mut self, factors: &[f64]) {
         self.state.rescale(factors, &self.frame.weights, self.frame.settings.min_step);
     }
