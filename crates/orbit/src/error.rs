@@ -64,7 +64,7 @@ pub enum OrbitError {
     FreeVibration { base_hz: f64, mode: ResonantMode },
     /// The excitation drives an undamped mode at its own frequency.
     #[error(
-        "{mode} and is driven at its frequency, {frequency_hz:.6} Hz or a multiple of it, so that nothing but \
+        "{mode} and is driven at its frequency, {frequency_hz:.6} Hz or a multiple of it: nothing but \
         contacts can bound its motion; with damping ([damping]) it is bounded"
     )]
     Resonance { frequency_hz: f64, mode: ResonantMode },

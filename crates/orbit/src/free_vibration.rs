@@ -26,9 +26,9 @@ pub fn free_vibration(system: &System, orbit: &PeriodicSolution) -> Option<Orbit
     Some(OrbitError::FreeVibration { base_hz, mode })
 }
 
-/// Why a structure that is driven at this frequency may have no periodic motion: it resonates with an undamped
-/// mode ([`OrbitError::Resonance`]). `None` where no load drives such a mode, or where elements act without a
-/// contact.
+/// Why a structure that is driven at this frequency may have no periodic motion: it resonates with an
+/// undamped mode ([`OrbitError::Resonance`]). `None` where no load drives such a mode, or where elements act
+/// without a contact.
 pub(crate) fn resonance(system: &System, frequency_hz: f64) -> Option<OrbitError> {
     let drives = |mode: &usize| {
         let order = harmonic(system, *mode, frequency_hz).round();

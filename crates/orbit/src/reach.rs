@@ -16,8 +16,9 @@ const MOST_ON_A_SIDE: usize = 5000;
 /// its branch.
 ///
 /// # Errors
-/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, or [`OrbitError::Resonance`] if that is why;
-/// [`OrbitError::Motion`] if none does and some motion could not be computed, [`OrbitError::Interrupted`].
+/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, or [`OrbitError::Resonance`] if that is
+/// why; [`OrbitError::Motion`] if none does and some motion could not be computed,
+/// [`OrbitError::Interrupted`].
 pub fn reach_orbit(
     system: &System,
     response: &Response,

@@ -60,8 +60,8 @@ fn a_resumed_walk_has_the_bits_of_an_undisturbed_one() {
     }
 }
 
-/// From fifty times the eigenfrequency down to a part of it: the units of displacements and velocities change,
-/// each by its own factors.
+/// From fifty times the eigenfrequency down to a part of it: the units of displacements and velocities
+/// change, each by its own factors.
 #[test]
 fn a_walk_that_is_resumed_in_other_units_has_the_same_bits() {
     let settings = OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() };

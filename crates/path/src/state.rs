@@ -100,7 +100,8 @@ impl PathState {
         current.uncertainty = uncertainty;
     }
 
-    /// Goes on in units of the unknowns that are `factors` times as large ([`rescale`](crate::Follower::rescale)).
+    /// Goes on in units of the unknowns that are `factors` times as large
+    /// ([`rescale`](crate::Follower::rescale)).
     ///
     /// Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit
     /// the start. Where the unknowns grow or shrink by orders of magnitude, a problem may change their units,

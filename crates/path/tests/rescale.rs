@@ -9,9 +9,9 @@ use hammerbeam_path::{
 
 const WIDTH: f64 = 1000.0;
 
-/// The ellipse `(x/1000)² + λ² = 1` from `x = 1` on, with a second unknown `y = λ/1000` and a copy of both; where
-/// x leaves its unit by a factor of four, all unknowns and their equations get units that fit. Points in the
-/// first units.
+/// The ellipse `(x/1000)² + λ² = 1` from `x = 1` on, with a second unknown `y = λ/1000` and a copy of both;
+/// where x leaves its unit by a factor of four, all unknowns and their equations get units that fit. Points
+/// in the first units.
 fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, PathStop) {
     let units = Cell::new([1.0, 1.0]);
     let mut problem = DenseProblem::new(4, |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {

@@ -126,8 +126,8 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
             let advice = if *has_no_losses { NO_LOSSES } else { look };
             format!(
-                "no periodic motion next to the last one was found beyond {}, however near it was looked for; \
-                {advice} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
+                "no periodic motion next to the last one was found beyond {}, however near it was looked \
+                for; {advice} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
                 at(*frequency_hz)
             )
         }

@@ -16,8 +16,8 @@
 //! true error there, which for one kink is at least half the largest one; above [`MEASURED`] both halves are
 //! cut again.
 //!
-//! Errors are relative to `y`, or to a millionth of what it is at the size of the motion, if that is more: the
-//! response may rest on a stop up to a place from which `y` grows like a power of the distance.
+//! Errors are relative to `y`, or to a millionth of what it is at the size of the motion, if that is more:
+//! the response may rest on a stop up to a place from which `y` grows like a power of the distance.
 //!
 //! The estimate rests on rows of the past alone, so rows come in order and a walk that is taken up again
 //! inserts the same ones.
@@ -120,8 +120,8 @@ impl RowRecord {
     }
 }
 
-/// Whether the straight line from begin to end misses the row between by too much; `least` is the displacement
-/// to which that is relative at least.
+/// Whether the straight line from begin to end misses the row between by too much; `least` is the
+/// displacement to which that is relative at least.
 fn missed(begin: RowPlace, middle: RowPlace, end: RowPlace, least: f64) -> bool {
     let share = (middle.frequency_hz - begin.frequency_hz) / (end.frequency_hz - begin.frequency_hz);
     let line = begin.displacement + share * (end.displacement - begin.displacement);

@@ -76,8 +76,8 @@ fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
     (moves && offset > 0.0).then_some(offset)
 }
 
-/// Whether a contact lasts so long before the begin of an orbit, and behind it: a stop that holds the structure
-/// is a better begin than a flight of an instant.
+/// Whether a contact lasts so long before the begin of an orbit, and behind it: a stop that holds the
+/// structure is a better begin than a flight of an instant.
 fn lasts_over_begin(contacts: &[Gap], cycles: f64, long: f64) -> bool {
     let behind = |contact: &Gap| contact.begin <= 0.0 && contact.end > long;
     let before = |contact: &Gap| contact.end >= cycles && contact.begin < cycles - long;
