@@ -10,6 +10,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     free_vibration::free_vibration,
     matching::{distance_in_phase, states_at_phase},
+    off_impacts::begun_off_impacts,
     shooting::ShootingProblem,
     size::{Cut, orbit_scale, scale_from},
     solve::{Wanted, approach, correct, has_minimal_period, integrator, solution},
@@ -241,8 +242,23 @@ impl<'a> Catalogue<'a> {
         } else {
             states_at_phase(integrator, &solution, 0.0)?
         };
+        let elsewhere = begun_off_impacts(integrator, &solution)?;
+        if let Some(place) = elsewhere.as_ref().and_then(|orbit| self.place_elsewhere(integrator, orbit)) {
+            return Ok(Arrived { place, is_new: false });
+        }
+        let solution = elsewhere.unwrap_or(solution);
         self.known.push(Known { solution, scale, phases, followed: false });
         Ok(Arrived { place: self.known.len() - 1, is_new: true })
+    }
+
+    /// Place of an orbit that does not begin at phase 0, since an impact lies there.
+    fn place_elsewhere(&self, integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Option<usize> {
+        self.known.iter().position(|known| {
+            let states = |integrator| states_at_phase(integrator, &known.solution, orbit.phase);
+            known.solution.period_multiple == orbit.period_multiple
+                && states(&mut *integrator)
+                    .is_ok_and(|states| distance_in_phase(&known.scale, &states, &orbit.nodes[0]) < SAME)
+        })
     }
 
     /// Place of an orbit with this period that touches nothing.

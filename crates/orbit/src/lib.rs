@@ -34,6 +34,7 @@
 //! - `switch.rs`: leaving a flip or branch point onto the other branch
 //! - `survey.rs`, `matching.rs`: all orbits that simulation leads to at a frequency; whether two orbits
 //!   are the same
+//! - `off_impacts.rs`: orbits that begin on an impact, begun elsewhere
 //! - `trials.rs`: orbits at a frequency by few trials of Newton's method
 //! - `probe.rs`, `backbone.rs`, `linear_contact.rs`: attractors at a frequency, quickly; states of large
 //!   amplitude from which motions begin; frequencies at which the linear response reaches a contact
@@ -115,6 +116,7 @@ mod matching;
 mod motion_search;
 mod neighbour;
 mod noise;
+mod off_impacts;
 mod output;
 mod probe;
 mod reach;

@@ -14,7 +14,9 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::RigidStop};
-use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_orbits, find_start,
+};
 use hammerbeam_testkit::structures::unit_mass;
 
 const GAP: f64 = 0.1;
@@ -35,9 +37,13 @@ fn closed_form(w: f64) -> (f64, f64) {
 }
 
 fn oscillator(phase: f64) -> (System, Response) {
+    oscillator_at(RESTITUTION, GAP, phase)
+}
+
+fn oscillator_at(restitution: f64, gap: f64, phase: f64) -> (System, Response) {
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let law = Law::Rigid(RigidStop::with_gap(RESTITUTION, GAP).unwrap());
+    let law = Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap());
     let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law };
     (
         System::new(unit_mass(1.0, 0.0), &load, vec![stop]).unwrap(),
@@ -78,6 +84,34 @@ fn a_branch_goes_on_where_its_impact_passes_phase_0() {
             assert!((orbit.maxima.impact_velocity / speed - 1.0).abs() < 1e-8, "{} Hz", orbit.frequency_hz);
             let [[a, b], [c, d]] = [orbit.floquet_multipliers[0], orbit.floquet_multipliers[1]];
             assert!((a * c - b * d - RESTITUTION * RESTITUTION).abs() < 1e-8, "{} Hz", orbit.frequency_hz);
+        }
+    }
+}
+
+/// Without losses the motion goes backwards in time alike, and the impact comes at phase 0 at every
+/// frequency: rounding says on which side of it the state there lies. With `e = 1` one orbit has one impact,
+/// of the speed `V = (g - s)/C`.
+#[test]
+fn an_orbit_with_its_impact_at_phase_0_is_found_once_and_followed() {
+    let (gap, settings) = (0.5, OrbitSettings { max_step_hz: 1e-4, ..OrbitSettings::default() });
+    let (system, response) = oscillator_at(1.0, gap, 0.0);
+    let range = (1.4 / TAU, 1.7 / TAU);
+    for w in [1.47, 1.5, 1.55, 1.6] {
+        let expected = (1.0 / (1.0 - w * w) - gap) * (TAU / w / 2.0).tan();
+        let found = find_orbits(&system, &response, (w / TAU, 1), range, &settings, &mut || false).unwrap();
+        let has_one = |speed: f64| (speed / expected - 1.0).abs() < 1e-6;
+        let with_one: Vec<_> =
+            found.orbits.iter().filter(|orbit| has_one(orbit.maxima.impact_velocity)).collect();
+        assert_eq!(with_one.len(), 1, "{w} rad/s");
+        let mut walk = BranchWalk::new(&system, &response, with_one[0], Side::Up, range, &settings).unwrap();
+        let mut rows = Vec::new();
+        for _ in 0..20 {
+            assert_eq!(walk.step(&mut rows).unwrap(), None);
+        }
+        for orbit in rows.iter().map(|row| &row.solution) {
+            let w = TAU * orbit.frequency_hz;
+            let expected = (1.0 / (1.0 - w * w) - gap) * (TAU / w / 2.0).tan();
+            assert!((orbit.maxima.impact_velocity / expected - 1.0).abs() < 1e-9, "{w} rad/s");
         }
     }
 }

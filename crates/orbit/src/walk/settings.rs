@@ -17,10 +17,8 @@ const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
 
 /// Residual to which other orbits are corrected. Where hard contacts make the monodromy matrix large, though
 /// its multipliers are not, a correction within the tolerance leaves a residual of 1e-7 and multipliers that
-/// are known to nothing: such solutions were called marginal, one by one between unstable ones. Beside a
-/// range far above the frequency a tolerance of the range is coarse, too: this is less than the 1e-9 of
-/// `verify` in units that fit the orbit to a factor of four.
-const RESIDUAL: f64 = 3e-10;
+/// are known to nothing: such solutions were called marginal, one by one between unstable ones.
+const RESIDUAL: f64 = 1e-8;
 
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
 /// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
