@@ -236,16 +236,16 @@ impl<'a> Catalogue<'a> {
             }
             self.family = Some(error);
         }
+        let elsewhere = begun_off_impacts(integrator, &solution)?;
+        if let Some(place) = elsewhere.as_ref().and_then(|orbit| self.place_elsewhere(integrator, orbit)) {
+            return Ok(Arrived { place, is_new: false });
+        }
         let (multiple, count) = (solution.period_multiple as usize, solution.nodes.len());
         let phases = if count.is_multiple_of(multiple) && solution.phase == 0.0 {
             solution.nodes.iter().step_by(count / multiple).cloned().collect()
         } else {
             states_at_phase(integrator, &solution, 0.0)?
         };
-        let elsewhere = begun_off_impacts(integrator, &solution)?;
-        if let Some(place) = elsewhere.as_ref().and_then(|orbit| self.place_elsewhere(integrator, orbit)) {
-            return Ok(Arrived { place, is_new: false });
-        }
         let solution = elsewhere.unwrap_or(solution);
         self.known.push(Known { solution, scale, phases, followed: false });
         Ok(Arrived { place: self.known.len() - 1, is_new: true })
@@ -253,10 +253,10 @@ impl<'a> Catalogue<'a> {
 
     /// Place of an orbit that does not begin at phase 0, since an impact lies there.
     fn place_elsewhere(&self, integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Option<usize> {
+        let multiple = orbit.period_multiple;
         self.known.iter().position(|known| {
-            let states = |integrator| states_at_phase(integrator, &known.solution, orbit.phase);
-            known.solution.period_multiple == orbit.period_multiple
-                && states(&mut *integrator)
+            known.solution.period_multiple == multiple
+                && states_at_phase(integrator, &known.solution, orbit.phase)
                     .is_ok_and(|states| distance_in_phase(&known.scale, &states, &orbit.nodes[0]) < SAME)
         })
     }
