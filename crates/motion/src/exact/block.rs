@@ -14,7 +14,7 @@
 
 use faer::Mat;
 
-use super::propagator::{Propagator, Quad};
+use super::propagator::{Four, Propagator};
 
 /// The change of coordinates `z = S x` and back, where dampers couple the modes.
 #[derive(Debug, Clone)]
@@ -34,9 +34,19 @@ pub(crate) struct Blocks {
     pub damping: Vec<f64>,
     /// `None` where the modes are the blocks.
     pub transform: Option<Transform>,
+    /// All blocks, four by four; the last ones are filled up.
+    fours: Vec<Four>,
 }
 
 impl Blocks {
+    /// From the stiffness and the damping of each.
+    pub fn of(pairs: Vec<(f64, f64)>, transform: Option<Transform>) -> Self {
+        let (stiffness, damping): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+        let firsts = (0..stiffness.len()).step_by(4);
+        let fours = firsts.map(|i| Four::new(four(&stiffness[i..]), four(&damping[i..]))).collect();
+        Self { stiffness, damping, transform, fours }
+    }
+
     /// Number of blocks n; block states are `[p; s]`, length 2n.
     pub fn count(&self) -> usize {
         self.stiffness.len()
@@ -46,13 +56,11 @@ impl Blocks {
     #[inline(always)]
     pub fn for_propagators(&self, time: f64, mut with: impl FnMut(usize, Propagator)) {
         let n = self.count();
-        let mut quad = Quad::default();
-        for first in (0..n).step_by(4) {
-            let (stiffness, damping) = (four(&self.stiffness[first..]), four(&self.damping[first..]));
-            let serves = quad.set(&stiffness, &damping, time);
-            for lane in 0..(n - first).min(4) {
-                let of_one = || Propagator::new(stiffness[lane], damping[lane], time);
-                with(first + lane, if serves { quad.propagator(lane) } else { of_one() });
+        for (place, four) in self.fours.iter().enumerate() {
+            let quad = four.propagators(time);
+            for (lane, i) in (4 * place..n.min(4 * place + 4)).enumerate() {
+                let of_one = || Propagator::new(self.stiffness[i], self.damping[i], time);
+                with(i, quad.as_ref().map_or_else(of_one, |quad| quad.propagator(lane)));
             }
         }
     }
@@ -177,8 +185,7 @@ mod tests {
         let weak = (0..7).map(|i| (f64::from(1 + i * i), 0.3)).collect::<Vec<_>>();
         let mixed = [(1.0, 0.3), (1.0, 2.0), (5.0, 0.1), (10.0, 8.0), (17.0, 0.0), (0.0, 0.0), (0.0, 0.7)];
         for pairs in [weak, mixed.to_vec()] {
-            let (stiffness, damping) = pairs.into_iter().unzip();
-            let blocks = Blocks { stiffness, damping, transform: None };
+            let blocks = Blocks::of(pairs, None);
             for time in [0.0, 1e-6, 0.7, 30.0, 1e7] {
                 let mut found = Vec::new();
                 blocks.propagators(time, &mut found);

@@ -121,10 +121,10 @@ impl ForceStep {
                 .fixed_lu
                 .factorise(
                     #[inline(always)]
-                    |matrix| {
-                        for (k, row) in matrix.iter_mut().enumerate() {
-                            row.iter_mut().enumerate().for_each(|(j, target)| *target = -entry(0, k, j));
-                            row[k] += 1.0;
+                    |columns| {
+                        for (j, column) in columns.iter_mut().enumerate() {
+                            *column = std::array::from_fn(|k| -entry(0, k, j));
+                            column[j] += 1.0;
                         }
                     },
                 )

@@ -40,26 +40,22 @@ impl Blocks {
     /// [`MergedModes`] where more than two eigenvalues of the damped structure merge into one vector.
     pub fn new(model: &ReducedModel) -> Result<Self, MergedModes> {
         let n = model.dof();
-        let mut blocks = Self {
-            stiffness: model.natural_frequencies.iter().map(|w| w * w).collect(),
-            damping: (0..n).map(|i| model.damping[(i, i)]).collect(),
-            transform: None,
-        };
+        let frequencies = model.natural_frequencies.iter().enumerate();
+        let mut pairs: Vec<_> = frequencies.map(|(i, w)| (w * w, model.damping[(i, i)])).collect();
         let groups: Vec<Vec<usize>> = groups(model).into_iter().filter(|group| group.len() > 1).collect();
         if groups.is_empty() {
-            return Ok(blocks);
+            return Ok(Self::of(pairs, None));
         }
         let mut from_blocks = Mat::<f64>::identity(2 * n, 2 * n);
         for group in &groups {
-            decouple(model, group, &mut blocks, &mut from_blocks)?;
+            decouple(model, group, &mut pairs, &mut from_blocks)?;
         }
         let rates: Vec<f64> = (0..n).map(|mode| rate(model, mode)).collect();
         let (to_blocks, condition) = inverse(&from_blocks, &rates);
         if condition.is_nan() || condition > CONDITION {
             return Err(MergedModes { condition });
         }
-        blocks.transform = Some(Transform { from_blocks, to_blocks });
-        Ok(blocks)
+        Ok(Self::of(pairs, Some(Transform { from_blocks, to_blocks })))
     }
 }
 
@@ -94,11 +90,11 @@ fn groups(model: &ReducedModel) -> Vec<Vec<usize>> {
     (0..n).map(|g| (0..n).filter(|&i| group_of[i] == g).collect()).collect()
 }
 
-/// Replaces the modes of a group by blocks and fills their columns of `S`.
+/// Replaces the modes of a group by blocks, each a stiffness and a damping, and fills their columns of `S`.
 fn decouple(
     model: &ReducedModel,
     group: &[usize],
-    blocks: &mut Blocks,
+    blocks: &mut [(f64, f64)],
     from_blocks: &mut Mat<f64>,
 ) -> Result<(), MergedModes> {
     let (n, m) = (model.dof(), group.len());
@@ -122,8 +118,7 @@ fn decouple(
             plane.stiffness = plane.stiffness.max(0.0);
         }
         let block = group[slot];
-        blocks.stiffness[block] = plane.stiffness;
-        blocks.damping[block] = plane.damping;
+        blocks[block] = (plane.stiffness, plane.damping);
         for (column, values) in [(block, plane.column_p()), (n + block, plane.column_s())] {
             for i in 0..2 * n {
                 from_blocks[(i, column)] = 0.0;

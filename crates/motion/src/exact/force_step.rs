@@ -11,7 +11,7 @@ use super::{
     coinciding::Coinciding,
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
-    lanes::{add_products, fixed_dot, raise, vectorised},
+    lanes::{add_products, fixed_dot, raise_by_columns, vectorised},
     lu::{FixedLu, SmallLu},
     newton::NotSolved,
     output::Output,
@@ -315,10 +315,7 @@ impl ForceStep {
         let (velocities, forces) = all.split_at_mut(columns);
         let (largest, sums) = forces.split_at_mut(columns);
         sensitivity.raise_velocity_norms(velocities);
-        vectorised(
-            #[inline(always)]
-            || work.chunks_exact(columns).for_each(|row| raise(largest, row)),
-        );
+        raise_by_columns(largest, work);
         add_products(sums, work, columns, |row| coefficients[degrees[row]].iter().copied());
         (0..sensitivity.used_columns()).map(move |c| {
             let pair = |row: usize| all[row * columns + c].abs() + all[(row + 1) * columns + c].abs();

@@ -275,11 +275,7 @@ fn blocks_of(
         supports: Vec::new(),
         uniform_acceleration: vec![0.0; m],
     };
-    let inner = if m > 0 {
-        Blocks::new(&model)?
-    } else {
-        Blocks { stiffness: Vec::new(), damping: Vec::new(), transform: None }
-    };
+    let inner = if m > 0 { Blocks::new(&model)? } else { Blocks::of(Vec::new(), None) };
     let identity = |size: usize| Mat::<f64>::identity(size, size);
     let Transform { from_blocks: from, to_blocks: to } = inner
         .transform
@@ -306,12 +302,9 @@ fn blocks_of(
             Err(_) => 0.0,
         }
     });
-    let padded = |values: &[f64]| values.iter().copied().chain(vec![0.0; s]).collect();
-    Ok(Blocks {
-        stiffness: padded(&inner.stiffness),
-        damping: padded(&inner.damping),
-        transform: Some(Transform { from_blocks, to_blocks }),
-    })
+    let pairs = inner.stiffness.iter().copied().zip(inner.damping.iter().copied());
+    let padded = pairs.chain(vec![(0.0, 0.0); s]).collect();
+    Ok(Blocks::of(padded, Some(Transform { from_blocks, to_blocks })))
 }
 
 /// The output `-(Phi D^-1)^T_j (diag(w^2) q + C q')`.

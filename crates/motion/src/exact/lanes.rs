@@ -128,10 +128,24 @@ pub(crate) fn add_multiple(to: &mut [f64], factor: f64, row: &[f64]) {
     to.iter_mut().zip(row).for_each(|(t, r)| *t += factor * r);
 }
 
-/// Raises each entry to the magnitude of that of a row.
-#[inline(always)]
-pub(crate) fn raise(to: &mut [f64], row: &[f64]) {
-    to.iter_mut().zip(row).for_each(|(t, r)| *t = if r.abs() > *t { r.abs() } else { *t });
+/// Raises each entry to the largest magnitude in its column of `rows`, which have as many entries, a multiple
+/// of four.
+pub(crate) fn raise_by_columns(to: &mut [f64], rows: &[f64]) {
+    let columns = to.len();
+    vectorised(
+        #[inline(always)]
+        || {
+            for (place, to) in to.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+                let mut largest = *to;
+                for row in rows.chunks_exact(columns) {
+                    let four = row.as_chunks::<4>().0[place].map(f64::abs);
+                    largest =
+                        std::array::from_fn(|i| if four[i] > largest[i] { four[i] } else { largest[i] });
+                }
+                *to = largest;
+            }
+        },
+    );
 }
 
 #[cfg(test)]
@@ -148,5 +162,14 @@ mod tests {
         }
         let eight = numbers.first_chunk::<8>().unwrap();
         assert_eq!(fixed_dot(eight, eight), 204.0);
+    }
+
+    #[test]
+    fn entries_are_raised_to_what_is_larger_in_their_column() {
+        let rows =
+            [[1.0, -9.0, f64::NAN, 0.0, 2.0, 3.0, -4.0, 5.0], [-7.0, 1.0, 2.0, 0.0, 0.5, -6.0, 1.0, 5.0]];
+        let mut largest = [3.0; 8];
+        raise_by_columns(&mut largest, rows.as_flattened());
+        assert_eq!(largest, [7.0, 9.0, 3.0, 3.0, 3.0, 6.0, 4.0, 5.0]);
     }
 }

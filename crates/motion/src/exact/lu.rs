@@ -89,15 +89,14 @@ impl SmallLu {
     }
 }
 
-/// `P A = L U` of an N x N matrix: loops of fixed length, which the compiler turns into vectors.
+/// `P A = L U` of an N x N matrix, column by column: loops of fixed length, which the compiler turns into
+/// vectors.
 #[derive(Debug, Clone)]
 pub(crate) struct FixedLu<const N: usize> {
-    /// Rows of U.
+    /// Columns of U down to the diagonal; what is below means nothing.
     upper: [[f64; N]; N],
-    /// Columns of U, with what is left below its diagonal.
-    upper_columns: [[f64; N]; N],
-    /// Columns of L, zero from its diagonal up.
-    lower_columns: [[f64; N]; N],
+    /// Columns of L, zero from the diagonal up.
+    lower: [[f64; N]; N],
     inverse: [f64; N],
     pivots: [usize; N],
 }
@@ -105,12 +104,12 @@ pub(crate) struct FixedLu<const N: usize> {
 impl<const N: usize> Default for FixedLu<N> {
     fn default() -> Self {
         let zero = [[0.0; N]; N];
-        Self { upper: zero, upper_columns: zero, lower_columns: zero, inverse: [0.0; N], pivots: [0; N] }
+        Self { upper: zero, lower: zero, inverse: [0.0; N], pivots: [0; N] }
     }
 }
 
 impl<const N: usize> FixedLu<N> {
-    /// Factorises the matrix that `fill` writes row by row; `None` if it is singular.
+    /// Factorises the matrix that `fill` writes column by column; `None` if it is singular.
     #[must_use]
     #[inline(always)]
     pub fn factorise(&mut self, fill: impl FnOnce(&mut [[f64; N]; N])) -> Option<()> {
@@ -126,31 +125,22 @@ impl<const N: usize> FixedLu<N> {
     #[inline(always)]
     fn eliminate(&mut self) -> Option<()> {
         for k in 0..N {
-            let (mut pivot, mut largest) = (k, self.upper[k][k].abs());
-            for (row, entries) in self.upper.iter().enumerate().skip(k + 1) {
-                if entries[k].abs() > largest {
-                    (pivot, largest) = (row, entries[k].abs());
-                }
-            }
+            let pivot = largest_from(&self.upper[k], k);
             self.pivots[k] = pivot;
             if pivot != k {
-                self.upper.swap(k, pivot);
-                self.lower_columns[..k].iter_mut().for_each(|column| column.swap(k, pivot));
+                self.upper.iter_mut().chain(&mut self.lower[..k]).for_each(|column| column.swap(k, pivot));
             }
-            let top = self.upper[k];
-            if top[k] == 0.0 || !top[k].is_finite() {
+            let column = self.upper[k];
+            let top = column[k];
+            if top == 0.0 || !top.is_finite() {
                 return None;
             }
-            let inverse = 1.0 / top[k];
+            let inverse = 1.0 / top;
             self.inverse[k] = inverse;
-            // Entries left of the diagonal are not read again: whole rows are cheaper than exact lengths.
-            for (row, lower) in self.upper[k + 1..].iter_mut().zip(&mut self.lower_columns[k][k + 1..]) {
-                *lower = row[k] * inverse;
-                row.iter_mut().zip(&top).for_each(|(entry, above)| *entry -= *lower * above);
-            }
-        }
-        for (k, column) in self.upper_columns.iter_mut().enumerate() {
-            column.iter_mut().zip(&self.upper).for_each(|(entry, row)| *entry = row[k]);
+            // Zeros are cheaper than exact lengths.
+            let lower = std::array::from_fn(|i| if i > k { column[i] * inverse } else { 0.0 });
+            self.lower[k] = lower;
+            self.upper[k + 1..].iter_mut().for_each(|column| subtract(column, &lower, column[k]));
         }
         Some(())
     }
@@ -161,18 +151,15 @@ impl<const N: usize> FixedLu<N> {
         vectorised(
             #[inline(always)]
             || {
-                // Here, too, whole columns: of what is open only entries that are not yet known are read.
+                // Whole columns: of what is open only entries that are not yet known are read.
                 let mut open = *right;
-                let subtract = |open: &mut [f64; N], column: &[f64; N], known: f64| {
-                    open.iter_mut().zip(column).for_each(|(entry, factor)| *entry -= factor * known);
-                };
                 for k in 0..N {
                     let known = open[k];
-                    subtract(&mut open, &self.lower_columns[k], known);
+                    subtract(&mut open, &self.lower[k], known);
                 }
                 for k in (0..N).rev() {
                     right[k] = open[k] * self.inverse[k];
-                    subtract(&mut open, &self.upper_columns[k], right[k]);
+                    subtract(&mut open, &self.upper[k], right[k]);
                 }
             },
         );
@@ -187,14 +174,31 @@ impl<const N: usize> FixedLu<N> {
             columns,
             (
                 #[inline(always)]
-                |i| self.lower_columns[..i].iter().map(move |column| -column[i]),
+                |i| self.lower[..i].iter().map(move |column| -column[i]),
                 #[inline(always)]
-                |i| self.upper[i][i + 1..].iter().map(|factor| -factor),
+                |i| self.upper[i + 1..].iter().map(move |column| -column[i]),
                 #[inline(always)]
                 |i| self.inverse[i],
             ),
         );
     }
+}
+
+/// Takes a multiple of another column off a column.
+#[inline(always)]
+fn subtract<const N: usize>(column: &mut [f64; N], other: &[f64; N], factor: f64) {
+    column.iter_mut().zip(other).for_each(|(entry, other)| *entry -= other * factor);
+}
+
+/// Where the entry of largest magnitude is, the first of those from k on.
+#[inline(always)]
+fn largest_from<const N: usize>(column: &[f64; N], k: usize) -> usize {
+    let magnitudes: [f64; N] = std::array::from_fn(|i| if i < k { 0.0 } else { column[i].abs() });
+    // Mostly there is none above.
+    if magnitudes.iter().filter(|m| **m > magnitudes[k]).count() == 0 {
+        return k;
+    }
+    (k + 1..N).fold(k, |best, row| if magnitudes[row] > magnitudes[best] { row } else { best })
 }
 
 /// All exchanges, before anything else: later ones have moved the factors of earlier columns too.
@@ -284,7 +288,7 @@ mod tests {
             std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0)
         });
         let (mut fixed, mut variable) = (FixedLu::default(), SmallLu::default());
-        fixed.factorise(|m| *m = matrix).unwrap();
+        fixed.factorise(|m| *m = std::array::from_fn(|j| matrix.map(|row| row[j]))).unwrap();
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
         let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
         let mut expected = single.to_vec();

@@ -191,13 +191,11 @@ impl ForceStep {
                 .fixed_lu
                 .factorise(
                     #[inline(always)]
-                    |matrix| {
-                        for (j, (column, slope)) in convolution.iter().zip(slope).enumerate() {
-                            for (row, entry) in matrix.iter_mut().zip(column) {
-                                row[j] = -entry * slope;
-                            }
+                    |columns| {
+                        for ((column, weights), slope) in columns.iter_mut().zip(convolution).zip(slope) {
+                            *column = weights.map(|weight| -weight * slope);
                         }
-                        (0..NODES).for_each(|k| matrix[k][k] += 1.0);
+                        (0..NODES).for_each(|k| columns[k][k] += 1.0);
                     },
                 )
                 .ok_or(NotSolved);

@@ -82,7 +82,65 @@ impl Propagator {
     }
 }
 
-/// Propagators of four blocks that oscillate (`D > 0`), entry by entry.
+/// Four blocks, for which propagators are made at once where all of them oscillate (`D > 0`).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Four {
+    stiffness: [f64; 4],
+    /// Half the damping.
+    half: [f64; 4],
+    /// `sqrt(D)`.
+    frequency: [f64; 4],
+    /// Longest time within the reach of `elementary.rs`; not a number if one does not oscillate.
+    reach: f64,
+}
+
+impl Four {
+    pub fn new(stiffness: [f64; 4], damping: [f64; 4]) -> Self {
+        let half = damping.map(|damping| 0.5 * damping);
+        let discriminant: [f64; 4] = std::array::from_fn(|i| stiffness[i] - half[i] * half[i]);
+        let frequency = discriminant.map(f64::sqrt);
+        let largest = |values: &[f64; 4]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let oscillate = discriminant.iter().all(|d| *d >= f64::MIN_POSITIVE);
+        let reach = (TURNING / largest(&frequency)).min(DECAY / largest(&half));
+        // What just reaches it may round to what lies beyond.
+        let reach = if oscillate { (1.0 - f64::EPSILON) * reach } else { f64::NAN };
+        Self { stiffness, half, frequency, reach }
+    }
+
+    /// Bit by bit those of [`Propagator::new`]; `None` where these have to serve.
+    #[inline]
+    pub fn propagators(&self, time: f64) -> Option<Quad> {
+        if !(time.abs() <= self.reach) {
+            return None;
+        }
+        let Self { stiffness, half, frequency, .. } = self;
+        let (angles, exponents) = (frequency.map(|w| w * time), half.map(|h| -h * time));
+        // On its own: together with the rest the compiler does not make vectors of it.
+        let mut decays = [0.0; 4];
+        vectorised(
+            #[inline(always)]
+            || decays = exponentials(&exponents),
+        );
+        let mut quad = Quad::default();
+        vectorised(
+            #[inline(always)]
+            || {
+                let [cosines, sines] = cosines_and_sines(&angles);
+                for i in 0..4 {
+                    let (half, k) = (half[i], stiffness[i]);
+                    let (cosine, sine) = (decays[i] * cosines[i], decays[i] * sines[i] / frequency[i]);
+                    quad.a[i] = cosine + half * sine;
+                    quad.b[i] = sine;
+                    quad.c[i] = -k * sine;
+                    quad.d[i] = cosine - half * sine;
+                }
+            },
+        );
+        Some(quad)
+    }
+}
+
+/// Propagators of four blocks, entry by entry.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Quad {
     a: [f64; 4],
@@ -92,46 +150,6 @@ pub(super) struct Quad {
 }
 
 impl Quad {
-    /// Bit by bit those of [`Propagator::new`], if all blocks oscillate within the reach of `elementary.rs`:
-    /// else nothing, and false.
-    #[inline]
-    pub fn set(&mut self, stiffness: &[f64; 4], damping: &[f64; 4], time: f64) -> bool {
-        let (mut frequencies, mut angles, mut exponents) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        let mut serves = true;
-        for i in 0..4 {
-            let half = 0.5 * damping[i];
-            let discriminant = stiffness[i] - half * half;
-            frequencies[i] = discriminant.sqrt();
-            angles[i] = frequencies[i] * time;
-            exponents[i] = -half * time;
-            serves &= discriminant >= f64::MIN_POSITIVE;
-            serves &= angles[i].abs() <= TURNING && exponents[i].abs() <= DECAY;
-        }
-        if serves {
-            // On its own: together with the rest the compiler does not make vectors of it.
-            let mut decays = [0.0; 4];
-            vectorised(
-                #[inline(always)]
-                || decays = exponentials(&exponents),
-            );
-            vectorised(
-                #[inline(always)]
-                || {
-                    let [cosines, sines] = cosines_and_sines(&angles);
-                    for i in 0..4 {
-                        let (half, k) = (0.5 * damping[i], stiffness[i]);
-                        let (cosine, sine) = (decays[i] * cosines[i], decays[i] * sines[i] / frequencies[i]);
-                        self.a[i] = cosine + half * sine;
-                        self.b[i] = sine;
-                        self.c[i] = -k * sine;
-                        self.d[i] = cosine - half * sine;
-                    }
-                },
-            );
-        }
-        serves
-    }
-
     pub fn propagator(&self, lane: usize) -> Propagator {
         Propagator { a: self.a[lane], b: self.b[lane], c: self.c[lane], d: self.d[lane] }
     }

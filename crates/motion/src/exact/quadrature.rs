@@ -162,11 +162,7 @@ mod tests {
     /// Within the reach of the series both ways give the same matrices.
     #[test]
     fn quadrature_and_series_agree() {
-        let blocks = Blocks {
-            stiffness: vec![1e4, 4e6, 0.0, 9e8],
-            damping: vec![3.0, 9e3, 2.0, 1e3],
-            transform: None,
-        };
+        let blocks = Blocks::of(vec![(1e4, 3.0), (4e6, 9e3), (0.0, 2.0), (9e8, 1e3)], None);
         let shapes = [vec![1.0, -0.8, 0.6, 0.5], vec![0.3, 0.9, -0.2, 0.7]];
         let outputs: Vec<Output> = shapes.iter().map(|shape| Output::new(&blocks, shape, &[])).collect();
         let inputs: Vec<Vec<f64>> = shapes.iter().map(|shape| blocks.input(shape)).collect();

@@ -5,7 +5,7 @@ use faer::Mat;
 use super::{
     block::Blocks,
     collocation::NODES,
-    lanes::{add_products, raise, vectorised},
+    lanes::{add_products, raise_by_columns, vectorised},
     propagator::Propagator,
     step_error::Tail,
 };
@@ -178,14 +178,7 @@ impl Sensitivity {
 
     /// Largest velocity of each column, raised from what is in `norms`.
     pub fn raise_velocity_norms(&self, norms: &mut [f64]) {
-        vectorised(
-            #[inline(always)]
-            || {
-                for row in self.values.chunks_exact(self.columns).skip(self.rows / 2) {
-                    raise(norms, row);
-                }
-            },
-        );
+        raise_by_columns(norms, &self.values[self.values.len() / 2..]);
     }
 
     /// Largest `sqrt(k p^2 + s^2)/scale` of block i over the columns of initial states.

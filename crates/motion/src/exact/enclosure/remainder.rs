@@ -5,7 +5,7 @@ use super::{
         ExactIntegrator,
         block::Blocks,
         collocation::{Grading, NODES},
-        lanes::{raise, vectorised},
+        lanes::vectorised,
         majorant::Majorant,
         output::Output,
         run::Run,
@@ -226,21 +226,18 @@ fn driven_by(of_load: &Majorant, length: f64) -> [f64; NODES] {
 }
 
 /// `phi_j` of a force, from its Bernstein coefficients.
-fn force_majorant(mut differences: [f64; NODES]) -> [f64; NODES] {
+fn force_majorant(coefficients: [f64; NODES]) -> [f64; NODES] {
     vectorised(
         #[inline(always)]
         || {
-            let mut majorant = BINOMIALS;
+            let (mut differences, mut majorant) = (coefficients, BINOMIALS);
             for (j, bound) in majorant.iter_mut().enumerate() {
-                if j > 0 {
-                    (0..NODES - 1).for_each(|i| differences[i] = differences[i + 1] - differences[i]);
-                    // There is one difference less.
-                    differences[NODES - j] = 0.0;
-                }
-                let mut largest = [0.0; 4];
-                const { assert!(NODES.is_multiple_of(4), "four at a time leave none out") };
-                differences.as_chunks::<4>().0.iter().for_each(|four| raise(&mut largest, four));
-                *bound *= largest.iter().fold(0.0_f64, |most, d| most.max(*d));
+                *bound *= differences.iter().fold(0.0, |most, d| if d.abs() > most { d.abs() } else { most });
+                // There is one difference less. All loops have a fixed length: what they work on stays in
+                // registers.
+                differences = std::array::from_fn(|i| {
+                    if i + 1 + j < NODES { differences[(i + 1) % NODES] - differences[i] } else { 0.0 }
+                });
             }
             majorant
         },

@@ -243,7 +243,7 @@ fn bounds_and_majorants_hold_and_are_not_absurdly_wide() {
     let mut closest = [[0.0_f64; N]; 2];
     for case in cases() {
         let load = case.load();
-        let blocks = Blocks { stiffness: vec![case.block.0], damping: vec![case.block.1], transform: None };
+        let blocks = Blocks::of(vec![case.block], None);
         for row in [[1.0, 0.0], [0.0, 1.0], [0.7, -0.4]] {
             let output = Output::of_row(&blocks, row.to_vec(), &[]);
             for until in case.times() {
