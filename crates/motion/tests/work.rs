@@ -27,11 +27,11 @@ fn assert_within(found: ExactCounts, [looks, steps, solves]: [u64; 3], what: &st
 fn flows_of_the_beam_keep_their_budgets() {
     let system = paper_beam();
     for (frequency_hz, contacts, budget) in [
-        (36.0, 1, [18, 4, 8]),
-        (41.0, 1, [18, 4, 8]),
-        (66.0, 1, [17, 5, 10]),
-        (28.0, 2, [33, 8, 16]),
-        (99.0, 0, [5, 0, 0]),
+        (36.0, 1, [12, 4, 8]),
+        (41.0, 1, [12, 4, 8]),
+        (66.0, 1, [12, 5, 10]),
+        (28.0, 2, [23, 8, 16]),
+        (99.0, 0, [3, 0, 0]),
     ] {
         let (found, touches) = work(&system, frequency_hz, 100, true);
         assert_eq!(touches, contacts, "{frequency_hz} Hz");
@@ -42,23 +42,23 @@ fn flows_of_the_beam_keep_their_budgets() {
 #[test]
 fn states_alone_need_fewer_steps() {
     let system = paper_beam();
-    for (frequency_hz, budget) in [(36.0, [18, 4, 8]), (28.0, [33, 6, 12])] {
+    for (frequency_hz, budget) in [(36.0, [12, 4, 8]), (28.0, [23, 6, 12])] {
         let (found, _) = work(&system, frequency_hz, 100, false);
         assert_within(found, budget, &format!("{frequency_hz} Hz"));
     }
 }
 
 /// Sixteen times the modes take under ten times the steps for three contacts, at nearly the same work per
-/// step and mode. The looks for touches are the same. Where modes turn by many radians in a step their power
+/// step and mode. The looks for touches are nearly the same. Where modes turn by many radians in a step their power
 /// series prove nothing any more (`enclosure.rs`), and it takes up to one more look a step to prove that the
 /// contact stays closed: 65 and 142 looks with 48 and 96 modes.
 #[test]
 fn steps_grow_slower_than_the_modes() {
     for (modes, budget) in [
-        (6, [46, 14, 28]),
-        (12, [46, 15, 30]),
-        (24, [46, 42, 66]),
-        (48, [70, 74, 105]),
+        (6, [30, 14, 28]),
+        (12, [32, 15, 30]),
+        (24, [35, 42, 66]),
+        (48, [40, 74, 105]),
         (96, [150, 115, 170]),
     ] {
         let (found, contacts) = work(&uniform_beam(modes), 31.0, 40, false);
@@ -73,5 +73,5 @@ fn quiet_flights_need_few_looks() {
     let system = crate::common::beam_with(0.015, crate::common::hertz(4.5e9, 5e-3));
     let (found, contacts) = work(&system, 60.0, 30, true);
     assert_eq!(contacts, 0);
-    assert_within(found, [4, 0, 0], "60 Hz");
+    assert_within(found, [3, 0, 0], "60 Hz");
 }

@@ -43,6 +43,9 @@ struct OutputReach {
 /// Rounding margins, in roundings of what they are of.
 pub(super) const MARGIN: f64 = 8.0;
 
+/// Largest part of a clearance that fast blocks may be for a look to leave their course aside.
+const FAST_SHARE: f64 = 0.2;
+
 /// Looks allowed in one flight; about twenty are usual.
 const MAX_LOOKS: usize = 100_000;
 
@@ -120,7 +123,10 @@ impl ExactIntegrator {
                 let boundary = if held { Boundary::Lifts } else { touching.boundary };
                 let touching = Touch { boundary, ..touching };
                 let bounds = self.boundary_bounds(elastic, &run.state, touching);
-                let (step, hit) = match look(self.distance(jet, touching), bounds) {
+                let clearance = self.distance(jet, touching);
+                let below =
+                    || self.below_without_fast_blocks(&run.state, watched, touching, clearance, bounds);
+                let (step, hit) = match look(clearance, bounds, below) {
                     Look::Contact => return (0.0, Some(touching)),
                     Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
@@ -141,6 +147,52 @@ impl ExactIntegrator {
             }
         }
         (free, touch)
+    }
+
+    /// A function below a clearance in flight that has the slow blocks' part of it alone, less all that the
+    /// others can be, and its bounds; `None` where these fast blocks hardly shorten the steps.
+    fn below_without_fast_blocks(
+        &self,
+        state: &[f64],
+        output: usize,
+        touch: Touch,
+        clearance: Jet,
+        bounds: ClearanceBounds,
+    ) -> Option<(Jet, ClearanceBounds)> {
+        let law = self.laws.get(touch.element);
+        if touch.boundary == Boundary::Presses || law.is_some_and(|law| law.round_hole().is_some()) {
+            return None;
+        }
+        let (n, output) = (self.blocks.count(), &self.outputs[output]);
+        let (mut fast, mut largest, mut second, mut third) = (Jet::default(), 0.0, 0.0, 0.0);
+        for i in (0..n).rev().filter(|&i| self.blocks.stiffness[i] > 0.0) {
+            let (p, s) = (state[i], state[n + i]);
+            let norm = self.energy_norm(state, i);
+            let most = output.value_bound[i] * norm;
+            if largest + most > FAST_SHARE * clearance.value {
+                continue;
+            }
+            largest += most;
+            second += output.second_bound[i] * norm;
+            third += output.third_bound[i] * norm;
+            fast.value += output.row[i] * p + output.row[n + i] * s;
+            fast.slope += output.velocity_row[i] * p + output.velocity_row[n + i] * s;
+            fast.curvature += output.acceleration_row[i] * p + output.acceleration_row[n + i] * s;
+        }
+        if third <= 0.5 * bounds.third {
+            return None;
+        }
+        // Of a distance that is linear in the output: what a part of it adds.
+        let of_nothing = self.distance(Jet::default(), touch);
+        let of_fast = self.distance(fast, touch);
+        let slow = Jet {
+            value: clearance.value - (of_fast.value - of_nothing.value) - largest - bounds.margin,
+            slope: clearance.slope - of_fast.slope,
+            curvature: clearance.curvature - of_fast.curvature,
+        };
+        let second = (bounds.second - second).max(0.0);
+        let third = (bounds.third - third).max(0.0);
+        Some((slow, ClearanceBounds { second, third, margin: bounds.margin }))
     }
 
     /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance;

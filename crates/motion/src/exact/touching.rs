@@ -349,7 +349,7 @@ impl<'a> Search<'a> {
         for _ in 0..WINDOWS {
             let bounds = self.bounds(window);
             let cautious = self.cautious(clearance, window);
-            match look(cautious, bounds) {
+            match look(cautious, bounds, || None) {
                 Look::Contact => return (0.0, true),
                 Look::FreeFor(step) => free = free.max(step.min(window)),
                 Look::MinimumAhead { at, convex } => {
