@@ -277,3 +277,45 @@ fn a_stretch_that_ends_within_a_contact_ends_there() {
         }
     }
 }
+
+/// A slow and a fast mode without damping, `r = a cos(w t + p) + b cos(v t + q)`, whose largest value is above
+/// the level of a soft stop by a ten-millionth, or below it by as much.
+#[test]
+fn a_fast_mode_that_only_just_reaches_a_stop_is_not_passed_over() {
+    let mut seed = 7_u64;
+    let mut uniform = |from: f64, to: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        from + (to - from) * (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut tried = 0;
+    while tried < 200 {
+        let (w, v) = (uniform(20.0, 60.0), uniform(300.0, 3000.0));
+        let (a, b) = (1e-3, 1e-3 * 10_f64.powf(uniform(-5.0, -0.5)));
+        let (p, q) = (uniform(0.0, TAU), uniform(0.0, TAU));
+        let value = |t: f64| a * (w * t + p).cos() + b * (v * t + q).cos();
+        let (slope, curvature) = (
+            |t: f64| -a * w * (w * t + p).sin() - b * v * (v * t + q).sin(),
+            |t: f64| -a * w * w * (w * t + p).cos() - b * v * v * (v * t + q).cos(),
+        );
+        let duration = TAU / w;
+        let places = (0..40_000).map(|i| duration * f64::from(i) / 4e4);
+        let mut top = places.fold(0.0, |best, t| if value(t) > value(best) { t } else { best });
+        (0..6).for_each(|_| top -= slope(top) / curvature(top));
+        if !(0.1..0.9).contains(&(top / duration)) {
+            continue;
+        }
+        tried += 1;
+        let start = [a * p.cos(), b * q.cos(), -a * w * p.sin(), -b * v * q.sin()];
+        for (share, is_met) in [(-1e-7, true), (1e-7, false)] {
+            let stop = Law::Linear(LinearStop::with_gap(1.0, value(top) * (1.0 + share)).unwrap());
+            let elements = vec![element(&[1.0, 1.0], 0.0, stop)];
+            let model = model(&[w, v], diagonal(&[0.0, 0.0]));
+            let system = System::new(model, &Load::default(), elements).unwrap();
+            let mut exact = integrator(&system);
+            let stretch = Stretch { frequency_hz: 1.0 / duration, start: 0.0, end: 1.0 };
+            exact.advance(&stretch, &start).unwrap();
+            let found: u32 = exact.touches().iter().sum();
+            assert_eq!(found > 0, is_met, "{w} {v} {b} {share}");
+        }
+    }
+}
