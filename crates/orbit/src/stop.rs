@@ -54,6 +54,8 @@ pub enum StopReason {
         frequency_hz: f64,
         /// Arc length of the stretch that was met.
         met_arc_length: f64,
+        /// As where the step is too short.
+        has_no_losses: bool,
     },
     /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a
     /// contact began, its force jumps there, and so does the motion: the branch ends.
@@ -74,6 +76,8 @@ pub enum StopReason {
         /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the
         /// whole orbit.
         largest_multiplier: f64,
+        /// As where the step is too short.
+        has_no_losses: bool,
     },
     /// The amplitude has no bound while the parameter stands still: the branch goes to infinity, and what
     /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency;

@@ -23,7 +23,7 @@ impl Display for StopReason {
                 formatter,
                 "chatter at {element} beyond {frequency_hz}: {impacts} impacts in a row, each slower"
             ),
-            Self::RunsBack { frequency_hz, met_arc_length } => write!(
+            Self::RunsBack { frequency_hz, met_arc_length, .. } => write!(
                 formatter,
                 "beyond {frequency_hz} every step led back to the branch (at arc length {met_arc_length:.6})"
             ),
@@ -32,7 +32,7 @@ impl Display for StopReason {
                 "beyond {frequency_hz} {element} opens and is pressed on again at the phase of {phase:.4} \
                 cycles"
             ),
-            Self::NoProgress { frequency_hz, solutions, largest_multiplier } => write!(
+            Self::NoProgress { frequency_hz, solutions, largest_multiplier, .. } => write!(
                 formatter,
                 "no progress at {frequency_hz} in {solutions} solutions, with a multiplier of \
                 {largest_multiplier:.1e}"

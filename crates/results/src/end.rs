@@ -162,14 +162,16 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         StopReason::Chatter { frequency_hz, element, impacts } => {
             StoredEnd::at("chatter", *frequency_hz).with([*impacts as f64]).saying(element)
         }
-        StopReason::RunsBack { frequency_hz, met_arc_length } => {
-            StoredEnd::at("runs-back", *frequency_hz).with([*met_arc_length])
+        StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => {
+            let numbers = [*met_arc_length, f64::from(u8::from(*has_no_losses))];
+            StoredEnd::at("runs-back", *frequency_hz).with(numbers)
         }
         StopReason::ContactReopens { frequency_hz, element, phase } => {
             StoredEnd::at("contact-reopens", *frequency_hz).with([*phase]).saying(element)
         }
-        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier } => {
-            StoredEnd::at("no-progress", *frequency_hz).with([*solutions as f64, *largest_multiplier])
+        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses } => {
+            let numbers = [*solutions as f64, *largest_multiplier, f64::from(u8::from(*has_no_losses))];
+            StoredEnd::at("no-progress", *frequency_hz).with(numbers)
         }
         StopReason::Unbounded { frequency_hz, mode } => {
             let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
@@ -204,13 +206,16 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         ("chatter", [impacts], frequency_hz) => {
             StopReason::Chatter { frequency_hz, element: text()?, impacts: *impacts as usize }
         }
-        ("runs-back", [met], frequency_hz) => StopReason::RunsBack { frequency_hz, met_arc_length: *met },
+        ("runs-back", [met, lossless], frequency_hz) => {
+            StopReason::RunsBack { frequency_hz, met_arc_length: *met, has_no_losses: *lossless != 0.0 }
+        }
         ("contact-reopens", [phase], frequency_hz) => {
             StopReason::ContactReopens { frequency_hz, element: text()?, phase: *phase }
         }
-        ("no-progress", [solutions, largest], frequency_hz) => {
-            let solutions = *solutions as u64;
-            StopReason::NoProgress { frequency_hz, solutions, largest_multiplier: *largest }
+        ("no-progress", [solutions, largest, lossless], frequency_hz) => {
+            let (solutions, largest_multiplier) = (*solutions as u64, *largest);
+            let has_no_losses = *lossless != 0.0;
+            StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses }
         }
         ("unbounded", [], frequency_hz) => StopReason::Unbounded { frequency_hz, mode: None },
         ("unbounded", [number, at_hz, ratio], frequency_hz) => {
@@ -306,9 +311,14 @@ pub(crate) mod tests {
             too_short(false),
             too_short(true),
             StopReason::Chatter { frequency_hz, element: "stop".to_owned(), impacts: 12 },
-            StopReason::RunsBack { frequency_hz, met_arc_length: 3.0 },
+            StopReason::RunsBack { frequency_hz, met_arc_length: 3.0, has_no_losses: true },
             StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
-            StopReason::NoProgress { frequency_hz, solutions: 2000, largest_multiplier: f64::INFINITY },
+            StopReason::NoProgress {
+                frequency_hz,
+                solutions: 2000,
+                largest_multiplier: f64::INFINITY,
+                has_no_losses: false,
+            },
             StopReason::Unbounded { frequency_hz, mode: Some(mode) },
             StopReason::Unbounded { frequency_hz, mode: None },
             StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },

@@ -99,6 +99,7 @@ const NO_LOSSES: &str = "nothing takes energy out of it, and motions that differ
 
 fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
     let (at, look) = (|value: f64| along.place(value), along.look());
+    let advice = |has_no_losses: bool| if has_no_losses { NO_LOSSES } else { look };
     match reason {
         StopReason::RangeEnd { frequency_hz } => {
             // The end of the range is what the study says, with all its digits.
@@ -124,11 +125,11 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
             along.larger_budget()
         ),
         StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
-            let advice = if *has_no_losses { NO_LOSSES } else { look };
             format!(
                 "no periodic motion next to the last one was found beyond {}, however near it was looked \
-                for; {advice} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
-                at(*frequency_hz)
+                for; {} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
+                at(*frequency_hz),
+                advice(*has_no_losses)
             )
         }
         StopReason::Chatter { frequency_hz, element, impacts } => format!(
@@ -136,18 +137,20 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
                 slower than the one before, and no motion next to it was found; {look}",
             at(*frequency_hz)
         ),
-        StopReason::RunsBack { frequency_hz, met_arc_length } => format!(
-            "beyond {} every step led back to motions that the branch already has; {look} (met again at \
-                arc length {met_arc_length:.6})",
-            at(*frequency_hz)
+        StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => format!(
+            "beyond {} every step led back to motions that the branch already has; {} (met again at arc \
+                length {met_arc_length:.6})",
+            at(*frequency_hz),
+            advice(*has_no_losses)
         ),
         StopReason::ContactReopens { frequency_hz, element, phase } => {
             format!("beyond {} {}", at(*frequency_hz), splits(element, *phase, look))
         }
-        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier } => format!(
+        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses } => format!(
             "at {} the last {solutions} solutions brought the branch no further: in a period of the \
-                motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {look}",
-            at(*frequency_hz)
+                motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {}",
+            at(*frequency_hz),
+            advice(*has_no_losses)
         ),
         StopReason::Unbounded { frequency_hz, mode } => {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))

@@ -87,6 +87,10 @@ const PROMINENCE: f64 = 0.05;
 /// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
 const EQUAL: f64 = 1e-10;
 
+/// Displacements below this part of the largest one of the branch are zero but for rounding: elsewhere the
+/// structure may move a hundred times as far as at the point.
+const ZERO: f64 = 1e-8;
+
 /// Branches over other parameters, and curves, in few numbers.
 ///
 /// # Errors
@@ -172,7 +176,7 @@ impl PeakFinder {
     /// The peaks, without those of rounding: where the point rests on a rigid stop, its displacement is zero
     /// but for that.
     fn finish(mut self) -> Vec<Peak> {
-        self.found.retain(|peak| peak.max_abs_displacement_m > EQUAL * self.largest);
+        self.found.retain(|peak| peak.max_abs_displacement_m > ZERO * self.largest);
         self.found
     }
 

@@ -43,13 +43,13 @@ fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<St
 /// The reason of a path, in terms of orbits.
 pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason {
     let frequency_hz = path.parameter();
+    let has_no_losses = has_no_losses(path.problem.system());
     match reason {
         PathStop::RangeEnd => StopReason::RangeEnd { frequency_hz },
         PathStop::Closed => StopReason::Closed,
         PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, frequency_hz)
             .unwrap_or_else(|| {
                 let doubt = doubt_in_unstable(path, doubt.to_string());
-                let has_no_losses = has_no_losses(path.problem.system());
                 StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
             }),
         PathStop::NoProgress { steps, .. } => {
@@ -57,10 +57,11 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
                 frequency_hz,
                 solutions: steps,
                 largest_multiplier: largest_multiplier(path),
+                has_no_losses,
             })
         }
         PathStop::RunsBack { parameter, met_arc_length } => {
-            StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
+            StopReason::RunsBack { frequency_hz: parameter, met_arc_length, has_no_losses }
         }
         PathStop::EvaluationFailed { parameter, error, .. } => {
             let message = path.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);

@@ -12,7 +12,7 @@ use super::{StoreError, checksum};
 use crate::columns::TableColumn;
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 12;
+pub const SCHEMA_VERSION: u32 = 13;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
