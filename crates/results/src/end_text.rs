@@ -279,6 +279,23 @@ mod tests {
         }
     }
 
+    /// Without losses the advice is damping, else to look at what is there.
+    #[test]
+    fn the_advice_where_a_walk_gets_no_further_depends_on_losses() {
+        for lossless in [false, true] {
+            let (frequency_hz, has_no_losses) = (12.5, lossless);
+            for reason in [
+                StopReason::RunsBack { frequency_hz, met_arc_length: 3.0, has_no_losses },
+                StopReason::NoProgress { frequency_hz, solutions: 9, largest_multiplier: 1e9, has_no_losses },
+            ] {
+                let end = BranchEnd::Walk(reason);
+                assert_eq!(BranchEnd::of_stored(&end.stored()).as_ref(), Some(&end));
+                let text = end.to_string();
+                assert_eq!((text.contains("[damping]"), text.contains("`sweep`")), (lossless, !lossless));
+            }
+        }
+    }
+
     #[test]
     fn over_the_frequency_the_end_of_the_range_has_its_digits_and_other_places_six() {
         let range_end = BranchEnd::Walk(StopReason::RangeEnd { frequency_hz: 12.5 });

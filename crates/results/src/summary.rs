@@ -87,8 +87,8 @@ const PROMINENCE: f64 = 0.05;
 /// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
 const EQUAL: f64 = 1e-10;
 
-/// Displacements below this part of the largest one of the branch are zero but for rounding: elsewhere the
-/// structure may move a hundred times as far as at the point.
+/// Displacements below this part of the largest one of the branch are zero but for rounding: a hundred times
+/// [`EQUAL`], since elsewhere the structure may move so much farther than at the point.
 const ZERO: f64 = 1e-8;
 
 /// Branches over other parameters, and curves, in few numbers.
@@ -261,6 +261,7 @@ mod tests {
     #[test]
     fn what_rounding_makes_of_a_point_at_rest_is_no_peak() {
         assert_eq!(peaks(&[0.0, 8e-15, 0.0, 4e-15, 2e-15, 3e-3, 1e-3]), [5.0]);
+        assert_eq!(peaks(&[0.0, 3e-12, 0.0, 3e-10, 0.0, 3e-3, 1e-3]), [3.0, 5.0]);
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub(crate) struct Transform {
 pub(crate) struct Blocks {
     /// `k_i` [1/s^2], length n.
     pub stiffness: Vec<f64>,
-    /// `c_i` [1/s], length n.
+    /// `c_i` [1/s], length n. Neither is changed once the blocks are made.
     pub damping: Vec<f64>,
     /// `None` where the modes are the blocks.
     pub transform: Option<Transform>,
@@ -186,7 +186,8 @@ mod tests {
         let mixed = [(1.0, 0.3), (1.0, 2.0), (5.0, 0.1), (10.0, 8.0), (17.0, 0.0), (0.0, 0.0), (0.0, 0.7)];
         for pairs in [weak, mixed.to_vec()] {
             let blocks = Blocks::of(pairs, None);
-            for time in [0.0, 1e-6, 0.7, 30.0, 1e7] {
+            // The fastest one turns by as much as is served in 263 040 s.
+            for time in [0.0, 1e-6, 0.7, 30.0, 262_900.0, 263_200.0, 1e7] {
                 let mut found = Vec::new();
                 blocks.propagators(time, &mut found);
                 let pairs = blocks.stiffness.iter().zip(&blocks.damping);

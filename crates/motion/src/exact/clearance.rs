@@ -1,4 +1,5 @@
-//! Certified search for the first contact. Equations (C1) to (C5) of the book, `docs/theory`.
+//! Certified search for the first contact. Equations (C1) to (C5), with (C3b), of the book,
+//! `docs/theory`.
 //!
 //! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and
 //! `|d'''| <= B_3` that hold for the time ahead, two steps provably cannot jump over a zero of `d`:
@@ -50,8 +51,8 @@ pub(crate) enum Look {
 
 /// Looks at a clearance `d` with its derivatives.
 ///
-/// * `below`: another function that is nowhere above the clearance in the time ahead, and bounds on it, for
-///   the length of the step if it is known to allow longer ones.
+/// * `below`: another function that is nowhere above the clearance in the time ahead, and bounds on it; the
+///   steps that it allows are safe, too.
 pub(crate) fn look(
     clearance: Jet,
     bounds: ClearanceBounds,
@@ -69,16 +70,16 @@ pub(crate) fn look(
     if value <= bounds.margin && (slope < 0.0 || (slope == 0.0 && curvature < 0.0)) {
         return Look::Contact;
     }
-    let (Jet { value, slope, curvature }, bounds) = below().unwrap_or((clearance, bounds));
     // Within the margin and not falling: what the motion does within the margin is not looked at, so that
     // every look gets on.
-    let value = value.max(bounds.margin);
-    Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(
-        value,
-        slope,
-        curvature,
-        bounds.third,
-    )))
+    let step = longer_step(Jet { value: value.max(bounds.margin), ..clearance }, bounds);
+    let below = below().filter(|(below, _)| below.value > bounds.margin);
+    Look::FreeFor(below.map_or(step, |(below, bounds)| step.max(longer_step(below, bounds))))
+}
+
+/// The longer one of the safe steps.
+fn longer_step(Jet { value, slope, curvature }: Jet, bounds: ClearanceBounds) -> f64 {
+    safe_step(value, slope, bounds.second).max(safe_cubic_step(value, slope, curvature, bounds.third))
 }
 
 /// What a convex stretch holds.

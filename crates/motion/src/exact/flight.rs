@@ -46,7 +46,7 @@ pub(super) const MARGIN: f64 = 8.0;
 /// Largest part of a clearance that fast blocks may be for a look to leave their course aside.
 const FAST_SHARE: f64 = 0.2;
 
-/// Looks allowed in one flight; about twenty are usual.
+/// Looks allowed in one flight; about ten are usual.
 const MAX_LOOKS: usize = 100_000;
 
 impl ExactIntegrator {
@@ -124,8 +124,8 @@ impl ExactIntegrator {
                 let touching = Touch { boundary, ..touching };
                 let bounds = self.boundary_bounds(elastic, &run.state, touching);
                 let clearance = self.distance(jet, touching);
-                let below =
-                    || self.below_without_fast_blocks(&run.state, watched, touching, clearance, bounds);
+                let known = (clearance.value, bounds.third);
+                let below = || self.below_without_fast_blocks(&run.state, (watched, touching), known, span);
                 let (step, hit) = match look(clearance, bounds, below) {
                     Look::Contact => return (0.0, Some(touching)),
                     Look::FreeFor(step) => (step, false),
@@ -149,50 +149,47 @@ impl ExactIntegrator {
         (free, touch)
     }
 
-    /// A function below a clearance in flight that has the slow blocks' part of it alone, less all that the
-    /// others can be, and its bounds; `None` where these fast blocks hardly shorten the steps.
-    fn below_without_fast_blocks(
+    /// A function below the distance that falls to zero at a boundary in flight, and its bounds: the slow
+    /// blocks' and the loads' part of it, less all that the other blocks can be. `None` where these fast
+    /// blocks have less than half of the bound on the third derivative.
+    ///
+    /// * `distance`, `third`: the distance now, and that bound.
+    pub(super) fn below_without_fast_blocks(
         &self,
         state: &[f64],
-        output: usize,
-        touch: Touch,
-        clearance: Jet,
-        bounds: ClearanceBounds,
+        (output, touch): (usize, Touch),
+        (distance, third): (f64, f64),
+        (now, until): (f64, f64),
     ) -> Option<(Jet, ClearanceBounds)> {
-        let law = self.laws.get(touch.element);
-        if touch.boundary == Boundary::Presses || law.is_some_and(|law| law.round_hole().is_some()) {
+        if touch.boundary == Boundary::Presses || self.laws[touch.element].round_hole().is_some() {
             return None;
         }
-        let (n, output) = (self.blocks.count(), &self.outputs[output]);
-        let (mut fast, mut largest, mut second, mut third) = (Jet::default(), 0.0, 0.0, 0.0);
-        for i in (0..n).rev().filter(|&i| self.blocks.stiffness[i] > 0.0) {
-            let (p, s) = (state[i], state[n + i]);
+        let (n, index, output) = (self.blocks.count(), output, &self.outputs[output]);
+        let (mut slow, mut bounds, mut fast) = (Jet::default(), self.drive.bounds(index, output, until), 0.0);
+        for i in (0..n).rev() {
             let norm = self.energy_norm(state, i);
             let most = output.value_bound[i] * norm;
-            if largest + most > FAST_SHARE * clearance.value {
+            if self.blocks.stiffness[i] > 0.0 && fast + most <= FAST_SHARE * distance {
+                fast += most;
                 continue;
             }
-            largest += most;
-            second += output.second_bound[i] * norm;
-            third += output.third_bound[i] * norm;
-            fast.value += output.row[i] * p + output.row[n + i] * s;
-            fast.slope += output.velocity_row[i] * p + output.velocity_row[n + i] * s;
-            fast.curvature += output.acceleration_row[i] * p + output.acceleration_row[n + i] * s;
+            let (p, s) = (state[i], state[n + i]);
+            slow.value += output.row[i] * p + output.row[n + i] * s;
+            slow.slope += output.velocity_row[i] * p + output.velocity_row[n + i] * s;
+            slow.curvature += output.acceleration_row[i] * p + output.acceleration_row[n + i] * s;
+            bounds.0 += output.second_bound[i] * norm;
+            bounds.1 += output.third_bound[i] * norm;
         }
-        if third <= 0.5 * bounds.third {
+        if bounds.1 > 0.5 * third {
             return None;
         }
-        // Of a distance that is linear in the output: what a part of it adds.
-        let of_nothing = self.distance(Jet::default(), touch);
-        let of_fast = self.distance(fast, touch);
-        let slow = Jet {
-            value: clearance.value - (of_fast.value - of_nothing.value) - largest - bounds.margin,
-            slope: clearance.slope - of_fast.slope,
-            curvature: clearance.curvature - of_fast.curvature,
-        };
-        let second = (bounds.second - second).max(0.0);
-        let third = (bounds.third - third).max(0.0);
-        Some((slow, ClearanceBounds { second, third, margin: bounds.margin }))
+        let driven = self.drive.jet(index, output, now);
+        slow.value += driven.value;
+        slow.slope += driven.slope;
+        slow.curvature += driven.curvature;
+        let slow = self.distance(slow, touch);
+        let below = Jet { value: slow.value - fast, ..slow };
+        Some((below, ClearanceBounds { second: bounds.0, third: bounds.1, margin: 0.0 }))
     }
 
     /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance;
@@ -325,7 +322,7 @@ impl ExactIntegrator {
         let mut magnitude = self.drive.magnitude(index) + self.drive.secular_magnitude(output, until);
         for i in 0..n {
             let (p, s) = (state[i], state[n + i]);
-            let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
+            let norm = self.energy_norm(state, i);
             second += output.second_bound[i] * norm;
             third += output.third_bound[i] * norm;
             // What rounds is what the sum is made of, also where it passes through zero.

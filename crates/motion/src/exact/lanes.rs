@@ -132,6 +132,7 @@ pub(crate) fn add_multiple(to: &mut [f64], factor: f64, row: &[f64]) {
 /// of four.
 pub(crate) fn raise_by_columns(to: &mut [f64], rows: &[f64]) {
     let columns = to.len();
+    debug_assert!(columns.is_multiple_of(4) && rows.len().is_multiple_of(columns), "columns are padded");
     vectorised(
         #[inline(always)]
         || {
