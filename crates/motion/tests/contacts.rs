@@ -278,8 +278,8 @@ fn a_stretch_that_ends_within_a_contact_ends_there() {
     }
 }
 
-/// A slow and a fast mode without damping, `r = a cos(w t + p) + b cos(v t + q)`, whose largest value is above
-/// the level of a soft stop by a ten-millionth, or below it by as much.
+/// A slow and a fast mode without damping, `r = a cos(w t + p) + b cos(v t + q)`, whose largest value is
+/// above the level of a soft stop by a ten-millionth, or below it by as much.
 #[test]
 fn a_fast_mode_that_only_just_reaches_a_stop_is_not_passed_over() {
     let mut seed = 7_u64;

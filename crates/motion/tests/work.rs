@@ -50,8 +50,8 @@ fn states_alone_need_fewer_steps() {
 
 /// Sixteen times the modes take under ten times the steps for three contacts, at nearly the same work per
 /// step and mode. The looks for touches are nearly the same. Where modes turn by many radians in a step their
-/// power series prove nothing any more (`enclosure.rs`), and it takes up to one more look a step to prove that
-/// the contact stays closed: 132 looks with 96 modes.
+/// power series prove nothing any more (`enclosure.rs`), and it takes up to one more look a step to prove
+/// that the contact stays closed: 132 looks with 96 modes.
 #[test]
 fn steps_grow_slower_than_the_modes() {
     for (modes, budget) in [

@@ -110,7 +110,8 @@ impl Four {
     /// Bit by bit those of [`Propagator::new`]; `None` where these have to serve.
     #[inline]
     pub fn propagators(&self, time: f64) -> Option<Quad> {
-        if !(time.abs() <= self.reach) {
+        let serves = time.abs() <= self.reach;
+        if !serves {
             return None;
         }
         let Self { stiffness, half, frequency, .. } = self;

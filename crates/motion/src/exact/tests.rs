@@ -86,8 +86,8 @@ fn steps_graded_at_the_touch_converge_as_fast() {
     assert!((smooth[2] - exact[2]).abs() > 1e-9, "without grading one step is not enough");
 }
 
-/// A rigid mode under a constant force, a weakly damped one, a fast and an over-critical one, the last two with
-/// small amplitudes; for the distances that fall to zero in flight.
+/// A rigid mode under a constant force, a weakly damped one, a fast and an over-critical one, the last two
+/// with small amplitudes; for the distances that fall to zero in flight.
 #[test]
 fn what_is_left_without_fast_blocks_stays_below() {
     let damping = [0.0, 1.2, 68.0, 2.5e5];
