@@ -49,6 +49,9 @@ pub(crate) enum Look {
     MinimumAhead { at: f64, convex: f64 },
 }
 
+/// How much longer the step of a function below the clearance has to be.
+const WORTH: f64 = 1.1;
+
 /// Looks at a clearance `d` with its derivatives.
 ///
 /// * `below`: another function that is nowhere above the clearance in the time ahead, and bounds on it; the
@@ -74,7 +77,9 @@ pub(crate) fn look(
     // every look gets on.
     let step = longer_step(Jet { value: value.max(bounds.margin), ..clearance }, bounds);
     let below = below().filter(|(below, _)| below.value > bounds.margin);
-    Look::FreeFor(below.map_or(step, |(below, bounds)| step.max(longer_step(below, bounds))))
+    let further = below.map_or(0.0, |(below, bounds)| longer_step(below, bounds));
+    // Just before a contact all steps are Newton's; that of the clearance itself rounds as the next look does.
+    Look::FreeFor(if further > WORTH * step { further } else { step })
 }
 
 /// The longer one of the safe steps.
