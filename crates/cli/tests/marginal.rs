@@ -146,6 +146,9 @@ fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     let counted: u64 = branches.iter().map(|branch| branch["marginal_solutions"].as_u64().unwrap()).sum();
     assert_eq!(counted, marginal as u64);
     assert_eq!(document["undamped_modes"].as_array().unwrap().len(), 2);
+    let summary = stdout(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let told = summary.lines().filter(|line| line.contains("has no damping")).count();
+    assert!(told == 1 && summary.contains("modal_ratio"), "{summary}");
     let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
     assert!(figure.contains("marginal dotted"), "the description names them");
 }
@@ -182,6 +185,19 @@ fn figures_without_marginal_solutions_do_not_speak_of_them() {
     let workshop = Workshop::exported(&damped);
     let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
     assert!(!figure.contains("marginal"), "no legend entry, and nothing in the description");
+}
+
+#[test]
+fn modes_without_damping_are_named_with_what_to_do_before_anything_runs() {
+    let check = |study: &str| {
+        let check = Workshop::with(study).hammerbeam(&["check", "study.toml"]);
+        assert_success(&check);
+        stdout(&check)
+    };
+    let text = check(FREE);
+    assert!(text.contains("mode 1 at 0.998 Hz has no damping") && text.contains("modal_ratio"), "{text}");
+    let damped = check(&FREE.replacen("[excitation]", "[damping]\nmodal_ratio = 0.01\n[excitation]", 1));
+    assert!(!damped.contains("has no damping"), "{damped}");
 }
 
 /// Both gears together, 3 kg on 1 N/m: `sqrt(1/3)/(2 pi)` Hz.

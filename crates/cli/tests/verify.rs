@@ -52,6 +52,43 @@ fn document(output: &Output) -> Value {
     serde_json::from_str(&stdout(output)).expect("one JSON document")
 }
 
+/// A preload that is next to none, and forces of 1e-12 and 1e15 N at a stop without a gap.
+#[test]
+fn motions_of_any_size_are_confirmed() {
+    for (amplitude_n, rest) in
+        [("5.0", "preload_n = 1e-9"), ("1e-12", "gap_m = 0.0"), ("1e15", "gap_m = 0.0")]
+    {
+        let workshop = Workshop::with(&format!(
+            r#"
+[structure]
+kind = "lumped"
+mass = [{{ name = "m", mass_kg = 1.0 }}]
+spring = [{{ between = ["m", "ground"], stiffness_n_m = 1000.0 }}]
+damper = [{{ between = ["m", "ground"], damping_n_s_m = 2.0 }}]
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = {amplitude_n}
+frequency_hz = [2.0, 6.5]
+[[stop]]
+at = "m"
+law = "linear"
+stiffness_n_m = 4.0e3
+{rest}
+side = "above"
+[search]
+frequencies = 1
+starts = 1
+[continuation]
+max_step_hz = 0.05
+"#
+        ));
+        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+        let document = document(&workshop.hammerbeam(&["verify", "results", "--all", "--json"]));
+        assert_eq!(document["agree"], true, "{amplitude_n} N, {rest}: {document}");
+    }
+}
+
 #[test]
 fn what_a_run_stores_agrees_in_everything() {
     let output = results().hammerbeam(&["verify", "results", "--all", "--json"]);

@@ -78,7 +78,7 @@ pub(crate) fn look(
     let step = longer_step(Jet { value: value.max(bounds.margin), ..clearance }, bounds);
     let below = below().filter(|(below, _)| below.value > bounds.margin);
     let further = below.map_or(0.0, |(below, bounds)| longer_step(below, bounds));
-    // Just before a contact all steps are Newton's; that of the clearance itself rounds as the next look does.
+    // Just before a contact all steps are Newton's; that of the clearance rounds as the next look does.
     Look::FreeFor(if further > WORTH * step { further } else { step })
 }
 
