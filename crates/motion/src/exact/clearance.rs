@@ -1,5 +1,4 @@
-//! Certified search for the first contact. Equations (C1) to (C5), with (C3b), of the book,
-//! `docs/theory`.
+//! Certified search for the first contact. Equations (C1) to (C5) and (C10) of the book, `docs/theory`.
 //!
 //! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and
 //! `|d'''| <= B_3` that hold for the time ahead, two steps provably cannot jump over a zero of `d`:
