@@ -189,27 +189,34 @@ fn figures_without_marginal_solutions_do_not_speak_of_them() {
 
 #[test]
 fn modes_without_damping_are_named_with_what_to_do_before_anything_runs() {
-    let check = |study: &str| {
-        let check = Workshop::with(study).hammerbeam(&["check", "study.toml"]);
-        assert_success(&check);
-        stdout(&check)
-    };
-    let text = check(FREE);
+    let (text, document) = checked(FREE);
+    let modes = document["undamped_modes"].as_array().unwrap();
+    assert_eq!((modes.len(), modes[0]["mode"].as_u64()), (1, Some(1)), "{document}");
+    let hz = (55.0_f64 / 1.4).sqrt() / std::f64::consts::TAU;
+    assert!((modes[0]["frequency_hz"].as_f64().unwrap() / hz - 1.0).abs() < 1e-12, "{document}");
+    // What to do is told in words alone.
     assert!(text.contains("mode 1 at 0.998 Hz has no damping") && text.contains("modal_ratio"), "{text}");
-    let damped = check(&FREE.replacen("[excitation]", "[damping]\nmodal_ratio = 0.01\n[excitation]", 1));
-    assert!(!damped.contains("has no damping"), "{damped}");
+    let damped = FREE.replacen("[excitation]", "[damping]\nmodal_ratio = 0.01\n[excitation]", 1);
+    let (text, document) = checked(&damped);
+    assert!(document["undamped_modes"].as_array().unwrap().is_empty(), "{document}");
+    assert!(!text.contains("has no damping"), "{text}");
+}
+
+/// What `check` says of a study, in words and as a document.
+fn checked(study: &str) -> (String, serde_json::Value) {
+    let workshop = Workshop::with(study);
+    let text = workshop.hammerbeam(&["check", "study.toml"]);
+    assert_success(&text);
+    let document = workshop.hammerbeam(&["check", "study.toml", "--json"]);
+    (stdout(&text), serde_json::from_str(&stdout(&document)).unwrap())
 }
 
 /// Both gears together, 3 kg on 1 N/m: `sqrt(1/3)/(2 pi)` Hz.
 #[test]
 fn a_mode_that_is_undamped_while_teeth_are_closed_is_named_with_its_frequency() {
     let check = |study: &str| {
-        let workshop = Workshop::with(study);
-        let text = workshop.hammerbeam(&["check", "study.toml"]);
-        assert_success(&text);
-        let document = workshop.hammerbeam(&["check", "study.toml", "--json"]);
-        let document: serde_json::Value = serde_json::from_str(&stdout(&document)).unwrap();
-        (stdout(&text), document["undamped_in_contact"].clone())
+        let (text, document) = checked(study);
+        (text, document["undamped_in_contact"].clone())
     };
     let (text, found) = check(GEARS);
     let hz = (1.0_f64 / 3.0).sqrt() / std::f64::consts::TAU;

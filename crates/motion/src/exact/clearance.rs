@@ -24,7 +24,8 @@
 //! blocks and of the loads, less A, is nowhere above the clearance, and its `B_2` and `B_3` are without what
 //! the blocks of F have in them. Both safe steps of that function are safe for the clearance. F is made of
 //! the blocks, from the last on, for which A stays below a fifth of the clearance; where they have less than
-//! half of `B_3` it is not worth it. The beam of the paper needs 10 looks a period instead of 16.
+//! half of `B_3`, or make the step longer by less than a tenth, they stay. The beam of the paper needs 10
+//! looks a period instead of 16.
 
 use super::drive::Jet;
 
