@@ -66,7 +66,7 @@ use carried::{Along, NodeSlope};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
-    spectrum::{Accuracy, Spectrum, monodromy_error},
+    spectrum::{Accuracy, Spectrum},
     state_scale::StateScale,
 };
 
@@ -100,6 +100,8 @@ pub(crate) struct ShootingProblem {
     /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both
     /// of their ends or at neither.
     jumps_at_cut: bool,
+    /// Whether the orbit at the last evaluated point has no contact.
+    in_flight: bool,
     /// What rounding leaves unknown behind hard contacts, over all segments [1/s].
     rounding: f64,
     failure: Option<MotionError>,
@@ -143,6 +145,7 @@ impl ShootingProblem {
             at_ends: [Vec::new(), Vec::new()],
             touches_lacking: vec![0; contacts],
             jumps_at_cut: false,
+            in_flight: false,
             rounding: 0.0,
             failure: None,
             spectrum: None,
@@ -314,11 +317,9 @@ impl ShootingProblem {
     fn spectrum_of_products(&self) -> Result<Spectrum, NoEigenvalues> {
         let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
         let rounding = self.scale.relative_rate(self.rounding);
-        let accuracy =
-            Accuracy { motion_tolerance: self.integrator.settings().tolerance, residual, rounding };
-        let products = self.products.iter().map(Vec::as_slice);
-        let error = monodromy_error(products, self.node_size(), &accuracy);
-        Spectrum::of(self.node_size(), self.monodromy(), error)
+        let motion_tolerance = if self.in_flight { 0.0 } else { self.integrator.settings().tolerance };
+        let accuracy = Accuracy { motion_tolerance, residual, rounding };
+        Spectrum::of_orbit(self.node_size(), &self.products, &accuracy)
     }
 
     /// Whether flips and Neimark-Sacker points are looked for.

@@ -14,8 +14,8 @@
 //! times as large.
 //!
 //! # The error of a monodromy matrix
-//! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, the rounding `eps` of a
-//! number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
+//! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, which is zero where it has
+//! no contact, the rounding `eps` of a number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
 //! fundamental matrices up to each node, in states measured by their energy. By h the jump of velocities in
 //! hard contacts is unknown, by rounding of their penetration; what comes before and behind such a contact is
 //! a motion of the size one. Measured on undamped systems, whose multipliers lie on the circle exactly: see
@@ -94,9 +94,21 @@ pub(crate) struct Spectrum {
     pub on_circle: Vec<bool>,
     /// Which of them are at -1 as well as they are known.
     pub at_minus_one: Vec<bool>,
+    /// Norm of what is not known of the matrix.
+    pub error: f64,
 }
 
 impl Spectrum {
+    /// Of an orbit, by the products of its fundamental matrices up to each node, from the identity to the
+    /// monodromy matrix.
+    ///
+    /// # Errors
+    /// As [`eigenvalues`].
+    pub fn of_orbit(size: usize, products: &[Vec<f64>], accuracy: &Accuracy) -> Result<Self, NoEigenvalues> {
+        let monodromy = &products[products.len() - 1];
+        Self::of(size, monodromy, monodromy_error(size, products, accuracy))
+    }
+
     /// Of a matrix by rows that is known to this error.
     ///
     /// # Errors
@@ -121,8 +133,26 @@ impl Spectrum {
             on_circle.push(on);
         }
         let at_minus_one = multipliers.iter().map(|mu| is_at_minus_one && near_minus_one(mu)).collect();
-        Ok(Self { multipliers, on_circle, at_minus_one })
+        Ok(Self { multipliers, on_circle, at_minus_one, error })
     }
+}
+
+/// How far from a number a multiplier of a matrix by rows can be that is there but for this error: along a
+/// direction of the plane, to a factor of two, and no less than the error.
+///
+/// The pseudospectrum ends where `s(z) > e`.
+pub(crate) fn reach_from(
+    size: usize,
+    by_rows: &[f64],
+    error: f64,
+    (place, direction): ([f64; 2], [f64; 2]),
+) -> f64 {
+    let beyond = |distance: f64| {
+        let z = [0, 1].map(|i| place[i] + distance * direction[i]);
+        least_singular_value(size, by_rows, z) > error
+    };
+    let distances = std::iter::successors(Some(error.max(f64::EPSILON)), |distance| Some(2.0 * distance));
+    distances.take_while(|distance| *distance < 1.0).find(|distance| beyond(*distance)).unwrap_or(1.0)
 }
 
 /// The largest modulus of multipliers, which come first; 0 of none.
@@ -138,7 +168,7 @@ pub(crate) fn norm(matrix: &[f64]) -> f64 {
 /// What the matrices of an orbit are known to, relative to them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Accuracy {
-    /// Of a step of the motion.
+    /// Of a step of the motion; zero for flights alone, which are exact.
     pub motion_tolerance: f64,
     /// Mismatch of the shooting equations.
     pub residual: f64,
@@ -147,23 +177,31 @@ pub(crate) struct Accuracy {
 }
 
 /// The error of a monodromy matrix: see the module.
-///
-/// * `products`: the products of the fundamental matrices up to each node, from the identity to the monodromy
-///   matrix.
-pub(crate) fn monodromy_error<'a>(
-    products: impl IntoIterator<Item = &'a [f64]>,
-    size: usize,
-    accuracy: &Accuracy,
-) -> f64 {
-    let largest = products.into_iter().map(norm).fold(0.0, f64::max);
+fn monodromy_error(size: usize, products: &[Vec<f64>], accuracy: &Accuracy) -> f64 {
+    let largest = products.iter().map(|product| norm(product)).fold(0.0, f64::max);
     let &Accuracy { motion_tolerance, residual, rounding } = accuracy;
     (STEPS * motion_tolerance + 2.0 * size as f64 * f64::EPSILON + residual) * largest + rounding
 }
 
 /// Estimate of the least singular value of `A - z I`, from below, within `sqrt(2n)` of it: `1 / |(A - z
 /// I)^-1|`.
-fn least_singular_value(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> f64 {
-    // `[A - a, b; -b, A - a]` acts on real and imaginary parts.
+fn least_singular_value(size: usize, by_rows: &[f64], z: [f64; 2]) -> f64 {
+    let matrix = shifted(size, by_rows, z);
+    let width = matrix.len().isqrt();
+    let mut lu = DenseLu::new();
+    if lu.factorise(width, &matrix).is_err() {
+        return 0.0;
+    }
+    // The other half of the inverse has the same entries.
+    let mut inverse = vec![0.0; width * size];
+    (0..size).for_each(|k| inverse[k * size + k] = 1.0);
+    lu.solve_rows(&mut inverse, size);
+    1.0 / norm(&inverse)
+}
+
+/// `A - z I` of a matrix by rows; for a complex number `[A - a I, b I; -b I, A - a I]`, which acts on real
+/// and imaginary parts.
+pub(crate) fn shifted(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> Vec<f64> {
     let blocks = if im == 0.0 { 1 } else { 2 };
     let width = blocks * size;
     let mut matrix = vec![0.0; width * width];
@@ -176,15 +214,7 @@ fn least_singular_value(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> f64
             row[(1 - block) * size + of_block] = if block == 0 { im } else { -im };
         }
     }
-    let mut lu = DenseLu::new();
-    if lu.factorise(width, &matrix).is_err() {
-        return 0.0;
-    }
-    // The other half of the inverse has the same entries.
-    let mut inverse = vec![0.0; width * size];
-    (0..size).for_each(|k| inverse[k * size + k] = 1.0);
-    lu.solve_rows(&mut inverse, size);
-    1.0 / norm(&inverse)
+    matrix
 }
 
 #[cfg(test)]

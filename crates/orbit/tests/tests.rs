@@ -33,6 +33,7 @@ mod splitting_end;
 mod symmetry_breaking;
 mod touch_over_the_begin;
 mod unbounded;
+mod uncertainties;
 mod vary;
 mod walk_resume;
 mod wide_range;

@@ -27,6 +27,8 @@ pub(super) struct Sketch {
     /// No other multiplier lies outside the unit circle.
     pub else_stable: bool,
     pub branch_point: bool,
+    /// Contacts in a period.
+    pub contacts: u32,
 }
 
 impl Sketch {
@@ -38,6 +40,7 @@ impl Sketch {
             flip: row.events.has(BranchEventKind::Flip),
             else_stable: is_on_circle(row.leading_multiplier),
             branch_point: row.events.has(BranchEventKind::BranchPoint),
+            contacts: row.maxima.contacts,
         }
     }
 }
@@ -304,6 +307,7 @@ pub(super) mod examples {
             flip: false,
             else_stable: true,
             branch_point: false,
+            contacts: 0,
         }
     }
 }

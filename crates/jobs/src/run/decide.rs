@@ -6,7 +6,7 @@ use hammerbeam_results::{
     store::{JobOutcome, Store, StoreError},
 };
 
-use super::{Plan, Solver, agenda::Agenda, follow_ups, joins, known, none_stable};
+use super::{Plan, Solver, again, agenda::Agenda, follow_ups, joins, known};
 use crate::Observer;
 
 /// What the decisions are taken on.
@@ -49,10 +49,9 @@ impl Decisions<'_> {
         Ok(())
     }
 
-    /// Once all jobs are done, adds those at frequencies without a known stable solution; whether there are
-    /// any.
+    /// Once all jobs are done, adds those at which is looked again; whether there are any.
     fn looks_again(&mut self, agenda: &mut Agenda) -> Result<bool, StoreError> {
-        let jobs = none_stable::jobs(agenda, self.plan);
+        let jobs = again::jobs(agenda, self.plan);
         self.store.add_jobs(&jobs)?;
         agenda.add_new_jobs(self.store)?;
         Ok(!jobs.is_empty())

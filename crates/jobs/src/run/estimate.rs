@@ -64,7 +64,7 @@ const STILL: f64 = 0.1;
 fn class(kind: JobKind) -> usize {
     match kind {
         JobKind::Harmonic => HARMONIC,
-        JobKind::Survey | JobKind::Resonance | JobKind::NoneStable => SEARCH,
+        JobKind::Survey | JobKind::Resonance | JobKind::Again => SEARCH,
         JobKind::Met | JobKind::Doubling | JobKind::Crossing => DEPARTURE,
     }
 }
@@ -237,7 +237,7 @@ fn left_s(agenda: &Agenda, plan: &Plan, means: &Means) -> f64 {
             left_s += means.evaluation_s[kind] * unevaluated(job);
         }
     }
-    let looked_again = agenda.jobs.iter().any(|job| job.record.kind == JobKind::NoneStable);
+    let looked_again = agenda.jobs.iter().any(|job| job.record.kind == JobKind::Again);
     let later = if looked_again { 0 } else { LATER_SEARCHES.min(plan.survey_hz.len()) };
     left_s + later as f64 * means.evaluation_s[SEARCH]
 }
@@ -354,7 +354,7 @@ mod tests {
 
     #[test]
     fn all_is_done_when_nothing_is_left() {
-        let mut jobs = vec![job(0, JobKind::NoneStable, true)];
+        let mut jobs = vec![job(0, JobKind::Again, true)];
         jobs[0].record.outcome = Some(JobOutcome::Nothing);
         let agenda = Agenda { jobs };
         let done = Effort::new(&agenda).done(&agenda, &plan());

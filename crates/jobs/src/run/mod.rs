@@ -8,7 +8,7 @@
 //! ends, or to where it comes upon an earlier branch that was lost there, before the next start is looked at;
 //! the flips and branch points of the new branches are added to the end of the agenda. When it is done,
 //! searches are added at frequencies at which no stable solution is known by then, and again, as long as they
-//! find branches (`none_stable.rs`). So branches, their numbers and every bit of them follow from the study
+//! find branches (`again.rs`). So branches, their numbers and every bit of them follow from the study
 //! alone.
 //!
 //! # All cores
@@ -29,7 +29,7 @@
 //! | `known.rs` | whether a start lies on a known branch |
 //! | `joins.rs` | where a branch comes upon the end of an earlier one |
 //! | `follow_ups.rs` | the jobs that the events of a branch give |
-//! | `none_stable.rs` | the jobs that all branches together give: where no stable solution is known |
+//! | `again.rs` | the jobs that all branches together give: where no stable solution is known, and where contacts change |
 //! | `schedule.rs` | what an idle thread does next |
 //! | `worker.rs` | what a thread does |
 //! | `estimate.rs` | how much of it is done |
@@ -37,13 +37,13 @@
 //! | `whole.rs` | that, and after it branches in other parameters and curves |
 //! | `report.rs` | what came of it, branch by branch |
 
+mod again;
 mod agenda;
 mod decide;
 mod estimate;
 mod follow_ups;
 mod joins;
 mod known;
-mod none_stable;
 mod plan;
 mod report;
 mod runner;

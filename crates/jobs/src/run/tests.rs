@@ -311,11 +311,11 @@ fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
     let folder = tempdir().unwrap();
     run_into(folder.path(), &study, &mut Quiet);
     let jobs = Store::open(folder.path()).unwrap().jobs().unwrap();
-    let added: Vec<_> = jobs.iter().filter(|job| job.kind == JobKind::NoneStable).collect();
+    let added: Vec<_> = jobs.iter().filter(|job| job.kind == JobKind::Again).collect();
     assert!(!added.is_empty() && added.len() <= 24, "{}", added.len());
     assert!(added.iter().all(|job| job.outcome == Some(JobOutcome::Nothing)));
-    let first = jobs.iter().position(|job| job.kind == JobKind::NoneStable).unwrap();
-    assert!(jobs[..first].iter().all(|job| job.kind != JobKind::NoneStable) && first > 24);
+    let first = jobs.iter().position(|job| job.kind == JobKind::Again).unwrap();
+    assert!(jobs[..first].iter().all(|job| job.kind != JobKind::Again) && first > 24);
 }
 
 /// Walks from above are lost at 14 Hz; the rest of the curve is found by later searches, and followed from

@@ -12,6 +12,7 @@ use super::{
     null::{null_space, transposed},
     shooting::{Place, Shooting, dot, times},
 };
+use crate::spectrum::shifted;
 
 /// The borders.
 #[derive(Debug, Clone)]
@@ -34,7 +35,7 @@ impl Bordered {
     /// Borders that suit the monodromy matrix of the last evaluated place.
     pub fn new(multiplier: f64, shooting: &Shooting) -> Self {
         let size = shooting.size();
-        let matrix = shifted(size, shooting.monodromy(), multiplier);
+        let matrix = shifted(size, shooting.monodromy(), [multiplier, 0.0]);
         let right = null_space(size, &matrix, 1).swap_remove(0);
         let left = null_space(size, &transposed(size, &matrix), 1).swap_remove(0);
         Self { multiplier, left, right }
@@ -43,7 +44,7 @@ impl Bordered {
     /// Vectors of the bordered matrix at the last evaluated place; `None` if it is singular.
     pub fn vectors(&self, shooting: &Shooting) -> Option<Vectors> {
         let size = shooting.size();
-        let matrix = shifted(size, shooting.monodromy(), self.multiplier);
+        let matrix = shifted(size, shooting.monodromy(), [self.multiplier, 0.0]);
         let right = solve(size, &matrix, &self.left, &self.right)?;
         let left = solve(size, &transposed(size, &matrix), &self.right, &self.left)?;
         Some(Vectors { value: right[size], left: left[..size].to_vec(), right: right[..size].to_vec() })
@@ -84,12 +85,6 @@ impl Bordered {
         let tests = vec![dot(&left, &right) / lengths, second];
         Ok(Some(Linear { values: vec![value], rows: vec![gradient], tests }))
     }
-}
-
-fn shifted(size: usize, matrix: &[f64], by: f64) -> Vec<f64> {
-    let mut matrix = matrix.to_vec();
-    (0..size).for_each(|i| matrix[i * size + i] -= by);
-    matrix
 }
 
 /// `[matrix, column; row^T, 0] x = [0; 1]`.

@@ -12,7 +12,7 @@ use hammerbeam_motion::{
 use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
-    spectrum::{Accuracy, Spectrum, monodromy_error},
+    spectrum::{Accuracy, Spectrum},
     state_scale::StateScale,
 };
 
@@ -96,14 +96,12 @@ impl Shooting {
 
     /// Multipliers at the last evaluated place, with this mismatch of the equations.
     pub fn spectrum(&self, residual: f64) -> Result<Spectrum, NoEigenvalues> {
-        let products = self.products.iter().map(Vec::as_slice);
         let rounding = self
             .scale
             .relative_rate(self.segments.iter().map(|segment| segment.rounding).fold(0.0, f64::hypot));
         let accuracy =
             Accuracy { motion_tolerance: self.integrator.settings().tolerance, residual, rounding };
-        let error = monodromy_error(products, self.size(), &accuracy);
-        Spectrum::of(self.size(), self.monodromy(), error)
+        Spectrum::of_orbit(self.size(), &self.products, &accuracy)
     }
 
     /// How long the segments are in all [cycles].

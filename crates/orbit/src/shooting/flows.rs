@@ -35,6 +35,7 @@ impl ShootingProblem {
         self.at_ends.iter_mut().for_each(Vec::clear);
         self.failure = None;
         self.spectrum = None;
+        self.in_flight = true;
         self.rounding = 0.0;
         let frequency = self.frequency(point);
         if frequency.is_nan() || frequency <= 0.0 {
@@ -121,6 +122,7 @@ impl ShootingProblem {
         let flow = self.integrator.flow(&stretch, &node)?;
         let in_flight = self.integrator.counts().steps == steps
             && self.integrator.touches().iter().all(|touches| *touches == 0);
+        self.in_flight &= in_flight;
         let by_last = self.varied.column_of(&flow);
         let next = (segment + 1) % self.segments;
         for i in 0..size {

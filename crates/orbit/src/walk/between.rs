@@ -142,7 +142,7 @@ fn event_row(
     let at_corners = path.follower.settings().min_step;
     let contacts = Vec::new();
     let place =
-        located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, before: None };
+        located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, approach: None };
     let located = located::describe(&mut path.problem, place);
     let row = BranchRow { located, ..row_at(path, &point)? };
     Ok(Some(Between { point, row }))
@@ -177,7 +177,7 @@ fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]
 pub(super) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
     let multipliers = solution.floquet_multipliers.clone();
     let at_minus_one = vec![false; multipliers.len()];
-    Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one }
+    Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one, error: 0.0 }
 }
 
 /// Whether as many multipliers may be outside at all of these places.

@@ -51,7 +51,7 @@ impl RowRecord {
             at_corners,
             contacts: self.contact_changes(path),
             computed: path.follower.passed_corner().map(|corner| corner.uncertainty),
-            before: near_change(path, &current),
+            approach: Some(approach(path, &current)),
         };
         let located = located::describe(&mut path.problem, place);
         Ok(BranchRow { located, ..row_at(path, &current)? })
@@ -140,18 +140,21 @@ fn last_chord(path: &OrbitPath) -> f64 {
     distance(path.problem.weights(), &base.point, &before.point)
 }
 
-/// How near contacts came to a change at the point before the present one.
-fn near_change(path: &OrbitPath, current: &ContinuationPoint) -> Option<located::NearChange> {
-    // Two of the multipliers, then as many of each kind of near miss.
-    let near = path.follower.tests().before.get(2..)?;
-    let of_kind = near.len().is_multiple_of(3).then_some(near.len() / 3).filter(|count| *count > 0)?;
-    let least = |kind: usize| near[kind * of_kind].value;
+/// What is known of the way from the point before to an event at the present one.
+fn approach(path: &OrbitPath, current: &ContinuationPoint) -> located::Approach {
     let unit = path.hertz_per_norm();
-    Some(located::NearChange {
-        clearance: least(0).min(least(2)),
-        squared_speed: least(1),
+    let tests = &path.follower.tests().before;
+    // Two of the multipliers, then as many of each kind of near miss.
+    let near = tests.get(2..).filter(|near| !near.is_empty() && near.len().is_multiple_of(3)).map(|near| {
+        let least = |kind: usize| near[kind * near.len() / 3].value;
+        [least(0).min(least(2)), least(1)]
+    });
+    let zeros = current.events.zeros;
+    located::Approach {
         chord: last_chord(path),
+        near,
+        test: (zeros != 0).then(|| tests.get(zeros.trailing_zeros() as usize).copied()).flatten(),
         errors: [path.settings.motion_tolerance, current.correction_norm / unit],
         unit,
-    })
+    }
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 pub mod biased;
+pub mod bilinear;
 pub mod events;
 pub mod independent;
 

@@ -12,7 +12,7 @@ use super::{StoreError, checksum};
 use crate::columns::TableColumn;
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 13;
+pub const SCHEMA_VERSION: u32 = 14;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -25,7 +25,7 @@ CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
     kind TEXT NOT NULL CHECK (kind IN
-        ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
+        ('harmonic', 'survey', 'resonance', 'again', 'met', 'doubling', 'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,

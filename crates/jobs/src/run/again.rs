@@ -1,4 +1,5 @@
-//! Where to look again: frequencies at which no stable solution is known.
+//! Where to look again: frequencies at which no stable solution is known, and those at which a contact of a
+//! stable solution appears or vanishes.
 //!
 //! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic,
 //! quasi-periodic, of a period that is not looked for, or on a branch that is missed. Between two successive
@@ -7,11 +8,18 @@
 //! frequencies that were looked at is halved. Where nothing new is found motion is chaotic as a rule, so that
 //! only each branch that is found gives leave to halve further. That is done in rounds, since a branch that a
 //! round finds may cover much of what is left.
+//!
+//! A grazing may have other attractors beside it although the solution that grazes stays stable. Where the
+//! number of contacts changes between two successive stable rows, the first round looks there, too, unless a
+//! search was near.
 
 use hammerbeam_orbit::Side;
 use hammerbeam_results::store::JobKind;
 
-use super::{Plan, agenda::Agenda};
+use super::{
+    Plan,
+    agenda::{Agenda, Sketch},
+};
 
 /// Most frequencies that are looked at so, in all rounds, and no more than the survey has.
 const MOST: usize = 48;
@@ -19,12 +27,14 @@ const MOST: usize = 48;
 const ROUND: usize = 6;
 /// Intervals narrower than this part of the distance of the frequencies of the survey are left out.
 const NARROWEST: f64 = 1e-4;
+/// A search within this part of that distance from a change of contacts is near.
+const NEAR: f64 = 0.125;
 
 /// The jobs of the next round; none when enough was looked at, or nothing is left to look at.
 pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
     let searches = agenda.jobs.iter().filter(|job| job.record.source.is_none());
-    let looked_at: Vec<f64> = searches.map(|job| job.record.frequency_hz).collect();
-    let done: Vec<_> = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::NoneStable).collect();
+    let mut looked_at: Vec<f64> = searches.map(|job| job.record.frequency_hz).collect();
+    let done: Vec<_> = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::Again).collect();
     let found = done.iter().filter(|job| !job.starts.is_empty()).count();
     let effort = Effort {
         most: plan.survey_hz.len().min(MOST).saturating_sub(done.len()),
@@ -32,8 +42,18 @@ pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i6
     };
     let narrowest = NARROWEST * plan.survey_width_hz();
     let intervals = uncovered(&stable_stretches(agenda), plan.range_hz);
-    let frequencies = places(&intervals, looked_at, narrowest, effort);
-    frequencies.into_iter().map(|at| (JobKind::NoneStable, at, None, 0)).collect()
+    let mut frequencies = places(&intervals, looked_at.clone(), narrowest, effort);
+    if done.is_empty() {
+        looked_at.extend(&frequencies);
+        let most = ROUND.min(plan.survey_hz.len());
+        frequencies.extend(apart(
+            changes_of_contacts(agenda),
+            looked_at,
+            NEAR * plan.survey_width_hz(),
+            most,
+        ));
+    }
+    frequencies.into_iter().map(|at| (JobKind::Again, at, None, 0)).collect()
 }
 
 /// How much a round may look at.
@@ -44,12 +64,32 @@ struct Effort {
     halvings: usize,
 }
 
+/// Successive stable rows of branches.
+fn stable_pairs(agenda: &Agenda) -> impl Iterator<Item = &[Sketch]> {
+    let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
+    sides.flat_map(|walk| walk.rows.windows(2)).filter(|pair| pair[0].else_stable && pair[1].else_stable)
+}
+
 /// Stretches of the frequency from one stable row of a branch to the next one.
 fn stable_stretches(agenda: &Agenda) -> Vec<[f64; 2]> {
-    let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
-    let pairs =
-        sides.flat_map(|walk| walk.rows.windows(2)).filter(|pair| pair[0].else_stable && pair[1].else_stable);
-    pairs.map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect()
+    stable_pairs(agenda).map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect()
+}
+
+/// Where the number of contacts changes from one stable row of a branch to the next one.
+fn changes_of_contacts(agenda: &Agenda) -> impl Iterator<Item = f64> {
+    let changes = stable_pairs(agenda).filter(|pair| pair[0].contacts != pair[1].contacts);
+    changes.map(|pair| pair[0].frequency_hz)
+}
+
+/// The first so many frequencies that lie this far from what was looked at, and from each other.
+fn apart(places: impl Iterator<Item = f64>, mut looked_at: Vec<f64>, distance: f64, most: usize) -> Vec<f64> {
+    let known = looked_at.len();
+    for at in places {
+        if looked_at.len() < known + most && looked_at.iter().all(|other| (other - at).abs() > distance) {
+            looked_at.push(at);
+        }
+    }
+    looked_at.split_off(known)
 }
 
 /// What stretches leave of a range, ascending.
@@ -150,6 +190,13 @@ mod tests {
         assert!(
             places(&intervals, vec![4.0, 10.5, 9.03125], 1e-6, Effort { most: 9, halvings: 0 }).is_empty()
         );
+    }
+
+    #[test]
+    fn changes_of_contacts_are_looked_at_where_no_search_was_near() {
+        let found = |most| apart([1.0, 1.05, 2.0, 3.0, 0.5].into_iter(), vec![2.1, 7.0], 0.2, most);
+        assert_eq!(found(6), [1.0, 3.0, 0.5]);
+        assert_eq!(found(2), [1.0, 3.0]);
     }
 
     #[test]

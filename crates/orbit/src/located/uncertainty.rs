@@ -1,0 +1,138 @@
+//! How closely the place of an event is known.
+//!
+//! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its
+//! change `k` per length, the frequency is uncertain by `s |t_f| + k s^2 / 2`. A search for the place leaves a
+//! bracket of it. But what is searched for is known no better than the motion, however narrow the bracket is.
+//! With the tolerance t of the steps, ten of which a period is given:
+//!
+//! * A grazing is where the least clearance, penetration or touch speed of the motion vanishes. Its `s` is no
+//!   less than `e/|g'|`: g is that quantity relative to what the orbit's scale gives the element, e what is
+//!   not known of it, `10 t` and the response of the orbit to as much of a closure error, with the correction
+//!   that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
+//! * A flip or Neimark-Sacker point is where a multiplier reaches -1 or the unit circle. The monodromy matrix
+//!   is known to an error ([`spectrum`](crate::spectrum)), with which the multiplier may lie as far off as its
+//!   pseudospectrum reaches, by `d`. The test function `g` of these points is a product of factors, of which
+//!   the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
+//!   response of the frequency to a closure error.
+//!
+//! Rounding of the matrix exponentials and of the sums over steps is within the tolerance of the motion.
+
+use hammerbeam_path::{PathProblem, TestValue, norm, weighed};
+
+use super::Place;
+use crate::{shooting::ShootingProblem, spectrum::reach_from, stability::flip_without};
+
+/// Error of the motion over a period, in tolerances of its steps.
+const MOTION: f64 = 10.0;
+
+/// What is known of the way from the point before to an event.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Approach {
+    /// Length of the path from the point before.
+    pub chord: f64,
+    /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
+    /// squared speed of a touch [m^2/s^2]; `None` where that is not known.
+    pub near: Option<[f64; 2]>,
+    /// The test function there whose zero was located.
+    pub test: Option<TestValue>,
+    /// Tolerance of the motion, and the correction that is still due at the event, relative to the orbit.
+    pub errors: [f64; 2],
+    /// Length along the path that a change of the orbit by its own size counts.
+    pub unit: f64,
+}
+
+/// Interval of the frequency, or of what varies, within which an event lies.
+///
+/// * `jumps`: its multiplier does not lie in its place.
+pub(super) fn of_place(problem: &mut ShootingProblem, place: &Place<'_>, jumps: bool) -> f64 {
+    // A multiplier jumps over its place at corners only.
+    let at_corner = if jumps { place.at_corners } else { 0.0 };
+    let (mut along, mut at_fold) = (place.point.uncertainty.max(at_corner), 0.0);
+    if let Some(approach) = &place.approach {
+        let events = place.point.events;
+        if events.signature_change {
+            along = along.max(of_contacts(problem, place, approach));
+        } else if events.zeros != 0 && !jumps {
+            along = along.max(of_multiplier(problem, approach, events.zeros));
+        } else if events.fold {
+            let [tolerance, _] = approach.errors;
+            at_fold =
+                MOTION * tolerance * response_to_closure(problem, place).map_or(0.0, |moved| moved.parameter);
+        }
+    }
+    along * place.point.tangent_parameter().abs() + 0.5 * place.bend * along * along + at_fold
+}
+
+/// Arc length within which a grazing lies.
+fn of_contacts(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
+    let Some([clearance, squared_speed]) = approach.near else { return 0.0 };
+    let [displacement, speed] = contact_scale(problem);
+    // What appears was a clearance or a penetration before, what vanishes a touch.
+    let appears = place.contacts.iter().any(|change| change.appears);
+    let vanishes = place.contacts.iter().any(|change| !change.appears);
+    let of_turn = if appears { clearance / displacement } else { f64::INFINITY };
+    let of_touch = if vanishes { squared_speed / (speed * speed) } else { f64::INFINITY };
+    let nearness = of_turn.min(of_touch);
+    if !(nearness > 0.0 && nearness.is_finite()) {
+        return 0.0;
+    }
+    let closed = response_to_closure(problem, place).map_or(0.0, |moved| moved.all) / approach.unit;
+    let [tolerance, due] = approach.errors;
+    let unknown = MOTION * tolerance * (1.0 + closed) + due;
+    (unknown * approach.chord / nearness).min(approach.chord)
+}
+
+/// Arc length within which a flip or Neimark-Sacker point lies.
+fn of_multiplier(problem: &mut ShootingProblem, approach: &Approach, zeros: u32) -> f64 {
+    let Some(test) = approach.test else { return 0.0 };
+    let Ok(spectrum) = problem.spectrum() else { return 0.0 };
+    let is_flip = zeros & 1 != 0;
+    let (place, change) = if is_flip {
+        // The factor of the multiplier itself is left out.
+        (Some([-1.0, 0.0]), flip_without(spectrum, test.left_out + 1).value.abs())
+    } else {
+        let pairs = spectrum.multipliers.iter().filter(|[_, im]| *im > 0.0);
+        let off = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
+        let nearest = pairs.min_by(|a, b| off(a).total_cmp(&off(b)));
+        // It is `1 - |m|^2`.
+        (nearest.map(|[re, im]| [re / re.hypot(*im), im / re.hypot(*im)]), 2.0)
+    };
+    let Some(place) = place else { return 0.0 };
+    let error = spectrum.error;
+    let reach = reach_from(problem.node_size(), problem.monodromy(), error, (place, place));
+    (reach * change * approach.chord / test.value.abs().max(f64::MIN_POSITIVE)).min(approach.chord)
+}
+
+/// Largest displacement and speed that the scale of the orbit gives an element.
+fn contact_scale(problem: &ShootingProblem) -> [f64; 2] {
+    let (scales, n) = (problem.scale().values(), problem.node_size() / 2);
+    [&scales[..n], &scales[n..]].map(|scales| {
+        let of_shape =
+            |shape: &[f64]| shape.iter().zip(scales).map(|(phi, scale)| (phi * scale).abs()).sum::<f64>();
+        problem.system().elements().iter().map(|element| of_shape(&element.shape)).fold(0.0, f64::max)
+    })
+}
+
+/// By what closure errors of the size of the orbit move it.
+struct Moved {
+    /// Length along and across the path.
+    all: f64,
+    /// The frequency, or what varies.
+    parameter: f64,
+}
+
+/// The largest of what two closure errors move.
+fn response_to_closure(problem: &mut ShootingProblem, place: &Place<'_>) -> Option<Moved> {
+    let weights = problem.weights().to_vec();
+    problem.factorise(&weighed(&weights, &place.point.tangent)).ok()?;
+    let last = weights.len() - 1;
+    let responses = [1.0_f64, -1.0].map(|sign| {
+        let mut vector: Vec<f64> = (0..weights.len()).map(|i| sign.powi(i as i32)).collect();
+        vector[last] = 0.0;
+        problem.solve(&mut vector);
+        [norm(&weights, &vector), vector[last].abs()]
+    });
+    let largest = |what: usize| responses[0][what].max(responses[1][what]);
+    Some(Moved { all: largest(0), parameter: largest(1) })
+}
