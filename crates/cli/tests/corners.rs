@@ -344,8 +344,7 @@ fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_la
 }
 
 /// `A = F/|1 - W^2 + i c W|` reaches the gap: `(1 - W^2)^2 + (c W)^2 = (F/g)^2`. Whether the impact comes or
-/// goes
-/// there, and with one stop or with two at once.
+/// goes there, and with one stop or with two at once.
 #[test]
 fn a_grazing_lies_within_its_uncertainty_of_the_closed_form() {
     for (study, damping) in [(IMPACT_OSCILLATOR, 0.04_f64), (BETWEEN_STOPS, 0.1)] {
@@ -368,8 +367,7 @@ fn a_grazing_lies_within_its_uncertainty_of_the_closed_form() {
 }
 
 /// Beside a grazing an impact of the speed v makes `1/v` times as much of what a state is off: rows are
-/// corrected until
-/// they close, too (before, they missed it by 6e-8).
+/// corrected until they close, too (before, they missed it by 6e-8).
 #[test]
 fn orbits_beside_a_grazing_close() {
     let workshop = Workshop::exported(IMPACT_OSCILLATOR);

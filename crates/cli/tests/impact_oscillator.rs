@@ -23,8 +23,9 @@ const FORCE: f64 = 0.4;
 const GAP: f64 = 1.0;
 const RESTITUTION: f64 = 0.8;
 
-/// Speed of impact and sum of the multipliers of both orbits with one impact in a period.
-fn closed_form(frequency_hz: f64) -> Option<[[f64; 2]; 2]> {
+/// Speed of impact and sum of the multipliers of both orbits with one impact in a period, and the root by
+/// which they differ, which vanishes at the fold.
+fn closed_form_with_root(frequency_hz: f64) -> Option<([[f64; 2]; 2], f64)> {
     let (w, period, e) = (TAU * frequency_hz, frequency_hz.recip(), RESTITUTION);
     let (half, root) = (0.5 * DAMPING, (1.0 - 0.25 * DAMPING * DAMPING).sqrt());
     let decay = (-half * period).exp();
@@ -47,7 +48,11 @@ fn closed_form(frequency_hz: f64) -> Option<[[f64; 2]; 2]> {
         let after = before + DAMPING * (1.0 + e) * speed;
         [speed, -e * (a + d) + b * (after + e * before) / speed]
     };
-    Some([of(1.0), of(-1.0)])
+    Some(([of(1.0), of(-1.0)], discriminant.sqrt()))
+}
+
+fn closed_form(frequency_hz: f64) -> Option<[[f64; 2]; 2]> {
+    Some(closed_form_with_root(frequency_hz)?.0)
 }
 
 fn product(frequency_hz: f64) -> f64 {
@@ -105,6 +110,16 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
     let workshop = Workshop::with(STUDY);
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     let rows = rows(&workshop.csv("results"));
+    // What a state is off by the speed is off, more beside the fold, and no more beside the corner.
+    let with_one = rows.iter().filter(|row| row.contacts == 1);
+    let beside_the_corner = with_one.clone().filter(|row| row.speed < 1e-4).count();
+    assert!(beside_the_corner >= 10, "{beside_the_corner}");
+    for row in with_one {
+        let Some((orbits, root)) = closed_form_with_root(row.frequency) else { continue };
+        let off =
+            orbits.map(|[speed, _]| (row.speed - speed).abs()).into_iter().fold(f64::INFINITY, f64::min);
+        assert!(off * root < 1e-10, "{} Hz, {} m/s: {off:e} m/s off", row.frequency, row.speed);
+    }
     let mut compared = 0;
     for row in rows.iter().filter(|row| row.contacts == 1 && row.speed > 1e-3) {
         let f = row.frequency;

@@ -83,6 +83,24 @@ fn work_that_takes_minutes_is_left_in_a_moment() {
     assert!(met >= 5, "only {met} of 8 commands were still at work");
 }
 
+/// The first one waits for the piece of work that is at hand, and says so before it ends the process; a
+/// second one does neither.
+#[test]
+fn a_second_signal_ends_at_once_and_keeps_what_was_stored() {
+    let workshop = against_a_stop(1.0, 0.5, "[search]\nsettling_periods = 1000000");
+    let child = workshop.spawn(&["run", "study.toml", "--out", "results", "--jobs", "1"]);
+    thread::sleep(Duration::from_secs(4));
+    for signal in ["-INT", "-TERM"] {
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        thread::sleep(Duration::from_millis(100));
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(!stderr(&output).contains("interrupted"), "{}", stderr(&output));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert!(!workshop.table("results/export/branches.csv").is_empty());
+}
+
 #[test]
 fn what_was_stored_before_a_long_computation_is_kept_and_goes_on() {
     let workshop = against_a_stop(1.0, 0.5, "[search]\nsettling_periods = 1000000");

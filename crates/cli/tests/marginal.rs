@@ -7,7 +7,7 @@ use std::fs;
 use hammerbeam_orbit::StopReason;
 use hammerbeam_results::end::BranchEnd;
 
-use crate::common::{Workshop, assert_success, stdout, stored};
+use crate::common::{Workshop, assert_success, number, stdout, stored};
 
 /// One undamped mass about a third of its eigenfrequency, where free vibrations repeat with the motion.
 const FREE: &str = r#"
@@ -235,6 +235,22 @@ fn a_mode_that_is_undamped_while_teeth_are_closed_is_named_with_its_frequency() 
     // A ratio of 3e-9; in a period of the excitation, a 200th of that of the mode, it takes off 3e-11.
     let (_, found) = check(&damped(1e-8));
     assert_eq!(found.as_array().unwrap().len(), 1, "{found}");
+}
+
+/// Teeth that stay closed leave the mode of both gears without damping: its pair is on the circle by rounding
+/// outside or inside.
+#[test]
+fn gears_on_an_undamped_spring_are_marginal_and_make_no_neimark_sacker_points() {
+    let few = "frequency_hz = [40.0, 60.0]\n[search]\nfrequencies = 0\n[continuation]\nmax_step_hz = 0.1\n";
+    let workshop = Workshop::exported(&GEARS.replace("frequency_hz = [100.0, 120.0]\n", few));
+    let rows = workshop.table("results/export/branches.csv");
+    assert!(rows.len() > 150 && rows.iter().all(|row| row["stable"] == "marginal"), "{} rows", rows.len());
+    assert!(rows.iter().all(|row| number(row, "contacts") == 0.0), "the teeth stay closed");
+    assert_eq!(workshop.table("results/export/events.csv").len(), 0);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
+    let named = document["undamped_in_contact"].as_array().unwrap();
+    assert_eq!(named.len(), 1, "{document}");
 }
 
 /// A stop that holds all that moves leaves no mode to be named.

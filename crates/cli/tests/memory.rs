@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{
+    f64::consts::PI,
     fmt::Write,
     fs,
     process::{Command, Stdio},
@@ -11,7 +12,7 @@ use std::{
     time::Duration,
 };
 
-use crate::common::{BEAM, Workshop, extensive, stderr};
+use crate::common::{BEAM, Workshop, assert_success, extensive, number, stderr};
 
 /// Solutions of the small run and of the one with `HAMMERBEAM_EXTENSIVE=1`.
 const SOLUTIONS: [u64; 2] = [500, 100_000];
@@ -60,6 +61,36 @@ fn memory_and_results_folder_stay_below_200_megabytes() {
     assert!(rows >= solutions, "{rows} solutions");
     assert!(peak > 1_000_000 && peak < 200_000_000, "{peak} bytes of memory for {rows} solutions");
     assert!(size < 200_000_000 * rows / 100_000, "{size} bytes of results for {rows} solutions");
+}
+
+/// Four equal masses in a row without damping, over all their resonances: each piece of the branch ends where
+/// its amplitude has no bound, before it takes memory.
+#[test]
+fn a_chain_without_damping_ends_at_its_resonances_in_little_memory() {
+    let masses: Vec<String> =
+        ["a", "b", "c", "d"].map(|name| format!("{{ name = \"{name}\", mass_kg = 1.0 }}")).to_vec();
+    let springs: Vec<String> = [("a", "ground"), ("a", "b"), ("b", "c"), ("c", "d")]
+        .map(|(one, other)| format!("{{ between = [\"{one}\", \"{other}\"], stiffness_n_m = 1.0 }}"))
+        .to_vec();
+    let workshop = Workshop::with(&format!(
+        "[structure]\nkind = \"lumped\"\nmass = [{}]\nspring = [{}]\n[excitation]\nkind = \"force\"\n\
+         at = \"d\"\namplitude_n = 1.0\nfrequency_hz = [0.04, 0.33]\n[continuation]\nmax_step_hz = 1e-3\n",
+        masses.join(", "),
+        springs.join(", "),
+    ));
+    let peak = peak_of(&workshop, &["run", "study.toml", "--out", "results"]);
+    assert!(peak < 200_000_000, "{peak} bytes of memory");
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let ends = workshop.table("results/export/ends.csv");
+    let mut unbounded: Vec<f64> =
+        ends.iter().filter(|end| end["end"] == "unbounded").map(|end| number(end, "frequency_hz")).collect();
+    unbounded.sort_by(f64::total_cmp);
+    // `w_k = 2 sin((2 k - 1) pi / 18)`; each is come to from both sides.
+    let resonances = (1..=4).map(|k| (f64::from(2 * k - 1) * PI / 18.0).sin() / PI);
+    for (found, expected) in unbounded.chunks(2).zip(resonances) {
+        assert!(found.iter().all(|hz| (hz / expected - 1.0).abs() < 1e-6), "{unbounded:?}, {expected}");
+    }
+    assert_eq!((unbounded.len(), ends.len()), (8, 10));
 }
 
 /// A cube of unit masses, each on springs to its six neighbours and a weak one to the ground.

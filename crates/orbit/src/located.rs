@@ -7,13 +7,15 @@
 //! bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to anything points into
 //! that direction.
 
+mod place;
 mod uncertainty;
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm, weighed};
 
 use crate::{shooting::ShootingProblem, spectrum::shifted};
-pub(crate) use uncertainty::Approach;
+pub use place::ContactChange;
+pub(crate) use place::{Approach, Place};
 
 /// Relative frequency to which an event counts as located.
 const SHARP_FREQUENCY: f64 = 1e-8;
@@ -34,15 +36,6 @@ pub enum EventStatus {
     /// Only within [`LocatedEvent::uncertainty`], or with a multiplier that jumps over its place (at a corner
     /// of the branch).
     Bracketed,
-}
-
-/// A contact that appears or vanishes at grazing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ContactChange {
-    /// Which one, in the order of the elements and their contacts.
-    pub contact: usize,
-    /// Whether the orbit has it behind the event, in the direction of the walk.
-    pub appears: bool,
 }
 
 /// What is known of an event, beside the solution at it.
@@ -72,30 +65,6 @@ impl LocatedEvent {
     pub fn backwards(mut self) -> Self {
         self.contacts.iter_mut().for_each(|change| change.appears = !change.appears);
         self
-    }
-}
-
-/// What the walk knows of the points at and before the event.
-pub(crate) struct Place<'a> {
-    pub point: &'a ContinuationPoint,
-    /// Change of the tangent's frequency component per length.
-    pub bend: f64,
-    /// To this length along the path the place of a corner is known.
-    pub at_corners: f64,
-    /// The contacts that change there.
-    pub contacts: Vec<ContactChange>,
-    /// Within which the parameter of a grazing is known that was computed as a corner; `None` where that was
-    /// not.
-    pub computed: Option<f64>,
-    /// What is known of the way there; `None` where nothing is.
-    pub approach: Option<Approach>,
-}
-
-impl<'a> Place<'a> {
-    /// A place of which no more is known than itself, and within which the parameter is known, if that was
-    /// computed.
-    pub fn alone(point: &'a ContinuationPoint, computed: Option<f64>) -> Self {
-        Self { point, bend: 0.0, at_corners: 0.0, contacts: Vec::new(), computed, approach: None }
     }
 }
 

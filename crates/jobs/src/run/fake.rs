@@ -23,6 +23,8 @@ pub(crate) struct FakeSolver {
     pub flips: Option<i64>,
     /// Frequency at which walks of two periods are lost, if they come from above [Hz].
     pub lost_hz: Option<f64>,
+    /// Why walks of two periods end after a few steps, if they do.
+    pub given_up: Option<StopReason>,
     /// Walks that were taken up again.
     pub resumed: AtomicUsize,
 }
@@ -37,6 +39,7 @@ impl Default for FakeSolver {
             panics: false,
             flips: None,
             lost_hz: None,
+            given_up: None,
             resumed: AtomicUsize::new(0),
         }
     }
@@ -196,6 +199,10 @@ impl Walk for FakeWalk<'_> {
                 has_no_losses: false,
             };
             return Ok(Some(reason.into()));
+        }
+        if let Some(reason) = self.solver.given_up.as_ref().filter(|_| self.multiple == 2 && self.walked == 5)
+        {
+            return Ok(Some(reason.clone().into()));
         }
         let is_end = frequency_hz <= low || frequency_hz >= high;
         Ok(is_end.then_some(StopReason::RangeEnd { frequency_hz }.into()))

@@ -1,6 +1,6 @@
 use std::{path::Path, sync::atomic::Ordering};
 
-use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_orbit::{PeriodicSolution, StopReason};
 use hammerbeam_results::{
     columns::TableColumn,
     end::BranchEnd,
@@ -316,6 +316,48 @@ fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
     assert!(added.iter().all(|job| job.outcome == Some(JobOutcome::Nothing)));
     let first = jobs.iter().position(|job| job.kind == JobKind::Again).unwrap();
     assert!(jobs[..first].iter().all(|job| job.kind != JobKind::Again) && first > 24);
+}
+
+/// A branch that is given up, for its work or since it leads nowhere, keeps what it has and why it ended; the
+/// others are whole, and no search begins it anew without end.
+#[test]
+fn a_branch_that_is_given_up_leaves_the_others_whole() {
+    let study = study_with("[response]\nperiod_multiples = [1, 2]\n[search]\nfrequencies = 2\n");
+    let given_up = [
+        StopReason::TooMuchWork { frequency_hz: 14.0, solutions: 5, gets_on: false },
+        StopReason::TooMuchWork { frequency_hz: 14.0, solutions: 5, gets_on: true },
+        StopReason::NoProgress {
+            frequency_hz: 14.0,
+            solutions: 5,
+            largest_multiplier: 1e9,
+            has_no_losses: false,
+        },
+    ];
+    for reason in given_up {
+        let solver = FakeSolver { given_up: Some(reason.clone()), ..FakeSolver::default() };
+        let folder = tempdir().unwrap();
+        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+        let outcome = run(&mut store, &solver, &Plan::of(&study.study), 2, &mut Quiet).unwrap();
+        assert_eq!(outcome, RunOutcome::Done);
+        store.finish().unwrap();
+        let branches = Store::open(folder.path()).unwrap().branches().unwrap();
+        let mut sides = [0, 0];
+        for branch in &branches {
+            for side in [&branch.up, &branch.down] {
+                sides[branch.period_multiple as usize - 1] += 1;
+                match (branch.period_multiple, side.end.as_ref().unwrap()) {
+                    (1, BranchEnd::Walk(StopReason::RangeEnd { .. })) => {}
+                    // The upper side has the start besides.
+                    (2, BranchEnd::Walk(end)) => {
+                        assert!(end == &reason && (5..=6).contains(&side.solutions), "{side:?}");
+                    }
+                    other => panic!("{other:?}"),
+                }
+            }
+        }
+        assert_eq!(sides[0], 2);
+        assert!((4..40).contains(&sides[1]), "{sides:?}");
+    }
 }
 
 /// Walks from above are lost at 14 Hz; the rest of the curve is found by later searches, and followed from

@@ -18,29 +18,13 @@
 //!
 //! Rounding of the matrix exponentials and of the sums over steps is within the tolerance of the motion.
 
-use hammerbeam_path::{PathProblem, TestValue, norm, weighed};
+use hammerbeam_path::{PathProblem, norm, weighed};
 
-use super::Place;
+use super::place::{Approach, Place};
 use crate::{shooting::ShootingProblem, spectrum::reach_from, stability::flip_without};
 
 /// Error of the motion over a period, in tolerances of its steps.
 const MOTION: f64 = 10.0;
-
-/// What is known of the way from the point before to an event.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Approach {
-    /// Length of the path from the point before.
-    pub chord: f64,
-    /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
-    /// squared speed of a touch [m^2/s^2]; `None` where that is not known.
-    pub near: Option<[f64; 2]>,
-    /// The test function there whose zero was located.
-    pub test: Option<TestValue>,
-    /// Tolerance of the motion, and the correction that is still due at the event, relative to the orbit.
-    pub errors: [f64; 2],
-    /// Length along the path that a change of the orbit by its own size counts.
-    pub unit: f64,
-}
 
 /// Interval of the frequency, or of what varies, within which an event lies.
 ///

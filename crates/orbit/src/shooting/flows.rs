@@ -22,8 +22,7 @@ const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
 const LARGE: usize = 32;
 
 /// Excitation frequency over the lowest eigenfrequency from which on rounding of states would leave less of
-/// an orbit than its
-/// tolerance asks for.
+/// an orbit than its tolerance asks for.
 const FAST: f64 = 1e3;
 /// Most that rounding of states makes of a residual, in parts of the largest state.
 const ROUNDING: f64 = 1e-12;
@@ -78,9 +77,8 @@ impl ShootingProblem {
     /// d_{k+1}`.
     ///
     /// It equals the difference of the states but for rounding of these, which the inverse of `G - 1` makes
-    /// larger by the
-    /// excitation frequency over the eigenfrequency. The deviation vanishes at the solution, and rounding of
-    /// it with it.
+    /// larger by the excitation frequency over the eigenfrequency. The deviation vanishes at the solution,
+    /// and rounding of it with it.
     fn sharpen_flight(&mut self, segment: usize, point: &[f64]) {
         let size = self.node_size();
         let next = (segment + 1) % self.segments;

@@ -1,0 +1,52 @@
+//! Where an event was found, and what is known of the way there.
+
+use hammerbeam_path::{ContinuationPoint, TestValue};
+
+/// A contact that appears or vanishes at grazing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ContactChange {
+    /// Which one, in the order of the elements and their contacts.
+    pub contact: usize,
+    /// Whether the orbit has it behind the event, in the direction of the walk.
+    pub appears: bool,
+}
+
+/// What the walk knows of the points at and before the event.
+pub(crate) struct Place<'a> {
+    pub point: &'a ContinuationPoint,
+    /// Change of the tangent's frequency component per length.
+    pub bend: f64,
+    /// To this length along the path the place of a corner is known.
+    pub at_corners: f64,
+    /// The contacts that change there.
+    pub contacts: Vec<ContactChange>,
+    /// Within which the parameter of a grazing is known that was computed as a corner; `None` where that was
+    /// not.
+    pub computed: Option<f64>,
+    /// What is known of the way there; `None` where nothing is.
+    pub approach: Option<Approach>,
+}
+
+impl<'a> Place<'a> {
+    /// A place of which no more is known than itself, and within which the parameter is known, if that was
+    /// computed.
+    pub fn alone(point: &'a ContinuationPoint, computed: Option<f64>) -> Self {
+        Self { point, bend: 0.0, at_corners: 0.0, contacts: Vec::new(), computed, approach: None }
+    }
+}
+
+/// What is known of the way from the point before to an event.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Approach {
+    /// Length of the path from the point before.
+    pub chord: f64,
+    /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
+    /// squared speed of a touch [m^2/s^2]; `None` where that is not known.
+    pub near: Option<[f64; 2]>,
+    /// The test function there whose zero was located.
+    pub test: Option<TestValue>,
+    /// Tolerance of the motion, and the correction that is still due at the event, relative to the orbit.
+    pub errors: [f64; 2],
+    /// Length along the path that a change of the orbit by its own size counts.
+    pub unit: f64,
+}
