@@ -364,20 +364,27 @@ fn a_curve_is_cut_exactly_at_the_end_of_the_frequency_range() {
 }
 
 /// At a rigid stop the multipliers of an orbit with a slow impact go like `sin(w_d T)` over its speed, so
-/// curves of flips meet
-/// that of grazings where `w_d T = k pi`: at two thirds of the damped eigenfrequency, say.
+/// curves of flips meet that of grazings where `w_d T = k pi` with an odd k, at two thirds of the damped
+/// eigenfrequency, and curves of folds where it is even, at the eigenfrequency.
 #[test]
-fn a_resonant_grazing_at_which_a_curve_of_flips_ends_is_named() {
-    let workshop = impact_oscillator(&curve("flip", 0.15755, "stop.stop.gap_m", [0.3, 3.0]));
-    let ends = columns(&workshop, "curve_ends.csv", ["side", "frequency_hz", "message"]);
-    let [_, frequency_hz, message] = ends.iter().find(|end| end[0] == "down").unwrap();
-    assert!(message.contains("a resonant grazing (grazing-flip)"), "{message}");
-    let damped_hz = (1.0_f64 - 0.02 * 0.02).sqrt() / std::f64::consts::TAU;
-    let expected = 2.0 / 3.0 * damped_hz;
-    let found: f64 = frequency_hz.parse().unwrap();
-    assert!((found / expected - 1.0).abs() < 1e-5, "{found}, not {expected}");
-    let rows = columns(&workshop, "curves.csv", ["frequency_hz", "event"]);
-    let marked: Vec<_> = rows.iter().filter(|[_, event]| event.contains("grazing-flip")).collect();
-    assert_eq!(marked.len(), 1, "{marked:?}");
-    assert_eq!(marked[0][0], *frequency_hz);
+fn a_resonant_grazing_at_which_a_curve_ends_is_named() {
+    let flip = ("flip", 0.15755, [0.3, 3.0], ("down", 2.0 / 3.0));
+    let fold = ("fold", 0.2527, [0.3, 15.0], ("up", 1.0));
+    for (of, near_hz, range, (to, part)) in [flip, fold] {
+        let workshop = impact_oscillator(&curve(of, near_hz, "stop.stop.gap_m", range));
+        let ends = columns(&workshop, "curve_ends.csv", ["side", "parameter", "frequency_hz", "message"]);
+        let [_, gap, frequency_hz, message] = ends.iter().find(|end| end[0] == to).unwrap();
+        let name = format!("grazing-{of}");
+        assert!(message.contains(&format!("a resonant grazing ({name})")), "{message}");
+        let damped_hz = (1.0_f64 - 0.02 * 0.02).sqrt() / std::f64::consts::TAU;
+        let [found, gap] = [frequency_hz, gap].map(|text| text.parse::<f64>().unwrap());
+        assert!((found / (part * damped_hz) - 1.0).abs() < 2e-5, "{of}: {found}, not {part} of {damped_hz}");
+        let w = std::f64::consts::TAU * found;
+        let amplitude = 0.4 / (1.0 - w * w).hypot(0.04 * w);
+        assert!((gap / amplitude - 1.0).abs() < 1e-6, "{of}: {gap}, not {amplitude}");
+        let rows = columns(&workshop, "curves.csv", ["frequency_hz", "event"]);
+        let marked: Vec<_> = rows.iter().filter(|[_, event]| event.contains(&name)).collect();
+        assert_eq!(marked.len(), 1, "{marked:?}");
+        assert_eq!(marked[0][0], *frequency_hz);
+    }
 }
