@@ -3,8 +3,10 @@
 //! lie where the linear response reaches the gap.
 use std::f64::consts::TAU;
 
+use hammerbeam_jobs::StoredBranches;
 use hammerbeam_orbit::{BranchEventKind, StopReason};
 use hammerbeam_results::end::BranchEnd;
+use hammerbeam_study::Model;
 
 use crate::common::{Workshop, assert_success, number, stored};
 
@@ -259,6 +261,21 @@ fn assert_whole(workshop: &Workshop, range_hz: (f64, f64), ends: &[&str]) {
         let frequency_hz = range_hz.0 + share * (range_hz.1 - range_hz.0);
         let twice = branches.held_twice(&model, frequency_hz).unwrap();
         assert!(twice.is_empty(), "at {frequency_hz} Hz branches {twice:?} hold the same orbit");
+    }
+    for share in shares(12) {
+        assert_crossed(&model, &branches, range_hz.0 + share * (range_hz.1 - range_hz.0));
+    }
+}
+
+/// Each pair of rows between which a branch crosses a frequency has an orbit there.
+fn assert_crossed(model: &Model, branches: &StoredBranches, frequency_hz: f64) {
+    let orbits = branches.crossings(model, frequency_hz, |_| true).unwrap();
+    for branch in branches.branches() {
+        let below =
+            branch.rows.windows(2).map(|pair| [0, 1].map(|k| pair[k].row.frequency_hz < frequency_hz));
+        let pairs = below.filter(|[one, other]| one != other).count();
+        let found = orbits.iter().filter(|(id, _)| *id == branch.record.id).count();
+        assert!(found >= pairs, "branch {} at {frequency_hz} Hz: {found} of {pairs}", branch.record.id);
     }
 }
 

@@ -7,7 +7,7 @@ use std::fs;
 use hammerbeam_orbit::StopReason;
 use hammerbeam_results::end::BranchEnd;
 
-use crate::common::{Workshop, assert_success, number, stdout, stored};
+use crate::common::{Workshop, assert_success, stdout, stored};
 
 /// One undamped mass about a third of its eigenfrequency, where free vibrations repeat with the motion.
 const FREE: &str = r#"
@@ -132,6 +132,34 @@ fn multipliers_of_contacts_that_are_too_hard_for_rounding_are_marginal() {
     }
 }
 
+/// A state a micrometre deep in a hard contact is thrown out at a speed a million times that of the orbit. What
+/// Newton's method comes to from there is measured by its own size: there is the stable orbit alone, near that
+/// of a rigid stop, and no motion is stored that does not repeat.
+#[test]
+fn states_deep_in_a_hard_contact_lead_to_no_false_orbits() {
+    let study = |law: &str| {
+        format!(
+            "[structure]\nkind = \"lumped\"\nmass = [{{ name = \"m\", mass_kg = 0.05 }}]\n\
+             spring = [{{ between = [\"m\", \"ground\"], stiffness_n_m = 40.0 }}]\n\
+             [damping]\nmodal_ratio = 0.04\n[excitation]\nkind = \"force\"\nat = \"m\"\n\
+             amplitude_n = 0.25\nfrequency_hz = [5.2, 5.5]\n\
+             [[stop]]\nat = \"m\"\n{law}\nside = \"below\"\ngap_m = 3e-3\n"
+        )
+    };
+    let solutions = |law: &str| {
+        let workshop = Workshop::with(&study(law));
+        let orbit = workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "5.48828125", "--json"]);
+        assert_success(&orbit);
+        let document: serde_json::Value = serde_json::from_str(&stdout(&orbit)).unwrap();
+        document["solutions"].as_array().unwrap().clone()
+    };
+    let (hard, rigid) =
+        (solutions("law = \"hertz\"\nstiffness_n_m15 = 1e14"), solutions("law = \"rigid\"\nrestitution = 1"));
+    assert_eq!((hard.len(), rigid.len()), (1, 1), "{hard:?}");
+    let speed = |solutions: &[serde_json::Value]| solutions[0]["max_impact_velocity_m_s"].as_f64().unwrap();
+    assert!((speed(&hard) / speed(&rigid) - 1.0).abs() < 1e-3, "{hard:?}, {rigid:?}");
+}
+
 #[test]
 fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     let workshop = Workshop::exported(CHAIN);
@@ -245,7 +273,6 @@ fn gears_on_an_undamped_spring_are_marginal_and_make_no_neimark_sacker_points() 
     let workshop = Workshop::exported(&GEARS.replace("frequency_hz = [100.0, 120.0]\n", few));
     let rows = workshop.table("results/export/branches.csv");
     assert!(rows.len() > 150 && rows.iter().all(|row| row["stable"] == "marginal"), "{} rows", rows.len());
-    assert!(rows.iter().all(|row| number(row, "contacts") == 0.0), "the teeth stay closed");
     assert_eq!(workshop.table("results/export/events.csv").len(), 0);
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();

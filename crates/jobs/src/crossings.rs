@@ -9,7 +9,9 @@ use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, neighbouring_orbit, states_at_phase};
+use hammerbeam_orbit::{
+    BranchWalk, OrbitSettings, PeriodicSolution, Side, neighbouring_orbit, states_at_phase,
+};
 use hammerbeam_results::{
     Store, StoreError,
     store::{BranchRecord, PlacedRow},
@@ -122,25 +124,15 @@ impl StoredBranches {
         frequency_hz: f64,
         wanted: impl Fn(&BranchRecord) -> bool,
     ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
-        self.crossings_that(model, frequency_hz, wanted, |_, _| true)
-    }
-
-    /// The same, without orbits between two rows that are not wanted.
-    fn crossings_that(
-        &self,
-        model: &Model,
-        frequency_hz: f64,
-        wanted: impl Fn(&BranchRecord) -> bool,
-        fits: impl Fn(&[PlacedRow], &PeriodicSolution) -> bool,
-    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
         let mut orbits = Vec::new();
         for StoredBranch { record, rows } in self.branches.iter().filter(|branch| wanted(&branch.record)) {
+            let begin = orbits.len();
             for pair in rows.windows(2) {
                 let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
                 if (a < frequency_hz) != (b < frequency_hz) {
                     let share = (frequency_hz - a) / (b - a);
-                    let orbit = self.orbit_between(model, record, pair, (share, frequency_hz))?;
-                    let orbit = orbit.filter(|orbit| fits(pair, orbit));
+                    let known = &orbits[begin..];
+                    let orbit = self.orbit_between(model, (record, known), pair, (share, frequency_hz))?;
                     orbits.extend(orbit.map(|orbit| (record.id, orbit)));
                 }
             }
@@ -196,7 +188,7 @@ impl StoredBranches {
         let motion = ExactIntegrator::new(model.system.clone(), ExactSettings::default());
         let Ok(mut integrator) = motion else { return Ok(Vec::new()) };
         let orbits: Vec<(u32, Vec<Vec<f64>>)> = self
-            .crossings_that(model, frequency_hz, |_| true, has_contacts_of)?
+            .stored_crossings(model, frequency_hz, |_| true)?
             .into_iter()
             .filter_map(|(branch, orbit)| Some((branch, states_at_phase(&mut integrator, &orbit, 0.0).ok()?)))
             .collect();
@@ -213,11 +205,13 @@ impl StoredBranches {
     }
 
     /// The orbit between two rows at a frequency, a share of the way from the first: from all nodes between
-    /// them, or, if they were chosen anew there, from those of the nearer row.
+    /// them, unless they were chosen anew there, then from those of the nearer row. Where many orbits lie side
+    /// by side, Newton's method may come to that of another crossing, which is known, or to one with other
+    /// contacts: then the branch is walked from either row.
     fn orbit_between(
         &self,
         model: &Model,
-        record: &BranchRecord,
+        (record, known): (&BranchRecord, &[(u32, PeriodicSolution)]),
         pair: &[PlacedRow],
         (share, frequency_hz): (f64, f64),
     ) -> Result<Option<PeriodicSolution>, StoreError> {
@@ -227,10 +221,45 @@ impl StoredBranches {
         let between =
             |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
         let nodes = is_cut_alike.then(|| first.nodes.iter().zip(&second.nodes).map(between).collect());
-        let nearer = if share < 0.5 { first } else { second };
+        let [nearer, farther] = if share < 0.5 { [first, second] } else { [second, first] };
         let nodes = nodes.unwrap_or_else(|| nearer.nodes.clone());
-        Ok(corrected(model, &PeriodicSolution { frequency_hz, nodes, ..nearer }))
+        let guess = PeriodicSolution { frequency_hz, nodes, ..nearer.clone() };
+        let is_new = |orbit: &PeriodicSolution| !known.iter().any(|(_, other)| begin_alike(orbit, other));
+        let found = corrected(model, &guess).filter(is_new);
+        if found.as_ref().is_some_and(|orbit| has_contacts_of(pair, orbit)) {
+            return Ok(found);
+        }
+        let walked = [nearer, farther].iter().find_map(|row| walked(model, row, frequency_hz).filter(is_new));
+        Ok(walked.or(found))
     }
+}
+
+/// Most steps of a walk from a row to a frequency beside it.
+const MOST_STEPS: usize = 200;
+
+/// The orbit at a frequency on the branch of a row beside it, by following that.
+fn walked(model: &Model, row: &PeriodicSolution, frequency_hz: f64) -> Option<PeriodicSolution> {
+    let side = if frequency_hz < row.frequency_hz { Side::Down } else { Side::Up };
+    let range_hz = (frequency_hz.min(row.frequency_hz), frequency_hz.max(row.frequency_hz));
+    let settings = OrbitSettings { max_step_hz: range_hz.1 - range_hz.0, ..OrbitSettings::default() };
+    let mut walk = BranchWalk::new(&model.system, &model.response, row, side, range_hz, &settings).ok()?;
+    let mut rows = Vec::new();
+    for _ in 0..MOST_STEPS {
+        if walk.step(&mut rows).ok()?.is_some() {
+            break;
+        }
+    }
+    rows.pop().map(|row| row.solution).filter(|orbit| orbit.frequency_hz == frequency_hz)
+}
+
+/// Relative difference of states that rounding and the tolerance of orbits leave.
+const ALIKE: f64 = 1e-9;
+
+/// Whether two orbits of a branch begin in the same state.
+fn begin_alike(one: &PeriodicSolution, other: &PeriodicSolution) -> bool {
+    let size = one.nodes[0].iter().fold(0.0_f64, |size, z| size.max(z.abs()));
+    let mut pairs = one.nodes[0].iter().zip(&other.nodes[0]);
+    one.phase == other.phase && pairs.all(|(a, b)| (a - b).abs() <= ALIKE * size)
 }
 
 /// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's

@@ -17,6 +17,9 @@ use crate::{
 const MAX_ITERATIONS: u32 = 25;
 /// Scale of an orbit over that of its guess, below which the guess is too coarse a measure of the error.
 const COARSE: f64 = 0.5;
+/// So often the scale is fitted to where Newton's method has come, at most: from deep within a hard contact it
+/// comes back from a million times the size of the orbit in a few of them.
+const MOST_SCALES: u32 = 16;
 /// After so many iterations,
 const MANY: u32 = 12;
 /// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
@@ -111,24 +114,25 @@ pub(crate) fn approach(
     (wanted, settings): (Wanted, &OrbitSettings),
 ) -> Result<(Vec<f64>, f64), OrbitError> {
     let mut point = problem.point(nodes, frequency_hz);
-    let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
-    let reached = problem.nodes(&point);
-    // The whole motion is not much smaller than its nodes.
-    if problem.size(&point) > COARSE {
-        return Ok((point, correction));
+    for _ in 0..MOST_SCALES {
+        let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
+        // The whole motion is not much smaller than its nodes.
+        if problem.size(&point) > COARSE {
+            return Ok((point, correction));
+        }
+        let reached = problem.nodes(&point);
+        let (phase, period_multiple) = (problem.phase(), problem.period_multiple());
+        let orbit = Cut { phase, nodes: &reached, frequency_hz, period_multiple };
+        let scale = problem.scale().clone();
+        let factor = orbit.size(problem.integrator(), &scale)?;
+        if factor > COARSE || factor == 0.0 {
+            return Ok((point, correction));
+        }
+        // A guess far larger than the orbit has measured the error too coarsely.
+        problem.rescale(&vec![factor; problem.node_size()]);
+        point = problem.point(&reached, frequency_hz);
     }
-    let (phase, period_multiple) = (problem.phase(), problem.period_multiple());
-    let orbit = Cut { phase, nodes: &reached, frequency_hz, period_multiple };
-    let scale = problem.scale().clone();
-    let factor = orbit.size(problem.integrator(), &scale)?;
-    if factor > COARSE || factor == 0.0 {
-        return Ok((point, correction));
-    }
-    // A guess far larger than the orbit has measured the error too coarsely.
-    problem.rescale(&vec![factor; problem.node_size()]);
-    point = problem.point(&reached, frequency_hz);
-    let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
-    Ok((point, correction))
+    Err(OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: MOST_SCALES })
 }
 
 /// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the

@@ -38,7 +38,8 @@ impl RowRecord {
     /// The row of the point at which the problem was evaluated last.
     pub fn row(&mut self, path: &mut OrbitPath) -> Result<BranchRow, OrbitError> {
         let mut current = path.current().clone();
-        if current.events.zeros & 2 != 0 && pair_becomes_real(path, &current)? {
+        let has_pair = current.events.zeros & 2 != 0;
+        if has_pair && (pair_becomes_real(path, &current)? || pairs_stay_on_circle(path)?) {
             current.events.zeros &= !2;
         }
         let settings = path.follower.settings();
@@ -123,6 +124,14 @@ fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
     let multipliers = path.problem.multipliers()?;
     Ok(is_smooth && stability::pair_turns_real(multipliers)
         || point.events.branch_point && stability::pair_is_nearest_to_one(multipliers))
+}
+
+/// Whether all pairs that are on the circle at the present point were so at the point before: without damping
+/// some are, and another one that becomes real at a fold changes the sign of the test function.
+fn pairs_stay_on_circle(path: &mut OrbitPath) -> Result<bool, OrbitError> {
+    let before = path.follower.tests().before.get(1).map_or(0, |test| test.undecided);
+    let now = stability::neimark_sacker_without(path.problem.spectrum()?, 0).undecided;
+    Ok(before > 0 && now <= before)
 }
 
 /// Change of the tangent's frequency component per length over the last step.
