@@ -1,7 +1,6 @@
-//! Solutions whose multipliers stay on the unit circle, in closed form: without damping nothing is stable,
-//! nothing happens
-//! where multipliers only pass one another on the circle, and what truly happens beside an undamped mode is
-//! found.
+//! Solutions whose multipliers stay on the unit circle, in closed form: without damping nothing is
+//! stable, nothing happens where multipliers only pass one another on the circle, and what truly happens
+//! beside an undamped mode is found.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::TAU;
@@ -25,10 +24,9 @@ fn settings(range_hz: (f64, f64)) -> OrbitSettings {
     OrbitSettings { max_step_hz: (range_hz.1 - range_hz.0) / 200.0, ..OrbitSettings::default() }
 }
 
-/// Two masses of 1 kg, `k = 1` to the ground and `0.7 N/m` between: `w^2 = (2.4 -+ sqrt(2.96))/2`. Over 0.10
-/// to 0.21 Hz the
-/// lower pair of `exp(+-i w T)` passes -1 (at 0.1855 Hz), the upper one -1 (at 0.1523 Hz), and both pass one
-/// another.
+/// Two masses of 1 kg, `k = 1` to the ground and `0.7 N/m` between: `w^2 = (2.4 -+ sqrt(2.96))/2`. Over
+/// 0.10 to 0.21 Hz the lower pair of `exp(+-i w T)` passes -1 (at 0.1855 Hz), the upper one -1 (at
+/// 0.1523 Hz), and both pass one another.
 #[test]
 fn multipliers_of_a_linear_undamped_system_are_marginal_and_make_no_events() {
     let springs = [("mass", GROUND, 1.0), ("mass", "second", 0.7)];
@@ -58,14 +56,12 @@ fn multipliers_of_a_linear_undamped_system_are_marginal_and_make_no_events() {
     }
 }
 
-/// A mass of 1 kg on 1 N/m under `F cos W t` strikes a rigid stop at the gap g once in a period and loses
-/// nothing. With
-/// `X = F/(1 - W^2)` the motion between impacts at `t = 0` and `T` is `x = X cos W t + B cos(t - T/2)`,
-/// `B = (g - X)/cos(T/2)`: it strikes with `v = -B sin(T/2)` while accelerated by `a = F - g`. The impact
-/// turns a change
-/// `(dx, dv)` into `(-dx, -dv + 2 a/v dx)`, so with `cos T, sin T` of the flight the product of the
-/// multipliers is 1 and
-/// their sum `-2 cos T + 2 (a/v) sin T`: on the circle up to 2, beyond real.
+/// A mass of 1 kg on 1 N/m under `F cos W t` strikes a rigid stop at the gap g once in a period and
+/// loses nothing. With `X = F/(1 - W^2)` the motion between impacts at `t = 0` and `T` is `x = X cos W t
+/// + B cos(t - T/2)`, `B = (g - X)/cos(T/2)`: it strikes with `v = -B sin(T/2)` while accelerated by `a
+/// = F - g`. The impact turns a change `(dx, dv)` into `(-dx, -dv + 2 a/v dx)`, so with `cos T, sin T`
+/// of the flight the product of the multipliers is 1 and their sum `-2 cos T + 2 (a/v) sin T`: on the
+/// circle up to 2, beyond real.
 #[test]
 fn multipliers_at_an_undamped_rigid_stop_are_in_closed_form_and_never_stable() {
     const FORCE: f64 = 0.4;
@@ -120,9 +116,9 @@ fn multipliers_at_an_undamped_rigid_stop_are_in_closed_form_and_never_stable() {
     assert!(marginal > 20, "{marginal} marginal, {unstable} unstable");
 }
 
-/// The impact oscillator of the studies, alone and with a second mass beside it that nothing damps, drives or
-/// couples, at
-/// 0.03 Hz: its pair of multipliers is on the circle all along. Folds and flips stay where they are.
+/// The impact oscillator of the studies, alone and with a second mass beside it that nothing damps,
+/// drives or couples, at 0.03 Hz: its pair of multipliers is on the circle all along. Folds and flips
+/// stay where they are.
 #[test]
 fn a_flip_and_a_fold_beside_an_undamped_mode_are_found() {
     let range_hz = (0.15, 0.26);

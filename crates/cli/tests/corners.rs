@@ -1,6 +1,5 @@
-//! Corners at rigid stops: branches go on across them, so that none ends there and none is computed twice;
-//! and they
-//! lie where the linear response reaches the gap.
+//! Corners at rigid stops: branches go on across them, so that none ends there and none is computed
+//! twice; and they lie where the linear response reaches the gap.
 use std::f64::consts::TAU;
 
 use hammerbeam_jobs::StoredBranches;

@@ -1,6 +1,5 @@
-//! Leaving a branch where another one crosses it: at a flip onto the branch of doubled period, at a branch
-//! point onto the crossing one.
-//! Equation (P9) of the book, `docs/theory`.
+//! Leaving a branch where another one crosses it: at a flip onto the branch of doubled period, at a
+//! branch point onto the crossing one. Equation (P9) of the book, `docs/theory`.
 //!
 //! At a flip with multiplier -1 and direction `v` the orbit of doubled period is `z + a v + O(a^2)`; at a
 //! branch point the crossing branch leaves along its tangent `v`. The first orbit is sought in the plane `<v,

@@ -140,10 +140,10 @@ fn forces_of_stops_obey_their_law_and_balance_the_motion() {
     }
 }
 
-/// A mass that bounces on a rigid stop once a period with the speed V gets the impulse `(1 + e) V`: the mean
-/// force is that over the period, and so, with `x'' + x = cos(w t) - F` and no mean acceleration, is
-/// `-mean x`. The speed is that of Shaw and Holmes (1983):
-/// `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`.
+/// A mass that bounces on a rigid stop once a period with the speed V gets the impulse `(1 + e) V`: the
+/// mean force is that over the period, and so, with `x'' + x = cos(w t) - F` and no mean acceleration,
+/// is `-mean x`. The speed is that of Shaw and Holmes (1983): `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2
+/// w))^2 = g^2`.
 #[test]
 fn impulses_of_a_bouncing_mass_count_in_means_and_harmonics() {
     let (gap, e, w) = (0.1_f64, 0.6, 1.8);

@@ -30,10 +30,9 @@
 //! [`Reduction`].
 //!
 //! Stiffness is kept as `K = G^T G` and modes come from singular values, because an assembled `K` loses
-//! the low modes of a fine mesh: the eigenvalues of a cantilever of 200 elements spread over twelve decades.
-//! These matrices are dense. [`Matrices`] of finite element programs are sparse, and have no `G`: see there,
-//! and
-//! `sparse/mod.rs` for the mathematics.
+//! the low modes of a fine mesh: the eigenvalues of a cantilever of 200 elements spread over twelve
+//! decades. These matrices are dense. [`Matrices`] of finite element programs are sparse, and have no
+//! `G`: see there, and `sparse/mod.rs` for the mathematics.
 //!
 //! This crate knows nothing of time, contact or excitation frequency: it ends in a
 //! [`ReducedModel`], the modal form that the motion crate takes over.

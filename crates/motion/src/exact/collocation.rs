@@ -1,6 +1,5 @@
-//! Collocation of the contact force over a step: nodes, and the constants of its exact convolution with the
-//! modes.
-//! Equations (S1) and (S5) of the book, `docs/theory`.
+//! Collocation of the contact force over a step: nodes, and the constants of its exact convolution with
+//! the modes. Equations (S1) and (S5) of the book, `docs/theory`.
 //!
 //! Over a step of length h the force is a polynomial of degree `NODES - 1` in a variable `s` in [0, 1] that
 //! is mapped to the time `t = h c(s)`. A Hertz force starts like `t^1.5`, hence like `s^3` under `c = s^2`:

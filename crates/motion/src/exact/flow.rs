@@ -1,6 +1,5 @@
-//! A run over a stretch: from its start through flights and contacts to the state and the sensitivities at
-//! its end.
-//! Equations (F7) and (F8) of the book, `docs/theory`.
+//! A run over a stretch: from its start through flights and contacts to the state and the sensitivities
+//! at its end. Equations (F7) and (F8) of the book, `docs/theory`.
 
 use faer::Mat;
 

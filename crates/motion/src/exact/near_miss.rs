@@ -1,6 +1,6 @@
 //! How near a motion is to touching once more or once less: what tells two grazings between neighbouring
-//! orbits that have the same contacts.
-//! Equations (G6) and (G7) of the book, `docs/theory`, say what a touch does.
+//! orbits that have the same contacts. Equations (G6) and (G7) of the book, `docs/theory`, say what a
+//! touch does.
 //!
 //! The [`NEAREST`] smallest values of each kind:
 //!

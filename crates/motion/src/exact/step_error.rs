@@ -26,16 +26,16 @@
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
-//! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
-//! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
-//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own:
-//! their velocity, or [`LEAST_SHARE`] of the largest one that they can reach. The velocity alone may vanish,
-//! as that by the frequency does with a load that is largest at the start of a stretch; the rounding of the
-//! force would then be compared with nothing.
-//! Before the first contact the motion does not depend on its stiffness, so there that column has no other
-//! scale than what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the
-//! rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times
-//! the largest such part of the elements that act is taken off.
+//! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are
+//! wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of
+//! displacements divided by the eigenfrequency). The columns by the frequency and by a parameter have
+//! scales of their own: their velocity, or [`LEAST_SHARE`] of the largest one that they can reach. The
+//! velocity alone may vanish, as that by the frequency does with a load that is largest at the start of
+//! a stretch; the rounding of the force would then be compared with nothing. Before the first contact
+//! the motion does not depend on its stiffness, so there that column has no other scale than what the
+//! contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the rounding `e` of
+//! a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times the
+//! largest such part of the elements that act is taken off.
 
 use std::{f64::consts::TAU, sync::Arc};
 

@@ -1,6 +1,5 @@
-//! Open contacts that close while forces act, and closed ones that open: the certified search of a flight
-//! (`clearance.rs`), with forces.
-//! Equations (C6) and (C7) of the book, `docs/theory`.
+//! Open contacts that close while forces act, and closed ones that open: the certified search of a
+//! flight (`clearance.rs`), with forces. Equations (C6) and (C7) of the book, `docs/theory`.
 //!
 //! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is
 //! a known function too. With the homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`,
@@ -67,9 +66,8 @@ const WINDOWS: usize = 4;
 pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact that closes within the solved step, or closed one that comes to a kink, and
-    /// when. That of `event` closes at its
-    /// end, those `excused` are not looked for.
+    /// The first open contact that closes within the solved step, or closed one that comes to a kink,
+    /// and when. That of `event` closes at its end, those `excused` are not looked for.
     pub(super) fn first_touch_in_step(
         &mut self,
         run: &Run,

@@ -8,10 +8,10 @@
 //!
 //! `Z(J z, x) = z`, `r = level`, `r' = v`, with the jump `J` of the impact,
 //!
-//! has a regular matrix for all speeds down to zero and beyond, since `r'` changes with x by `r''/f`. There J
-//! is the identity, and the orbits
-//! without the impact follow: `Z(z, x) = z`, `r' = 0`, `level - r = c`. So both sides of the corner are
-//! solutions of regular equations for a given v or c (`equations.rs`), and the corner is where both are zero.
+//! has a regular matrix for all speeds down to zero and beyond, since `r'` changes with x by `r''/f`.
+//! There J is the identity, and the orbits without the impact follow: `Z(z, x) = z`, `r' = 0`, `level -
+//! r = c`. So both sides of the corner are solutions of regular equations for a given v or c
+//! (`equations.rs`), and the corner is where both are zero.
 //!
 //! Which touch it is, the motion tells: an impact that is slow, or a turn that is near (`touch.rs`).
 //!
@@ -241,8 +241,7 @@ mod tests {
     }
 
     /// With one touch in two periods the complement is the same orbit a period later: the way on is that
-    /// without impacts,
-    /// whose period is half.
+    /// without impacts, whose period is half.
     #[test]
     fn an_impact_in_every_second_period_is_lost() {
         let all = [touch(0, Side::Turn, 0.25), touch(0, Side::Turn, 1.25)];

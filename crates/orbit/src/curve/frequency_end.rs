@@ -1,9 +1,8 @@
 //! The end of the frequency range, which a curve over another parameter reaches between two of its points.
 //!
-//! The frequency `f` is one of the unknowns `[nodes; f; p]`. From the point of the chord at which it has the
-//! value `F` of
-//! the end, Newton's method solves `R = 0` together with `f = F`: the border of the matrix is the unit row of
-//! `f`.
+//! The frequency `f` is one of the unknowns `[nodes; f; p]`. From the point of the chord at which it has
+//! the value `F` of the end, Newton's method solves `R = 0` together with `f = F`: the border of the
+//! matrix is the unit row of `f`.
 
 use hammerbeam_path::{PathEvents, PathProblem};
 
@@ -27,9 +26,8 @@ impl CurveWalk {
         !(low..=high).contains(&place.frequency_hz)
     }
 
-    /// The row at the end of the frequency range between `from` and the present point, which lies beyond it:
-    /// the last of
-    /// the curve. Where there is none, the curve has ended with the row before.
+    /// The row at the end of the frequency range between `from` and the present point, which lies beyond
+    /// it: the last of the curve. Where there is none, the curve has ended with the row before.
     pub(super) fn end_at_frequency(&mut self, from: &[f64]) -> Result<CurveRow, CurveEnd> {
         self.end = Some(CurveEnd::FrequencyRangeEnd);
         let beyond = self.follower.current().point.clone();

@@ -89,8 +89,7 @@ pub(super) struct DegenerateFlip {
 }
 
 /// The first degenerate flip on the curve of flips of a map over half a period, from a place on in a
-/// direction;
-/// `None` if it has none within some rows, or no curve is found there.
+/// direction; `None` if it has none within some rows, or no curve is found there.
 pub(super) type FollowHalf =
     fn(Shooting, &Place, StartDirection<'_>, &CurveSettings) -> Result<Option<DegenerateFlip>, OrbitError>;
 

@@ -127,10 +127,8 @@ pub struct CurveRow {
 
 impl CurveEvents {
     /// What the end of a curve makes of its last row: where a fold, flip or Neimark-Sacker point meets a
-    /// grazing, its
-    /// multipliers are those of a grazing orbit. Such a *resonant grazing* is a point of codimension two, at
-    /// which the
-    /// curve ends on that of the grazing.
+    /// grazing, its multipliers are those of a grazing orbit. Such a *resonant grazing* is a point of
+    /// codimension two, at which the curve ends on that of the grazing.
     pub fn mark_end(&mut self, kind: CurveKind, end: &CurveEnd) {
         if !matches!(end, CurveEnd::Grazing { .. }) {
             return;
@@ -145,9 +143,8 @@ impl CurveEvents {
 }
 
 impl CurveKind {
-    /// The name of a resonant grazing at which a curve ends, as [`CurveEvents::label`] has it; `None` for a
-    /// curve of
-    /// grazings.
+    /// The name of a resonant grazing at which a curve ends, as [`CurveEvents::label`] has it; `None`
+    /// for a curve of grazings.
     #[must_use]
     pub fn resonant_grazing(self) -> Option<&'static str> {
         match self {

@@ -1,16 +1,15 @@
 //! How many multipliers lie outside the unit circle, and which events account for it.
 //!
-//! They cross the circle at a fold or branch point (one), or at a zero of a test function (one or a pair). A
-//! pair that crosses it, turns real and comes back at +1 within one step leaves no trace in test functions
-//! that look at pairs. But at the fold where it comes back the other one still is outside, and nothing
-//! accounts for that: the step is in doubt, and its halves show it. On both sides of a smooth event the
-//! number is known from the one before: it was that with or that without the critical ones, and behind it
-//! is the other one. An event can be the second one of its step, as where a pair leaves the circle,
-//! another one that is outside turns real, and the first comes back: so the number beside a zero, where it
-//! was looked for, is compared with that at the start of the step, too. Where multipliers may jump, at
-//! corners and changes of signature, nothing is asked, and the number there is taken as it is; so it is in
-//! steps below [`LEAST`] of
-//! `signature_step`.
+//! They cross the circle at a fold or branch point (one), or at a zero of a test function (one or a
+//! pair). A pair that crosses it, turns real and comes back at +1 within one step leaves no trace in
+//! test functions that look at pairs. But at the fold where it comes back the other one still is
+//! outside, and nothing accounts for that: the step is in doubt, and its halves show it. On both sides
+//! of a smooth event the number is known from the one before: it was that with or that without the
+//! critical ones, and behind it is the other one. An event can be the second one of its step, as where a
+//! pair leaves the circle, another one that is outside turns real, and the first comes back: so the
+//! number beside a zero, where it was looked for, is compared with that at the start of the step, too.
+//! Where multipliers may jump, at corners and changes of signature, nothing is asked, and the number
+//! there is taken as it is; so it is in steps below [`LEAST`] of `signature_step`.
 
 use super::{
     arrival::{Arrival, Counted},

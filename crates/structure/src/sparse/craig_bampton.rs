@@ -1,10 +1,9 @@
 //! Fixed-interface modes with constraint modes (Craig and Bampton).
 //!
 //! The interface points `p = W^T x` are held for the modes `Phi_k`: of each condition `w . x = 0` one
-//! coordinate is expressed by the others. The constraint modes follow from the static answers `X = K^-1 W` to
-//! unit forces:
-//! `Psi = X (W^T X)^-1` moves one point by one and no other. In the basis `[Phi_k Psi]` the stiffness is
-//! `diag(w_k^2)` and `(W^T X)^-1`, without coupling.
+//! coordinate is expressed by the others. The constraint modes follow from the static answers `X = K^-1
+//! W` to unit forces: `Psi = X (W^T X)^-1` moves one point by one and no other. In the basis `[Phi_k
+//! Psi]` the stiffness is `diag(w_k^2)` and `(W^T X)^-1`, without coupling.
 //!
 //! # Source
 //! R. Craig, M. Bampton, AIAA J. 6 (1968), 1313-1319.

@@ -8,8 +8,7 @@ use super::structure::linear_structure;
 use crate::file::{StructureTable, StudyError, StudyFile};
 
 /// The matrices of a study's beam or masses, and the text of the study that reads them from the files
-/// `K.mtx`,
-/// `M.mtx`, `C.mtx` and `dofs.csv` beside it.
+/// `K.mtx`, `M.mtx`, `C.mtx` and `dofs.csv` beside it.
 ///
 /// # Errors
 /// [`StudyError::Invalid`]: the study has matrices already, or its structure is refused.
