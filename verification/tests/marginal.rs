@@ -56,12 +56,12 @@ fn multipliers_of_a_linear_undamped_system_are_marginal_and_make_no_events() {
     }
 }
 
-/// A mass of 1 kg on 1 N/m under `F cos W t` strikes a rigid stop at the gap g once in a period and
-/// loses nothing. With `X = F/(1 - W^2)` the motion between impacts at `t = 0` and `T` is `x = X cos W t
-/// + B cos(t - T/2)`, `B = (g - X)/cos(T/2)`: it strikes with `v = -B sin(T/2)` while accelerated by `a
-/// = F - g`. The impact turns a change `(dx, dv)` into `(-dx, -dv + 2 a/v dx)`, so with `cos T, sin T`
-/// of the flight the product of the multipliers is 1 and their sum `-2 cos T + 2 (a/v) sin T`: on the
-/// circle up to 2, beyond real.
+/// A mass of 1 kg on 1 N/m under `F cos W t` strikes a rigid stop at the gap g once in a period and loses
+/// nothing. With `X = F/(1 - W^2)` the motion between impacts at `t = 0` and `T` is
+/// `x = X cos W t + B cos(t - T/2)`, `B = (g - X)/cos(T/2)`: it strikes with `v = -B sin(T/2)` while
+/// accelerated by `a = F - g`. The impact turns a change `(dx, dv)` into `(-dx, -dv + 2 a/v dx)`, so with
+/// `cos T, sin T` of the flight the product of the multipliers is 1 and their sum
+/// `-2 cos T + 2 (a/v) sin T`: on the circle up to 2, beyond real.
 #[test]
 fn multipliers_at_an_undamped_rigid_stop_are_in_closed_form_and_never_stable() {
     const FORCE: f64 = 0.4;
