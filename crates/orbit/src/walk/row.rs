@@ -126,12 +126,12 @@ fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
         || point.events.branch_point && stability::pair_is_nearest_to_one(multipliers))
 }
 
-/// Whether all pairs that are on the circle at the present point were so at the point before: without damping
-/// some are, and another one that becomes real at a fold changes the sign of the test function.
+/// Whether the only pairs on the circle are those that the test function leaves out, since they stay there:
+/// without damping some do, and another one that becomes real at a fold changes the sign of the function.
 fn pairs_stay_on_circle(path: &mut OrbitPath) -> Result<bool, OrbitError> {
-    let before = path.follower.tests().before.get(1).map_or(0, |test| test.undecided);
-    let now = stability::neimark_sacker_without(path.problem.spectrum()?, 0).undecided;
-    Ok(before > 0 && now <= before)
+    let left_out = path.follower.tests().before.get(1).map_or(0, |test| test.left_out);
+    let on_circle = stability::neimark_sacker_without(path.problem.spectrum()?, 0).undecided;
+    Ok(left_out > 0 && on_circle <= left_out)
 }
 
 /// Change of the tangent's frequency component per length over the last step.
