@@ -123,7 +123,8 @@ impl Observer for Terminal {
             JobKind::Harmonic => "looking for the harmonic branch",
             JobKind::Survey | JobKind::Resonance => "looking for branches by simulation",
             JobKind::Met => "following motions that were met",
-            JobKind::Again => "looking again, where no stable solution is known or a contact changes",
+            JobKind::NoneStable => "looking where no stable solution is known",
+            JobKind::ContactChange => "looking where contacts change",
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };

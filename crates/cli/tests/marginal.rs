@@ -132,9 +132,9 @@ fn multipliers_of_contacts_that_are_too_hard_for_rounding_are_marginal() {
     }
 }
 
-/// A state a micrometre deep in a hard contact is thrown out at a speed a million times that of the orbit. What
-/// Newton's method comes to from there is measured by its own size: there is the stable orbit alone, near that
-/// of a rigid stop, and no motion is stored that does not repeat.
+/// A state a micrometre deep in a hard contact is thrown out at a speed a million times that of the orbit.
+/// What Newton's method comes to from there is measured by its own size: there is the stable orbit alone,
+/// near that of a rigid stop, and no motion is stored that does not repeat.
 #[test]
 fn states_deep_in_a_hard_contact_lead_to_no_false_orbits() {
     let study = |law: &str| {

@@ -205,9 +205,9 @@ impl StoredBranches {
     }
 
     /// The orbit between two rows at a frequency, a share of the way from the first: from all nodes between
-    /// them, unless they were chosen anew there, then from those of the nearer row. Where many orbits lie side
-    /// by side, Newton's method may come to that of another crossing, which is known, or to one with other
-    /// contacts: then the branch is walked from either row.
+    /// them, unless they were chosen anew there, then from those of the nearer row. Where many orbits lie
+    /// side by side, Newton's method may come to that of another crossing, which is known, or to one with
+    /// other contacts: then the branch is walked from either row. `None` where that does not lead there.
     fn orbit_between(
         &self,
         model: &Model,
@@ -224,21 +224,32 @@ impl StoredBranches {
         let [nearer, farther] = if share < 0.5 { [first, second] } else { [second, first] };
         let nodes = nodes.unwrap_or_else(|| nearer.nodes.clone());
         let guess = PeriodicSolution { frequency_hz, nodes, ..nearer.clone() };
-        let is_new = |orbit: &PeriodicSolution| !known.iter().any(|(_, other)| begin_alike(orbit, other));
-        let found = corrected(model, &guess).filter(is_new);
-        if found.as_ref().is_some_and(|orbit| has_contacts_of(pair, orbit)) {
-            return Ok(found);
-        }
-        let walked = [nearer, farther].iter().find_map(|row| walked(model, row, frequency_hz).filter(is_new));
-        Ok(walked.or(found))
+        let scales = state_scales(&model.system, frequency_hz);
+        let is_known = |orbit: &PeriodicSolution| {
+            let begins_alike = |other: &PeriodicSolution| {
+                orbit.phase == other.phase && distance(&scales, &orbit.nodes[0], &other.nodes[0]) < ALIKE
+            };
+            known.iter().any(|(_, other)| begins_alike(other))
+        };
+        let fits = |orbit: &PeriodicSolution| has_contacts_of(pair, orbit) && !is_known(orbit);
+        let corrected = corrected(model, &guess).filter(fits);
+        let walked =
+            || [&nearer, &farther].into_iter().find_map(|row| walked(model, row, frequency_hz).filter(fits));
+        Ok(corrected.or_else(walked))
     }
 }
+
+/// Relative difference of states that the tolerance of orbits leaves.
+const ALIKE: f64 = 1e-9;
 
 /// Most steps of a walk from a row to a frequency beside it.
 const MOST_STEPS: usize = 200;
 
 /// The orbit at a frequency on the branch of a row beside it, by following that.
 fn walked(model: &Model, row: &PeriodicSolution, frequency_hz: f64) -> Option<PeriodicSolution> {
+    if row.frequency_hz == frequency_hz {
+        return Some(row.clone());
+    }
     let side = if frequency_hz < row.frequency_hz { Side::Down } else { Side::Up };
     let range_hz = (frequency_hz.min(row.frequency_hz), frequency_hz.max(row.frequency_hz));
     let settings = OrbitSettings { max_step_hz: range_hz.1 - range_hz.0, ..OrbitSettings::default() };
@@ -252,20 +263,11 @@ fn walked(model: &Model, row: &PeriodicSolution, frequency_hz: f64) -> Option<Pe
     rows.pop().map(|row| row.solution).filter(|orbit| orbit.frequency_hz == frequency_hz)
 }
 
-/// Relative difference of states that rounding and the tolerance of orbits leave.
-const ALIKE: f64 = 1e-9;
-
-/// Whether two orbits of a branch begin in the same state.
-fn begin_alike(one: &PeriodicSolution, other: &PeriodicSolution) -> bool {
-    let size = one.nodes[0].iter().fold(0.0_f64, |size, z| size.max(z.abs()));
-    let mut pairs = one.nodes[0].iter().zip(&other.nodes[0]);
-    one.phase == other.phase && pairs.all(|(a, b)| (a - b).abs() <= ALIKE * size)
-}
-
-/// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's
-/// method may go from between two rows of one to another.
+/// Whether an orbit touches as often as one of two rows, or as often as something between: where several
+/// branches meet in a grazing, Newton's method may go from between two rows of one to another.
 fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
-    pair.iter().any(|placed| placed.row.maxima.contacts == orbit.maxima.contacts)
+    let [one, other] = [&pair[0], &pair[1]].map(|placed| placed.row.maxima.contacts);
+    (one.min(other)..=one.max(other)).contains(&orbit.maxima.contacts)
 }
 
 /// The orbit near a guess at its frequency, with the segments of the guess; `None` if there is none of its

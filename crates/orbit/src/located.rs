@@ -13,7 +13,11 @@ mod uncertainty;
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm, weighed};
 
-use crate::{shooting::ShootingProblem, spectrum::shifted};
+use crate::{
+    shooting::ShootingProblem,
+    spectrum::{Spectrum, shifted},
+    stability::{without_at_minus_one, without_pairs},
+};
 pub use place::ContactChange;
 pub(crate) use place::{Approach, Place};
 
@@ -75,12 +79,14 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Optio
     if !events.any() {
         return None;
     }
-    let (multiplier, off) = critical(events, problem.multipliers().unwrap_or_default());
+    let left_out = place.approach.and_then(|approach| approach.test).map_or(0, |test| test.left_out);
+    let kept = problem.spectrum().map(|spectrum| kept(spectrum, events, left_out)).unwrap_or_default();
+    let (multiplier, off) = critical(events, &kept);
     let size = problem.parameter_size(&place.point.point);
     // The frequency itself is no better than its last digit.
     let uncertainty = place
         .computed
-        .unwrap_or_else(|| uncertainty::of_place(problem, &place, off > SHARP_MULTIPLIER))
+        .unwrap_or_else(|| uncertainty::of_place(problem, &place, (multiplier, off > SHARP_MULTIPLIER)))
         .max(f64::EPSILON * size);
     let sharp = uncertainty <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
     let direction = if events.branch_point {
@@ -96,6 +102,15 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Optio
         breaks_symmetry: events.branch_point && is_symmetric(problem, place.point),
         contacts: place.contacts,
     })
+}
+
+/// The multipliers without those that stay at the place of an event.
+fn kept(spectrum: &Spectrum, events: hammerbeam_path::PathEvents, left_out: u32) -> Vec<[f64; 2]> {
+    match events.zeros {
+        0 => spectrum.multipliers.clone(),
+        zeros if zeros & 1 != 0 => without_at_minus_one(spectrum, left_out),
+        _ => without_pairs(spectrum, left_out),
+    }
 }
 
 /// The multiplier that makes an event, and its distance from its place, squared at a mere branch point; none

@@ -100,8 +100,8 @@ pub(crate) struct ShootingProblem {
     /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both
     /// of their ends or at neither.
     jumps_at_cut: bool,
-    /// Whether the orbit at the last evaluated point has no contact.
-    in_flight: bool,
+    /// Whether the orbit at the last evaluated point is a flight that is known to rounding.
+    is_short_flight: bool,
     /// What rounding leaves unknown behind hard contacts, over all segments [1/s].
     rounding: f64,
     failure: Option<MotionError>,
@@ -145,7 +145,7 @@ impl ShootingProblem {
             at_ends: [Vec::new(), Vec::new()],
             touches_lacking: vec![0; contacts],
             jumps_at_cut: false,
-            in_flight: false,
+            is_short_flight: false,
             rounding: 0.0,
             failure: None,
             spectrum: None,
@@ -317,7 +317,7 @@ impl ShootingProblem {
     fn spectrum_of_products(&self) -> Result<Spectrum, NoEigenvalues> {
         let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
         let rounding = self.scale.relative_rate(self.rounding);
-        let motion_tolerance = if self.in_flight { 0.0 } else { self.integrator.settings().tolerance };
+        let motion_tolerance = if self.is_short_flight { 0.0 } else { self.integrator.settings().tolerance };
         let accuracy = Accuracy { motion_tolerance, residual, rounding };
         Spectrum::of_orbit(self.node_size(), &self.products, &accuracy)
     }

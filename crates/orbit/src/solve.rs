@@ -17,8 +17,8 @@ use crate::{
 const MAX_ITERATIONS: u32 = 25;
 /// Scale of an orbit over that of its guess, below which the guess is too coarse a measure of the error.
 const COARSE: f64 = 0.5;
-/// So often the scale is fitted to where Newton's method has come, at most: from deep within a hard contact it
-/// comes back from a million times the size of the orbit in a few of them.
+/// So often the scale is fitted to where Newton's method has come, at most. From deep within a hard contact
+/// it begins at a million times the size of the orbit; what shrinks on and on has none.
 const MOST_SCALES: u32 = 16;
 /// After so many iterations,
 const MANY: u32 = 12;
@@ -114,8 +114,9 @@ pub(crate) fn approach(
     (wanted, settings): (Wanted, &OrbitSettings),
 ) -> Result<(Vec<f64>, f64), OrbitError> {
     let mut point = problem.point(nodes, frequency_hz);
+    let mut correction = f64::INFINITY;
     for _ in 0..MOST_SCALES {
-        let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
+        correction = correct_wanted(problem, &mut point, (wanted, settings))?;
         // The whole motion is not much smaller than its nodes.
         if problem.size(&point) > COARSE {
             return Ok((point, correction));
@@ -132,7 +133,7 @@ pub(crate) fn approach(
         problem.rescale(&vec![factor; problem.node_size()]);
         point = problem.point(&reached, frequency_hz);
     }
-    Err(OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: MOST_SCALES })
+    Err(OrbitError::NotConverged { frequency_hz, correction, iterations: MOST_SCALES * MAX_ITERATIONS })
 }
 
 /// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the

@@ -14,12 +14,14 @@
 //! times as large.
 //!
 //! # The error of a monodromy matrix
-//! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, which is zero where it has
-//! no contact, the rounding `eps` of a number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
+//! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, the rounding `eps` of a
+//! number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
 //! fundamental matrices up to each node, in states measured by their energy. By h the jump of velocities in
 //! hard contacts is unknown, by rounding of their penetration; what comes before and behind such a contact is
 //! a motion of the size one. Measured on undamped systems, whose multipliers lie on the circle exactly: see
-//! the tests of the verification crate.
+//! the tests of the verification crate. Where uncoupled modes fly through a period that is short beside
+//! theirs, t is zero: over it they are damped by less than the tolerance, and their matrices are known to
+//! rounding.
 //!
 //! # Source
 //! Trefethen and Embree, *Spectra and Pseudospectra* (2005), chapter 2.
@@ -137,19 +139,15 @@ impl Spectrum {
     }
 }
 
-/// How far from a number a multiplier of a matrix by rows can be that is there but for this error: along a
-/// direction of the plane, to a factor of two, and no less than the error.
+/// How far from a place on the unit circle a multiplier of a matrix by rows can be that is there but for this
+/// error: outwards or inwards, to a factor of two, and no less than the error.
 ///
 /// The pseudospectrum ends where `s(z) > e`.
-pub(crate) fn reach_from(
-    size: usize,
-    by_rows: &[f64],
-    error: f64,
-    (place, direction): ([f64; 2], [f64; 2]),
-) -> f64 {
+pub(crate) fn reach_from(size: usize, by_rows: &[f64], error: f64, place: [f64; 2]) -> f64 {
     let beyond = |distance: f64| {
-        let z = [0, 1].map(|i| place[i] + distance * direction[i]);
-        least_singular_value(size, by_rows, z) > error
+        [1.0 + distance, 1.0 - distance]
+            .iter()
+            .all(|radius| least_singular_value(size, by_rows, place.map(|part| radius * part)) > error)
     };
     let distances = std::iter::successors(Some(error.max(f64::EPSILON)), |distance| Some(2.0 * distance));
     distances.take_while(|distance| *distance < 1.0).find(|distance| beyond(*distance)).unwrap_or(1.0)
@@ -168,7 +166,7 @@ pub(crate) fn norm(matrix: &[f64]) -> f64 {
 /// What the matrices of an orbit are known to, relative to them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Accuracy {
-    /// Of a step of the motion; zero for flights alone, which are exact.
+    /// Of a step of the motion; zero for a short flight, which is known to rounding.
     pub motion_tolerance: f64,
     /// Mismatch of the shooting equations.
     pub residual: f64,
@@ -256,6 +254,16 @@ mod tests {
         assert_eq!(spectrum.at_minus_one, [true, true], "a complex pair that an error makes real");
         let spectrum = Spectrum::of(2, &jordan(-3.0 * ERROR), ERROR).unwrap();
         assert_eq!(spectrum.at_minus_one, [false, false]);
+    }
+
+    /// At -1: a multiplier that is alone is off by the error, one of a defective pair by its root.
+    #[test]
+    fn a_multiplier_reaches_as_far_as_an_error_moves_it() {
+        let reach = |matrix: &[f64]| reach_from(2, matrix, ERROR, [-1.0, 0.0]);
+        let alone = reach(&[-1.0, 0.0, 0.0, 0.3]);
+        assert!((ERROR..4.0 * ERROR).contains(&alone), "{alone}");
+        let defective = reach(&[-1.0, 1.0, 0.0, -1.0]);
+        assert!((ERROR.sqrt()..4.0 * ERROR.sqrt()).contains(&defective), "{defective}");
     }
 
     /// `[a, c; 0, b]` has the condition `|c| / |a - b|`.

@@ -41,19 +41,28 @@ pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
 /// [`flip`] without so many of the multipliers at -1, those known best to be there first.
 pub(crate) fn flip_without(spectrum: &Spectrum, left_out: u32) -> TestValue {
     let undecided = count(&spectrum.at_minus_one);
-    let from_minus_one = |[re, im]: [f64; 2]| (1.0 + re).hypot(im);
-    let kept = without(spectrum, (&spectrum.at_minus_one, |_| true), left_out, from_minus_one);
-    TestValue { undecided, left_out, ..flip(&kept) }
+    TestValue { undecided, left_out, ..flip(&without_at_minus_one(spectrum, left_out)) }
 }
 
 /// [`neimark_sacker`] without so many of the complex pairs on the circle, those known best to be there first.
 pub(crate) fn neimark_sacker_without(spectrum: &Spectrum, left_out: u32) -> TestValue {
-    let is_pair = |[_, im]: [f64; 2]| im > 0.0;
     let on = spectrum.on_circle.iter().zip(&spectrum.multipliers);
-    let undecided = on.filter(|(on, mu)| **on && is_pair(**mu)).count() as u32;
+    let undecided = on.filter(|(on, [_, im])| **on && *im > 0.0).count() as u32;
+    TestValue { undecided, left_out, ..neimark_sacker(&without_pairs(spectrum, left_out)) }
+}
+
+/// The multipliers without so many of those at -1, those known best to be there first.
+pub(crate) fn without_at_minus_one(spectrum: &Spectrum, left_out: u32) -> Vec<[f64; 2]> {
+    let from_minus_one = |[re, im]: [f64; 2]| (1.0 + re).hypot(im);
+    without(spectrum, (&spectrum.at_minus_one, |_| true), left_out, from_minus_one)
+}
+
+/// The multipliers without so many of the complex pairs on the circle, by the one in the upper half-plane,
+/// those known best to be there first.
+pub(crate) fn without_pairs(spectrum: &Spectrum, left_out: u32) -> Vec<[f64; 2]> {
+    let is_pair = |[_, im]: [f64; 2]| im > 0.0;
     let off_circle = |[re, im]: [f64; 2]| (1.0 - re.hypot(im)).abs();
-    let kept = without(spectrum, (&spectrum.on_circle, is_pair), left_out, off_circle);
-    TestValue { undecided, left_out, ..neimark_sacker(&kept) }
+    without(spectrum, (&spectrum.on_circle, is_pair), left_out, off_circle)
 }
 
 /// The multipliers without so many of a kind: those marked first, in the order of their distances.
@@ -155,13 +164,13 @@ fn nearest_first(left: &[[f64; 2]], right: &[[f64; 2]]) -> Vec<([f64; 2], [f64; 
     pairs
 }
 
-/// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps
-/// there, since the pair becomes two real multipliers, and does not vanish.
+/// Whether the complex pair nearest to the unit circle is nearer to the real axis, or is there already:
+/// [`neimark_sacker`] jumps there, since the pair becomes two real multipliers, and does not vanish.
 pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     let off_circle = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
     let pairs = multipliers.iter().filter(|[_, im]| *im > 0.0);
     let nearest = pairs.min_by(|a, b| off_circle(a).total_cmp(&off_circle(b)));
-    nearest.is_some_and(|pair| pair[1] < off_circle(pair))
+    nearest.is_none_or(|pair| pair[1] < off_circle(pair))
 }
 
 /// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one

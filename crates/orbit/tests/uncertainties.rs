@@ -47,20 +47,18 @@ fn compared(
 
 #[test]
 fn flips_lie_within_their_uncertainty() {
-    let compared: usize = [(20.0, 0.0), (12.0, 0.0), (40.0, 0.3)]
-        .map(|(stiff, gap)| compared(Bilinear { stiff, gap }, (0.12, 0.5), (|events| events.flip, -1.0)))
-        .iter()
-        .sum();
-    assert!(compared >= 20, "{compared}");
+    for (stiff, gap) in [(20.0, 0.0), (12.0, 0.0), (40.0, 0.3)] {
+        let compared = compared(Bilinear { stiff, gap }, (0.12, 0.5), (|events| events.flip, -1.0));
+        assert!(compared >= 6, "K = {stiff}, gap {gap}: {compared}");
+    }
 }
 
 #[test]
 fn folds_lie_within_their_uncertainty() {
-    let compared: usize = [(20.0, 0.5), (6.0, 2.0), (3.0, 1.0), (40.0, 3.0), (8.0, 1.5)]
-        .map(|(stiff, gap)| compared(Bilinear { stiff, gap }, (0.1, 0.5), (|events| events.fold, 1.0)))
-        .iter()
-        .sum();
-    assert!(compared >= 9, "{compared}");
+    for (stiff, gap) in [(6.0, 2.0), (40.0, 3.0), (8.0, 1.5)] {
+        let compared = compared(Bilinear { stiff, gap }, (0.1, 0.5), (|events| events.fold, 1.0));
+        assert_eq!(compared, 6, "two at each length of steps, K = {stiff}, gap {gap}");
+    }
 }
 
 /// A pair at rest loses its damping at a ratio in closed form, whatever the oscillator beside it does.

@@ -30,30 +30,29 @@ const NARROWEST: f64 = 1e-4;
 /// A search within this part of that distance from a change of contacts is near.
 const NEAR: f64 = 0.125;
 
+/// Kinds of these jobs.
+pub(super) const KINDS: [JobKind; 2] = [JobKind::NoneStable, JobKind::ContactChange];
+
 /// The jobs of the next round; none when enough was looked at, or nothing is left to look at.
 pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+    let of = |kind: JobKind| agenda.jobs.iter().filter(move |job| job.record.kind == kind);
     let searches = agenda.jobs.iter().filter(|job| job.record.source.is_none());
     let mut looked_at: Vec<f64> = searches.map(|job| job.record.frequency_hz).collect();
-    let done: Vec<_> = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::Again).collect();
-    let found = done.iter().filter(|job| !job.starts.is_empty()).count();
+    let done = of(JobKind::NoneStable).count();
+    let found = of(JobKind::NoneStable).filter(|job| !job.starts.is_empty()).count();
     let effort = Effort {
-        most: plan.survey_hz.len().min(MOST).saturating_sub(done.len()),
-        halvings: (ROUND * (1 + found)).saturating_sub(done.len()),
+        most: plan.survey_hz.len().min(MOST).saturating_sub(done),
+        halvings: (ROUND * (1 + found)).saturating_sub(done),
     };
-    let narrowest = NARROWEST * plan.survey_width_hz();
+    let width = plan.survey_width_hz();
     let intervals = uncovered(&stable_stretches(agenda), plan.range_hz);
-    let mut frequencies = places(&intervals, looked_at.clone(), narrowest, effort);
-    if done.is_empty() {
-        looked_at.extend(&frequencies);
-        let most = ROUND.min(plan.survey_hz.len());
-        frequencies.extend(apart(
-            changes_of_contacts(agenda),
-            looked_at,
-            NEAR * plan.survey_width_hz(),
-            most,
-        ));
-    }
-    frequencies.into_iter().map(|at| (JobKind::Again, at, None, 0)).collect()
+    let none_stable = places(&intervals, looked_at.clone(), NARROWEST * width, effort);
+    looked_at.extend(&none_stable);
+    let is_first = done == 0 && of(JobKind::ContactChange).count() == 0;
+    let most = if is_first { ROUND.min(plan.survey_hz.len()) } else { 0 };
+    let contact_changes = apart(changes_of_contacts(agenda), looked_at, NEAR * width, most);
+    let all = [(JobKind::NoneStable, none_stable), (JobKind::ContactChange, contact_changes)];
+    all.into_iter().flat_map(|(kind, places)| places.into_iter().map(move |at| (kind, at, None, 0))).collect()
 }
 
 /// How much a round may look at.

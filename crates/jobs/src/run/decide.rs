@@ -49,7 +49,7 @@ impl Decisions<'_> {
         Ok(())
     }
 
-    /// Once all jobs are done, adds those at which is looked again; whether there are any.
+    /// Once all jobs are done, adds those that look again; whether there are any.
     fn looks_again(&mut self, agenda: &mut Agenda) -> Result<bool, StoreError> {
         let jobs = again::jobs(agenda, self.plan);
         self.store.add_jobs(&jobs)?;

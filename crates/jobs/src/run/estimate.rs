@@ -31,7 +31,7 @@ use std::{collections::BTreeSet, time::Instant};
 use hammerbeam_results::store::{JobKind, start_of_key};
 
 use super::{
-    Plan,
+    Plan, again,
     agenda::{Agenda, Job, Start},
     follow_ups,
 };
@@ -52,7 +52,8 @@ const SOLUTION_WEIGHT: f64 = 20.0;
 /// First guesses of the solutions of a branch, and of the part of the range that it covers with some.
 const BRANCH_SOLUTIONS: f64 = 200.0;
 const COVERED: f64 = 0.05;
-/// Searches that are expected where no stable solution is known, before it is known where that is.
+/// Searches that are expected where no stable solution is known or contacts change, before it is known where
+/// that is.
 const LATER_SEARCHES: usize = 4;
 /// Largest number of departures that a departure is taken to lead to, and a first guess of how many a branch
 /// leads to.
@@ -64,7 +65,7 @@ const STILL: f64 = 0.1;
 fn class(kind: JobKind) -> usize {
     match kind {
         JobKind::Harmonic => HARMONIC,
-        JobKind::Survey | JobKind::Resonance | JobKind::Again => SEARCH,
+        JobKind::Survey | JobKind::Resonance | JobKind::NoneStable | JobKind::ContactChange => SEARCH,
         JobKind::Met | JobKind::Doubling | JobKind::Crossing => DEPARTURE,
     }
 }
@@ -237,7 +238,7 @@ fn left_s(agenda: &Agenda, plan: &Plan, means: &Means) -> f64 {
             left_s += means.evaluation_s[kind] * unevaluated(job);
         }
     }
-    let looked_again = agenda.jobs.iter().any(|job| job.record.kind == JobKind::Again);
+    let looked_again = agenda.jobs.iter().any(|job| again::KINDS.contains(&job.record.kind));
     let later = if looked_again { 0 } else { LATER_SEARCHES.min(plan.survey_hz.len()) };
     left_s + later as f64 * means.evaluation_s[SEARCH]
 }
@@ -354,7 +355,7 @@ mod tests {
 
     #[test]
     fn all_is_done_when_nothing_is_left() {
-        let mut jobs = vec![job(0, JobKind::Again, true)];
+        let mut jobs = vec![job(0, JobKind::NoneStable, true)];
         jobs[0].record.outcome = Some(JobOutcome::Nothing);
         let agenda = Agenda { jobs };
         let done = Effort::new(&agenda).done(&agenda, &plan());

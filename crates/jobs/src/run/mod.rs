@@ -7,9 +7,9 @@
 //! start of a job that does not lie on a known branch is the start of a new one, which is followed to both
 //! ends, or to where it comes upon an earlier branch that was lost there, before the next start is looked at;
 //! the flips and branch points of the new branches are added to the end of the agenda. When it is done,
-//! searches are added at frequencies at which no stable solution is known by then, and again, as long as they
-//! find branches (`again.rs`). So branches, their numbers and every bit of them follow from the study
-//! alone.
+//! searches are added at frequencies at which a contact of a stable solution appears or vanishes and at which
+//! no stable solution is known by then, and there again, as long as they find branches (`again.rs`). So
+//! branches, their numbers and every bit of them follow from the study alone.
 //!
 //! # All cores
 //! Searching and walking are pure functions of their input, so they may be done ahead of their turn: threads
@@ -29,7 +29,7 @@
 //! | `known.rs` | whether a start lies on a known branch |
 //! | `joins.rs` | where a branch comes upon the end of an earlier one |
 //! | `follow_ups.rs` | the jobs that the events of a branch give |
-//! | `again.rs` | the jobs that all branches together give: where no stable solution is known, and where contacts change |
+//! | `again.rs` | jobs of all branches together: where no stable solution is known or contacts change |
 //! | `schedule.rs` | what an idle thread does next |
 //! | `worker.rs` | what a thread does |
 //! | `estimate.rs` | how much of it is done |

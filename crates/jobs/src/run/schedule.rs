@@ -239,7 +239,7 @@ fn begin_evaluation(
             multiples: plan.multiples.clone(),
         },
         // What was met is known; a run that ended before it was noted looks there.
-        JobKind::Resonance | JobKind::Again | JobKind::Met => {
+        JobKind::Resonance | JobKind::NoneStable | JobKind::ContactChange | JobKind::Met => {
             Question::Probe { frequency_hz: record.frequency_hz, multiples: plan.multiples.clone() }
         }
         JobKind::Doubling | JobKind::Crossing => Question::Leave(crossing(store, record)?),

@@ -1,22 +1,23 @@
 //! How closely the place of an event is known.
 //!
 //! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its
-//! change `k` per length, the frequency is uncertain by `s |t_f| + k s^2 / 2`. A search for the place leaves a
-//! bracket of it. But what is searched for is known no better than the motion, however narrow the bracket is.
-//! With the tolerance t of the steps, ten of which a period is given:
+//! change `k` per length, the frequency is uncertain by `s |t_f| + k s^2 / 2`. A search for the place leaves
+//! a bracket of it. But what is searched for is known no better than the motion, however narrow the bracket
+//! is. With the tolerance t of the steps, ten of which a period is given:
 //!
 //! * A grazing is where the least clearance, penetration or touch speed of the motion vanishes. Its `s` is no
 //!   less than `e/|g'|`: g is that quantity relative to what the orbit's scale gives the element, e what is
 //!   not known of it, `10 t` and the response of the orbit to as much of a closure error, with the correction
 //!   that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
-//! * A flip or Neimark-Sacker point is where a multiplier reaches -1 or the unit circle. The monodromy matrix
-//!   is known to an error ([`spectrum`](crate::spectrum)), with which the multiplier may lie as far off as its
-//!   pseudospectrum reaches, by `d`. The test function `g` of these points is a product of factors, of which
-//!   the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//! * A flip or Neimark-Sacker point is where a multiplier reaches -1 or the unit circle. The monodromy
+//!   matrix is known to an error ([`spectrum`](crate::spectrum)), with which the multiplier may lie as far
+//!   off as its pseudospectrum reaches, by `d`. The test function `g` of these points is a product of
+//!   factors, of which the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
 //! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
 //!   response of the frequency to a closure error.
 //!
-//! Rounding of the matrix exponentials and of the sums over steps is within the tolerance of the motion.
+//! A branch point has what its search leaves. A grazing of a rigid stop that was computed as a corner
+//! (`corner/`) brings its uncertainty along.
 
 use hammerbeam_path::{PathProblem, norm, weighed};
 
@@ -28,8 +29,12 @@ const MOTION: f64 = 10.0;
 
 /// Interval of the frequency, or of what varies, within which an event lies.
 ///
-/// * `jumps`: its multiplier does not lie in its place.
-pub(super) fn of_place(problem: &mut ShootingProblem, place: &Place<'_>, jumps: bool) -> f64 {
+/// * `multiplier`: that which makes it, and whether it does not lie in its place.
+pub(super) fn of_place(
+    problem: &mut ShootingProblem,
+    place: &Place<'_>,
+    (multiplier, jumps): (Option<[f64; 2]>, bool),
+) -> f64 {
     // A multiplier jumps over its place at corners only.
     let at_corner = if jumps { place.at_corners } else { 0.0 };
     let (mut along, mut at_fold) = (place.point.uncertainty.max(at_corner), 0.0);
@@ -37,12 +42,14 @@ pub(super) fn of_place(problem: &mut ShootingProblem, place: &Place<'_>, jumps: 
         let events = place.point.events;
         if events.signature_change {
             along = along.max(of_contacts(problem, place, approach));
-        } else if events.zeros != 0 && !jumps {
-            along = along.max(of_multiplier(problem, approach, events.zeros));
-        } else if events.fold {
+        }
+        if let Some(multiplier) = multiplier.filter(|_| events.zeros != 0 && !jumps) {
+            along = along.max(of_multiplier(problem, approach, (events.zeros, multiplier)));
+        }
+        if events.fold && !events.branch_point && !events.signature_change {
             let [tolerance, _] = approach.errors;
-            at_fold =
-                MOTION * tolerance * response_to_closure(problem, place).map_or(0.0, |moved| moved.parameter);
+            let moved = response_to_closure(problem, place);
+            at_fold = moved.map_or(approach.chord, |moved| MOTION * tolerance * moved.parameter);
         }
     }
     along * place.point.tangent_parameter().abs() + 0.5 * place.bend * along * along + at_fold
@@ -67,24 +74,18 @@ fn of_contacts(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Appr
     (unknown * approach.chord / nearness).min(approach.chord)
 }
 
-/// Arc length within which a flip or Neimark-Sacker point lies.
-fn of_multiplier(problem: &mut ShootingProblem, approach: &Approach, zeros: u32) -> f64 {
-    let Some(test) = approach.test else { return 0.0 };
-    let Ok(spectrum) = problem.spectrum() else { return 0.0 };
-    let is_flip = zeros & 1 != 0;
-    let (place, change) = if is_flip {
-        // The factor of the multiplier itself is left out.
-        (Some([-1.0, 0.0]), flip_without(spectrum, test.left_out + 1).value.abs())
-    } else {
-        let pairs = spectrum.multipliers.iter().filter(|[_, im]| *im > 0.0);
-        let off = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
-        let nearest = pairs.min_by(|a, b| off(a).total_cmp(&off(b)));
-        // It is `1 - |m|^2`.
-        (nearest.map(|[re, im]| [re / re.hypot(*im), im / re.hypot(*im)]), 2.0)
-    };
-    let Some(place) = place else { return 0.0 };
-    let error = spectrum.error;
-    let reach = reach_from(problem.node_size(), problem.monodromy(), error, (place, place));
+/// Arc length within which a flip or Neimark-Sacker point with this multiplier lies.
+fn of_multiplier(
+    problem: &mut ShootingProblem,
+    approach: &Approach,
+    (zeros, [re, im]): (u32, [f64; 2]),
+) -> f64 {
+    let (Some(test), Ok(spectrum)) = (approach.test, problem.spectrum()) else { return approach.chord };
+    // Of a flip the product of the other factors; of a pair the function is `1 - |m|^2`.
+    let change = if zeros & 1 != 0 { flip_without(spectrum, test.left_out + 1).value.abs() } else { 2.0 };
+    let (error, modulus) = (spectrum.error, re.hypot(im));
+    let place = [re / modulus, im / modulus];
+    let reach = reach_from(problem.node_size(), problem.monodromy(), error, place);
     (reach * change * approach.chord / test.value.abs().max(f64::MIN_POSITIVE)).min(approach.chord)
 }
 

@@ -34,7 +34,6 @@ impl ShootingProblem {
         self.at_ends.iter_mut().for_each(Vec::clear);
         self.failure = None;
         self.spectrum = None;
-        self.in_flight = true;
         self.rounding = 0.0;
         let frequency = self.frequency(point);
         if frequency.is_nan() || frequency <= 0.0 {
@@ -57,6 +56,7 @@ impl ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
+        self.is_short_flight = flights.len() == self.segments && self.has_uncoupled_modes();
         for segment in flights {
             self.sharpen_flight(segment, point);
         }
@@ -71,6 +71,14 @@ impl ShootingProblem {
         // Rigid modes stand still in no steady motion.
         let slowest = frequencies.iter().copied().filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         TAU * frequency_hz > FAST * slowest
+    }
+
+    /// Whether no damper couples modes, and no stop holds the structure.
+    fn has_uncoupled_modes(&self) -> bool {
+        let damping = &self.integrator.system().model().damping;
+        let n = damping.nrows();
+        self.integrator.closed_throughout() == 0
+            && (0..n).all(|i| (0..n).all(|j| i == j || damping[(i, j)] == 0.0))
     }
 
     /// The residual of a segment without forces, by the deviation `d` from the steady motion: `G d_k -
@@ -120,7 +128,6 @@ impl ShootingProblem {
         let flow = self.integrator.flow(&stretch, &node)?;
         let in_flight = self.integrator.counts().steps == steps
             && self.integrator.touches().iter().all(|touches| *touches == 0);
-        self.in_flight &= in_flight;
         let by_last = self.varied.column_of(&flow);
         let next = (segment + 1) % self.segments;
         for i in 0..size {

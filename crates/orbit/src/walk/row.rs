@@ -38,8 +38,7 @@ impl RowRecord {
     /// The row of the point at which the problem was evaluated last.
     pub fn row(&mut self, path: &mut OrbitPath) -> Result<BranchRow, OrbitError> {
         let mut current = path.current().clone();
-        let has_pair = current.events.zeros & 2 != 0;
-        if has_pair && (pair_becomes_real(path, &current)? || pairs_stay_on_circle(path)?) {
+        if current.events.zeros & 2 != 0 && pair_becomes_real(path, &current)? {
             current.events.zeros &= !2;
         }
         let settings = path.follower.settings();
@@ -121,17 +120,11 @@ fn correction_due(path: &mut OrbitPath, direction: &[f64]) -> f64 {
 fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<bool, OrbitError> {
     // At a corner multipliers jump, also from inside the circle to far outside.
     let is_smooth = !point.events.corner && !point.events.signature_change;
-    let multipliers = path.problem.multipliers()?;
-    Ok(is_smooth && stability::pair_turns_real(multipliers)
-        || point.events.branch_point && stability::pair_is_nearest_to_one(multipliers))
-}
-
-/// Whether the only pairs on the circle are those that the test function leaves out, since they stay there:
-/// without damping some do, and another one that becomes real at a fold changes the sign of the function.
-fn pairs_stay_on_circle(path: &mut OrbitPath) -> Result<bool, OrbitError> {
+    // Pairs that stay on the circle, as some do without damping, cross it nowhere.
     let left_out = path.follower.tests().before.get(1).map_or(0, |test| test.left_out);
-    let on_circle = stability::neimark_sacker_without(path.problem.spectrum()?, 0).undecided;
-    Ok(left_out > 0 && on_circle <= left_out)
+    let multipliers = stability::without_pairs(path.problem.spectrum()?, left_out);
+    Ok(is_smooth && stability::pair_turns_real(&multipliers)
+        || point.events.branch_point && stability::pair_is_nearest_to_one(&multipliers))
 }
 
 /// Change of the tangent's frequency component per length over the last step.

@@ -6,8 +6,8 @@
 //! after the period. In either region the motion is a steady part and a decaying part that `E(t)`, the
 //! exponential of the region, carries on. The four unknowns `t_1, v, s, W` obey
 //!
-//! `y(t_1 + s) = 0`, `y(t_1 + T) = 0`, `y'(t_1 + T) = v`, `det(M - m) = m^2 - m tr M + det M = 0`, `M = E_k(T -
-//! s) E_K(s)`,
+//! `y(t_1 + s) = 0`, `y(t_1 + T) = 0`, `y'(t_1 + T) = v`, `det(M - m) = m^2 - m tr M + det M = 0`,
+//! `M = E_k(T - s) E_K(s)`,
 //!
 //! with `m = -1` at a flip and `m = 1` at a fold: the force has no jump, so the fundamental matrix is the
 //! product of the exponentials. Newton's method with differences solves them.

@@ -18,9 +18,10 @@ pub enum JobKind {
     Survey,
     /// Attractors at a frequency near which the linear response reaches a contact, or at a resonance.
     Resonance,
-    /// Attractors at a frequency at which no stable solution is known, or at which a contact of one appears or
-    /// vanishes.
-    Again,
+    /// Attractors at a frequency at which no stable solution is known.
+    NoneStable,
+    /// Attractors at a frequency at which a contact of a stable solution appears or vanishes.
+    ContactChange,
     /// A stable solution that a sweep or basins have come to.
     Met,
     /// The branch of doubled period at a flip.
@@ -101,7 +102,8 @@ impl JobKind {
             Self::Harmonic => "harmonic",
             Self::Survey => "survey",
             Self::Resonance => "resonance",
-            Self::Again => "again",
+            Self::NoneStable => "none-stable",
+            Self::ContactChange => "contact-change",
             Self::Met => "met",
             Self::Doubling => "doubling",
             Self::Crossing => "crossing",
@@ -109,11 +111,12 @@ impl JobKind {
     }
 
     fn named(name: &str) -> Option<Self> {
-        const ALL: [JobKind; 7] = [
+        const ALL: [JobKind; 8] = [
             JobKind::Harmonic,
             JobKind::Survey,
             JobKind::Resonance,
-            JobKind::Again,
+            JobKind::NoneStable,
+            JobKind::ContactChange,
             JobKind::Met,
             JobKind::Doubling,
             JobKind::Crossing,
@@ -185,7 +188,8 @@ pub fn take_back_to(transaction: Transaction<'_>, start: u32) -> Result<(), Stor
     // The jobs that branches of this job and of later ones gave, those that all branches together gave,
     // and what was added behind them: their numbers are to follow one another.
     let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
-    let given = "SELECT min(id) FROM job WHERE (source >= ?1 OR kind IN ('again', 'met')) AND id > ?2";
+    let given = "SELECT min(id) FROM job
+         WHERE (source >= ?1 OR kind IN ('none-stable', 'contact-change', 'met')) AND id > ?2";
     let first: Option<u32> = transaction.query_row(given, params![own, job], |row| row.get(0))?;
     if let Some(first) = first {
         transaction.execute("DELETE FROM job WHERE id >= ?1", [first])?;

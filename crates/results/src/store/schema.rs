@@ -25,7 +25,8 @@ CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
     kind TEXT NOT NULL CHECK (kind IN
-        ('harmonic', 'survey', 'resonance', 'again', 'met', 'doubling', 'crossing')),
+        ('harmonic', 'survey', 'resonance', 'none-stable', 'contact-change', 'met', 'doubling',
+         'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,
