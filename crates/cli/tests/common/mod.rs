@@ -153,10 +153,15 @@ impl Workshop {
 
     /// Starts the command in the folder; what it prints can be read when it has ended.
     pub fn spawn(&self, arguments: &[&str]) -> Child {
+        self.spawn_into(Stdio::null(), arguments)
+    }
+
+    /// The same, with its standard output there.
+    pub fn spawn_into(&self, stdout: Stdio, arguments: &[&str]) -> Child {
         process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(arguments)
             .current_dir(self.folder.path())
-            .stdout(Stdio::null())
+            .stdout(stdout)
             .stderr(Stdio::piped())
             .spawn()
             .unwrap()
