@@ -79,7 +79,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Optio
     if !events.any() {
         return None;
     }
-    let left_out = place.approach.and_then(|approach| approach.test).map_or(0, |test| test.left_out);
+    let left_out = place.approach.as_ref().and_then(|approach| approach.test).map_or(0, |test| test.left_out);
     let kept = problem.spectrum().map(|spectrum| kept(spectrum, events, left_out)).unwrap_or_default();
     let (multiplier, off) = critical(events, &kept);
     let size = problem.parameter_size(&place.point.point);

@@ -9,9 +9,11 @@
 //! the smallest singular value of `A - z I`: these z are the *pseudospectrum* of A. So a multiplier `mu` is
 //! known to lie inside or outside the circle only if the point of the circle beside it, `z = mu/|mu|`, does
 //! not belong to it. That is exact for multipliers of any condition, and for pairs that meet at +1 or -1,
-//! where the matrix is defective and an error of e moves them by the root of e. `1/s` is the norm of the
-//! inverse of `A - z I`, for which the root of the sum of its squared entries is taken, at most `sqrt(2n)`
-//! times as large.
+//! where the matrix is defective and an error of e moves them by the root of e. The point may belong to it
+//! for the sake of another multiplier, as +1 does at a fold: an error that grows moves `mu` within its own
+//! part of the pseudospectrum only, so the place half-way between `mu` and z has to belong to it, too.
+//! `1/s` is the norm of the inverse of `A - z I`, for which the root of the sum of its squared entries is
+//! taken, at most `sqrt(2n)` times as large.
 //!
 //! # The error of a monodromy matrix
 //! `e = (8 t + 4 n eps + r) max_k |A_k| + h`, with the tolerance t of the motion, the rounding `eps` of a
@@ -120,6 +122,12 @@ impl Spectrum {
         // Two multipliers that meet part by the root of the error times the norm at most.
         let reach = error.max(2.0 * (error * norm(by_rows)).sqrt());
         let belongs = |z| least_singular_value(size, by_rows, z) <= error;
+        // Whether a multiplier may be on the circle at its side, in its own part of the pseudospectrum.
+        let reaches_circle = |[re, im]: [f64; 2]| {
+            let modulus = re.hypot(im);
+            let at = |share: f64| [re, im].map(|part| part * (1.0 - share + share / modulus));
+            belongs(at(1.0)) && belongs(at(0.5))
+        };
         let minus_one = [-1.0, 0.0];
         let near_minus_one = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im) <= reach;
         let is_at_minus_one = multipliers.iter().any(near_minus_one) && belongs(minus_one);
@@ -130,7 +138,7 @@ impl Spectrum {
             // The other one of a pair was just looked at.
             let on = match on_circle.last() {
                 Some(&before) if *im < 0.0 => before,
-                _ => off <= error || off <= reach && belongs([re / modulus, im / modulus]),
+                _ => off <= error || off <= reach && reaches_circle([*re, *im]),
             };
             on_circle.push(on);
         }
@@ -273,6 +281,15 @@ mod tests {
         assert_eq!(stability(&matrix(1e4 * ERROR), ERROR), Stability::Marginal);
         assert_eq!(stability(&matrix(5e4 * ERROR), ERROR), Stability::Unstable);
         assert_eq!(stability(&[1.0 + 1e4 * ERROR, 0.0, 0.0, 0.5], ERROR), Stability::Unstable);
+    }
+
+    /// At a fold +1 is a multiplier, so that it belongs to the pseudospectrum; the root of the error times the
+    /// norm is 0.06 here, and 1.04 is known to lie outside nevertheless.
+    #[test]
+    fn another_multiplier_at_its_place_on_the_circle_does_not_put_one_there() {
+        let spectrum = Spectrum::of(3, &[1.0, 0.0, 0.0, 0.0, 1.04, 0.0, 1e8, 0.0, 0.5], ERROR).unwrap();
+        assert_eq!(spectrum.on_circle, [false, true, false]);
+        assert_eq!([0, 1, 2].map(|k| spectrum.multipliers[k][0]), [1.04, 1.0, 0.5]);
     }
 
     #[test]

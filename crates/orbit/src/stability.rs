@@ -94,6 +94,17 @@ pub(crate) fn fold(multipliers: &[[f64; 2]]) -> TestValue {
     flip(&mirrored)
 }
 
+/// Absolute value of [`fold`] without the multiplier that is nearest to +1.
+pub(crate) fn fold_without_nearest(multipliers: &[[f64; 2]]) -> f64 {
+    let mut left = multipliers.to_vec();
+    remove_least(&mut left, from_one);
+    fold(&left).value.abs()
+}
+
+fn from_one([re, im]: &[f64; 2]) -> f64 {
+    (re - 1.0).hypot(*im)
+}
+
 /// Vanishes where a complex pair lies on the unit circle.
 pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     let pairs = || multipliers.iter().filter(|[_, im]| *im > 0.0).map(|[re, im]| re * re + im * im);
@@ -176,7 +187,6 @@ pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
 /// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one
 /// this is the pair that becomes real there, as well as it is known, and crosses the circle nowhere else.
 pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
-    let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
     let nearest = multipliers.iter().min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
     nearest.is_some_and(|[_, im]| *im != 0.0)
 }
@@ -193,7 +203,7 @@ pub(crate) fn outside(spectrum: &Spectrum, events: PathEvents) -> Outside {
     let off_circle =
         |[re, im]: &[f64; 2]| if *im == 0.0 { f64::INFINITY } else { (re.hypot(*im) - 1.0).abs() };
     if events.fold || events.branch_point {
-        remove_least(&mut left, |[re, im]| (re - 1.0).hypot(*im));
+        remove_least(&mut left, from_one);
     }
     if events.zeros & 1 != 0 {
         remove_least(&mut left, |[re, im]| (re + 1.0).hypot(*im));

@@ -13,7 +13,7 @@ use hammerbeam_orbit::{
     BranchRow, EventStatus, OrbitSettings, PeriodicSolution, Side, StopReason, find_start,
 };
 
-const OSCILLATOR: Bilinear = Bilinear { stiff: 20.0, gap: 0.0 };
+const OSCILLATOR: Bilinear = Bilinear::one_sided(20.0, 0.0);
 /// Between the resonance and the superharmonic one, and beyond the resonance.
 const RANGE: (f64, f64) = (0.12, 0.5);
 

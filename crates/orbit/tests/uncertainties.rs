@@ -1,4 +1,4 @@
-//! Folds, flips and Neimark-Sacker points lie within their stated uncertainty of closed forms, with short
+//! Folds, flips, Neimark-Sacker and branch points lie within their stated uncertainty of closed forms, with short
 //! steps and long ones; and that is no absurdly wide one.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
@@ -23,19 +23,21 @@ fn check(row: &BranchRow, found: f64, expected: f64, what: &str) {
     assert!(stated < WIDE, "{what} at {expected}: within {stated:.1e}");
 }
 
-/// Events of a kind with one contact on the harmonic branch, each against the closed form of its multiplier.
+/// Events of a kind with one contact at each stop on the harmonic branch, each against the closed form of its
+/// multiplier.
 fn compared(
     oscillator: Bilinear,
     range_hz: (f64, f64),
     (is_wanted, multiplier): (fn(&Events) -> bool, f64),
 ) -> usize {
     let subject = oscillator.subject();
+    let contacts = if oscillator.is_symmetric { 2 } else { 1 };
     let mut compared = 0;
     for step_hz in [2e-4, 1e-3, 4e-3] {
         let settings = step_of(step_hz);
         let start = find_start(&subject.0, &subject.1, 0.3, 1, &settings).unwrap();
         let rows = whole(&subject, &start, range_hz, &settings);
-        for row in with(&rows, is_wanted).into_iter().filter(|row| row.solution.maxima.contacts == 1) {
+        for row in with(&rows, is_wanted).into_iter().filter(|row| row.solution.maxima.contacts == contacts) {
             let expected = oscillator.frequency_hz(multiplier, &row.solution);
             let what = format!("K = {}, gap {}, steps of {step_hz} Hz", oscillator.stiff, oscillator.gap);
             check(row, row.solution.frequency_hz, expected, &what);
@@ -48,7 +50,7 @@ fn compared(
 #[test]
 fn flips_lie_within_their_uncertainty() {
     for (stiff, gap) in [(20.0, 0.0), (12.0, 0.0), (40.0, 0.3)] {
-        let compared = compared(Bilinear { stiff, gap }, (0.12, 0.5), (|events| events.flip, -1.0));
+        let compared = compared(Bilinear::one_sided(stiff, gap), (0.12, 0.5), (|events| events.flip, -1.0));
         assert!(compared >= 6, "K = {stiff}, gap {gap}: {compared}");
     }
 }
@@ -56,7 +58,7 @@ fn flips_lie_within_their_uncertainty() {
 #[test]
 fn folds_lie_within_their_uncertainty() {
     for (stiff, gap) in [(6.0, 2.0), (40.0, 3.0), (8.0, 1.5)] {
-        let compared = compared(Bilinear { stiff, gap }, (0.1, 0.5), (|events| events.fold, 1.0));
+        let compared = compared(Bilinear::one_sided(stiff, gap), (0.1, 0.5), (|events| events.fold, 1.0));
         assert_eq!(compared, 6, "two at each length of steps, K = {stiff}, gap {gap}");
     }
 }
@@ -82,5 +84,15 @@ fn neimark_sacker_points_lie_within_their_uncertainty() {
             let what = format!("pair of {frequency} rad/s, steps of {max_step_hz}");
             check(point, point.parameter.unwrap(), -0.5 * damper / frequency, &what);
         }
+    }
+}
+
+/// Where a motion between two stops loses its symmetry.
+#[test]
+fn branch_points_lie_within_their_uncertainty() {
+    for (stiff, gap) in [(20.0, 0.5), (40.0, 0.2)] {
+        let oscillator = Bilinear::symmetric(stiff, gap);
+        let compared = compared(oscillator, (0.12, 1.0), (|events| events.branch_point, 1.0));
+        assert_eq!(compared, 6, "two at each length of steps, K = {stiff}, gap {gap}");
     }
 }

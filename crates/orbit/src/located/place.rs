@@ -36,10 +36,12 @@ impl<'a> Place<'a> {
 }
 
 /// What is known of the way from the point before to an event.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Approach {
     /// Length of the path from the point before.
     pub chord: f64,
+    /// The point before, on the way to a branch point; `None` on the way to what needs none.
+    pub before: Option<Vec<f64>>,
     /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
     /// squared speed of a touch [m^2/s^2]; `None` where that is not known.
     pub near: Option<[f64; 2]>,

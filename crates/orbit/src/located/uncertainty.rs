@@ -13,16 +13,22 @@
 //!   matrix is known to an error ([`spectrum`](crate::spectrum)), with which the multiplier may lie as far
 //!   off as its pseudospectrum reaches, by `d`. The test function `g` of these points is a product of
 //!   factors, of which the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//! * A branch point is where a real multiplier reaches +1. With g the product of `1 - m` over all multipliers,
+//!   which the point before is asked for, `s` is no less than `d |dg/dm| c/|g_1|`, too.
 //! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
 //!   response of the frequency to a closure error.
 //!
-//! A branch point has what its search leaves. A grazing of a rigid stop that was computed as a corner
-//! (`corner/`) brings its uncertainty along.
+//! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
 
 use hammerbeam_path::{PathProblem, norm, weighed};
 
 use super::place::{Approach, Place};
-use crate::{shooting::ShootingProblem, spectrum::reach_from, stability::flip_without};
+use crate::{
+    shooting::ShootingProblem,
+    solve::evaluate,
+    spectrum::reach_from,
+    stability::{flip_without, fold, fold_without_nearest},
+};
 
 /// Error of the motion over a period, in tolerances of its steps.
 const MOTION: f64 = 10.0;
@@ -40,6 +46,9 @@ pub(super) fn of_place(
     let (mut along, mut at_fold) = (place.point.uncertainty.max(at_corner), 0.0);
     if let Some(approach) = &place.approach {
         let events = place.point.events;
+        if events.branch_point && !events.signature_change {
+            along = along.max(of_branch_point(problem, place, approach));
+        }
         if events.signature_change {
             along = along.max(of_contacts(problem, place, approach));
         }
@@ -86,7 +95,29 @@ fn of_multiplier(
     let (error, modulus) = (spectrum.error, re.hypot(im));
     let place = [re / modulus, im / modulus];
     let reach = reach_from(problem.node_size(), problem.monodromy(), error, place);
-    (reach * change * approach.chord / test.value.abs().max(f64::MIN_POSITIVE)).min(approach.chord)
+    share_of(approach, reach * change, test.value)
+}
+
+/// Arc length within which a branch point lies, by the motion at it and at the point before.
+fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
+    let (Some(before), Ok(spectrum)) = (&approach.before, problem.spectrum()) else { return approach.chord };
+    let (error, change) = (spectrum.error, fold_without_nearest(&spectrum.multipliers));
+    let reach = reach_from(problem.node_size(), problem.monodromy(), error, [1.0, 0.0]);
+    let test = evaluate(problem, before).ok().and_then(|()| {
+        let spectrum = problem.spectrum().ok()?;
+        Some(fold(&spectrum.multipliers).value.abs())
+    });
+    // The motion at the branch point is asked for next.
+    let returned = evaluate(problem, &place.point.point);
+    match test {
+        Some(test) if returned.is_ok() => share_of(approach, reach * change, test),
+        _ => approach.chord,
+    }
+}
+
+/// The part of the chord over which a test function with this value at its beginning changes by so much.
+fn share_of(approach: &Approach, change: f64, test: f64) -> f64 {
+    (change * approach.chord / test.abs().max(f64::MIN_POSITIVE)).min(approach.chord)
 }
 
 /// Largest displacement and speed that the scale of the orbit gives an element.

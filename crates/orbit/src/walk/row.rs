@@ -152,8 +152,10 @@ fn approach(path: &OrbitPath, current: &ContinuationPoint) -> located::Approach 
         [least(0).min(least(2)), least(1)]
     });
     let zeros = current.events.zeros;
+    let before = path.follower.state().history.nodes.get(1);
     located::Approach {
         chord: last_chord(path),
+        before: before.filter(|_| current.events.branch_point).map(|node| node.point.clone()),
         near,
         test: (zeros != 0).then(|| tests.get(zeros.trailing_zeros() as usize).copied()).flatten(),
         errors: [path.settings.motion_tolerance, current.correction_norm / unit],

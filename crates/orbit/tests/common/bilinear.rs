@@ -1,4 +1,4 @@
-//! Bifurcations of a bilinear oscillator in closed form.
+//! Bifurcations of bilinear oscillators in closed form.
 //!
 //! `x'' + c x' + k x = F cos W t`, with the force `(K - k)(x - g)` besides beyond the gap `g`. In `y = x - g`
 //! either region is linear, `y'' + c y' + k y = F cos W t - k g`, and the same with `K y`. An orbit with one
@@ -10,12 +10,22 @@
 //! `M = E_k(T - s) E_K(s)`,
 //!
 //! with `m = -1` at a flip and `m = 1` at a fold: the force has no jump, so the fundamental matrix is the
-//! product of the exponentials. Newton's method with differences solves them.
+//! product of the exponentials.
+//!
+//! With the same stop at `-g`, an orbit that is its own mirror image touches both once a period. Half a period
+//! after `t_1` it is at `-g` with `-v`: `y(t_1 + T/2) = -2g`, `y'(t_1 + T/2) = -v`, and `M = E_k(T/2 - s)
+//! E_K(s)`. A deviation comes back mirrored, as `-M` times itself, so it alternates from one half to the next
+//! where M has the multiplier +1: there the motion loses its symmetry.
+//!
+//! Newton's method with differences solves them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::events::{Subject, oscillator};
-use hammerbeam_motion::{Law, law::LinearStop};
+use hammerbeam_motion::{
+    Law,
+    law::{LinearStop, TwoSidedStop},
+};
 use hammerbeam_orbit::PeriodicSolution;
 
 const DAMPER: f64 = 0.1;
@@ -30,15 +40,30 @@ pub struct Bilinear {
     /// Stiffness K with contact.
     pub stiff: f64,
     pub gap: f64,
+    /// Whether there is the same stop on the other side.
+    pub is_symmetric: bool,
 }
 
 impl Bilinear {
-    pub fn subject(self) -> Subject {
-        let stop = LinearStop::with_gap(self.stiff - SOFT, self.gap).unwrap();
-        oscillator(SOFT, DAMPER, FORCE, Law::Linear(stop))
+    pub const fn one_sided(stiff: f64, gap: f64) -> Self {
+        Self { stiff, gap, is_symmetric: false }
     }
 
-    /// Frequency [Hz] at which the orbit with one contact that is near to this one has a multiplier.
+    pub const fn symmetric(stiff: f64, gap: f64) -> Self {
+        Self { stiff, gap, is_symmetric: true }
+    }
+
+    pub fn subject(self) -> Subject {
+        let law = if self.is_symmetric {
+            Law::TwoSided(TwoSidedStop::new(self.stiff - SOFT, self.gap, self.gap).unwrap())
+        } else {
+            Law::Linear(LinearStop::with_gap(self.stiff - SOFT, self.gap).unwrap())
+        };
+        oscillator(SOFT, DAMPER, FORCE, law)
+    }
+
+    /// Frequency [Hz] at which the orbit with one contact at each stop that is near to this one has a
+    /// multiplier, of half the period where the stops are symmetric.
     pub fn frequency_hz(self, multiplier: f64, near: &PeriodicSolution) -> f64 {
         let mut unknowns = self.contact_of(near);
         for _ in 0..20 {
@@ -82,13 +107,16 @@ impl Bilinear {
 
     /// The four equations for `[t_1, v, s, W]`.
     fn equations(self, multiplier: f64, [enters, speed, duration, omega]: [f64; 4]) -> [f64; 4] {
-        let flight = TAU / omega - duration;
+        let period = TAU / omega;
+        let (until_next, sides) = if self.is_symmetric { (0.5 * period, -1.0) } else { (period, 1.0) };
+        let flight = until_next - duration;
         let leaves = self.moved(self.stiff, omega, (enters, duration), [0.0, speed]);
         let back = self.moved(SOFT, omega, (enters + duration, flight), leaves);
         let m = times(exponential(SOFT, flight), exponential(self.stiff, duration));
         let determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
         let characteristic = multiplier * (multiplier - m[0][0] - m[1][1]) + determinant;
-        [leaves[0], back[0], back[1] - speed, characteristic]
+        let next = self.gap * (sides - 1.0);
+        [leaves[0], back[0] - next, back[1] - sides * speed, characteristic]
     }
 
     /// The unknowns of an orbit, roughly, by steps of the closed form from its first state, in flight.
@@ -100,7 +128,12 @@ impl Bilinear {
         for k in 0..2 * steps {
             let time = f64::from(k) * h;
             let stiffness = if state[0] > 0.0 { self.stiff } else { SOFT };
-            let next = self.moved(stiffness, omega, (time, h), state);
+            let next = if self.is_symmetric && state[0] < -2.0 * self.gap {
+                let below = self.moved(self.stiff, omega, (time + PI / omega, h), self.mirrored(state));
+                self.mirrored(below)
+            } else {
+                self.moved(stiffness, omega, (time, h), state)
+            };
             if state[0] <= 0.0 && next[0] > 0.0 && enters == 0.0 {
                 (enters, speed) = (time, next[1]);
             } else if state[0] > 0.0 && next[0] <= 0.0 && enters != 0.0 && leaves == 0.0 {
@@ -109,6 +142,11 @@ impl Bilinear {
             state = next;
         }
         [enters, speed, leaves - enters, omega]
+    }
+
+    /// The state as it is half a period later on the other side.
+    fn mirrored(self, [y, speed]: [f64; 2]) -> [f64; 2] {
+        [-y - 2.0 * self.gap, -speed]
     }
 }
 
