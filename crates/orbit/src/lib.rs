@@ -29,6 +29,8 @@
 //!   at once
 //! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
 //!   stable, marginal, unstable
+//! - `known_matrix.rs`, `floquet_vectors.rs`: what is known of a monodromy matrix, and how far that moves a
+//!   multiplier
 //! - `stability.rs`, `located.rs`: test functions of flips and Neimark-Sacker points; what is known of an
 //!   event
 //! - `switch.rs`: leaving a flip or branch point onto the other branch
@@ -108,8 +110,10 @@ mod eigenvalues;
 mod error;
 mod event_kind;
 mod find;
+mod floquet_vectors;
 mod free;
 mod free_vibration;
+mod known_matrix;
 mod linear_contact;
 mod located;
 mod matching;

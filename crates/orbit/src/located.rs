@@ -11,11 +11,12 @@ mod place;
 mod uncertainty;
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem, norm, weighed};
+use hammerbeam_path::{ContinuationPoint, PathProblem, norm, weighed};
 
 use crate::{
+    floquet_vectors::{null_vector, shifted},
     shooting::ShootingProblem,
-    spectrum::{Spectrum, shifted},
+    spectrum::Spectrum,
     stability::{without_at_minus_one, without_pairs},
 };
 pub use place::ContactChange;
@@ -29,8 +30,6 @@ const SHARP_MULTIPLIER: f64 = 1e-5;
 /// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a
 /// branch crosses, an orbit is known to the root of the tolerance only.
 const MIRRORED: f64 = 1e-3;
-/// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
-const MOST_SHIFTS: u32 = 8;
 
 /// How well an event was located.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -164,30 +163,6 @@ fn null_direction(problem: &ShootingProblem, place: [f64; 2]) -> Option<Vec<f64>
     direction.iter().all(|value| value.is_finite()).then_some(direction)
 }
 
-/// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the
-/// matrix is not finite.
-fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
-    let largest = matrix.iter().fold(1.0_f64, |largest, entry| largest.max(entry.abs()));
-    let mut lu = DenseLu::new();
-    let mut shifts = 0;
-    while lu.factorise(width, &matrix).is_err() {
-        if shifts == MOST_SHIFTS {
-            return None;
-        }
-        // Singular to the last bit: an inverse needs it a little off, by what the largest entries do not
-        // round away.
-        (0..width).for_each(|i| matrix[i * width + i] += 1e-14 * largest);
-        shifts += 1;
-    }
-    let mut vector = vec![1.0; width];
-    for _ in 0..3 {
-        lu.solve(&mut vector);
-        let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
-        vector.iter_mut().for_each(|v| *v /= length);
-    }
-    Some(vector)
-}
-
 /// Direction in which the other branch leaves a branch point, orthogonal to the present one.
 fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) -> Option<Vec<f64>> {
     let weights = problem.weights().to_vec();
@@ -203,25 +178,4 @@ fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) 
     let first = vector[..problem.node_size()].iter().zip(problem.scale().values());
     let direction: Vec<f64> = first.map(|(v, scale)| v * scale).chain([vector[last]]).collect();
     direction.iter().all(|value| value.is_finite()).then_some(direction)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded
-    /// away.
-    #[test]
-    fn null_vector_of_an_exactly_singular_matrix_of_large_entries_is_found() {
-        for size in [1e-3, 1.0, 4096.0, 1e9] {
-            let vector =
-                null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
-            assert!((vector[1] / vector[0] + 3.0).abs() < 1e-9, "{vector:?} at {size}");
-        }
-    }
-
-    #[test]
-    fn a_matrix_that_is_not_finite_has_no_null_vector() {
-        assert_eq!(null_vector(2, vec![f64::NAN, 1.0, 1.0, 1.0]), None);
-    }
 }

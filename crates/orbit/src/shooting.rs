@@ -66,7 +66,8 @@ use carried::{Along, NodeSlope};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, OrbitError,
-    spectrum::{Accuracy, Spectrum},
+    known_matrix::{Accuracy, KnownMatrix},
+    spectrum::Spectrum,
     state_scale::StateScale,
 };
 
@@ -280,6 +281,11 @@ impl ShootingProblem {
         &mut self.integrator
     }
 
+    /// Tolerance of its steps.
+    pub fn motion_tolerance(&self) -> f64 {
+        self.integrator.settings().tolerance
+    }
+
     /// Gives the integrator back.
     pub fn into_integrator(self) -> ExactIntegrator {
         self.integrator
@@ -315,11 +321,17 @@ impl ShootingProblem {
     }
 
     fn spectrum_of_products(&self) -> Result<Spectrum, NoEigenvalues> {
+        Spectrum::of(&self.known_matrix())
+    }
+
+    /// The monodromy matrix at the last evaluated point, and what is known of it.
+    pub fn known_matrix(&self) -> KnownMatrix<'_> {
         let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
         let rounding = self.scale.relative_rate(self.rounding);
-        let motion_tolerance = if self.is_short_flight { 0.0 } else { self.integrator.settings().tolerance };
+        let motion_tolerance = if self.is_short_flight { 0.0 } else { self.motion_tolerance() };
         let accuracy = Accuracy { motion_tolerance, residual, rounding };
-        Spectrum::of_orbit(self.node_size(), &self.products, &accuracy)
+        let segments = self.segment_matrices.iter().map(Vec::as_slice).collect();
+        KnownMatrix::of_orbit(self.node_size(), segments, &self.products, &accuracy)
     }
 
     /// Whether flips and Neimark-Sacker points are looked for.

@@ -22,7 +22,7 @@ pub struct PeriodicSolution {
     /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part
     /// first in a pair.
     pub floquet_multipliers: Vec<[f64; 2]>,
-    /// Which of them are on the unit circle as well as they are known (mathematics in `spectrum.rs`).
+    /// Which of them are on the unit circle as well as they are known (mathematics in `known_matrix.rs`).
     pub on_circle: Vec<bool>,
     /// Largest mismatch of the shooting equations, relative to the orbit (see the shooting module).
     pub residual: f64,

@@ -94,11 +94,11 @@ pub(crate) fn fold(multipliers: &[[f64; 2]]) -> TestValue {
     flip(&mirrored)
 }
 
-/// Absolute value of [`fold`] without the multiplier that is nearest to +1.
-pub(crate) fn fold_without_nearest(multipliers: &[[f64; 2]]) -> f64 {
+/// The multiplier that is nearest to +1, and the absolute value of [`fold`] without it.
+pub(crate) fn fold_without_nearest(multipliers: &[[f64; 2]]) -> Option<([f64; 2], f64)> {
     let mut left = multipliers.to_vec();
-    remove_least(&mut left, from_one);
-    fold(&left).value.abs()
+    let nearest = remove_least(&mut left, from_one)?;
+    Some((nearest, fold(&left).value.abs()))
 }
 
 fn from_one([re, im]: &[f64; 2]) -> f64 {
@@ -223,12 +223,11 @@ fn onto_circle([re, im]: [f64; 2]) -> [f64; 2] {
     [re / modulus, im / modulus]
 }
 
-/// Removes the multiplier with the least distance.
-fn remove_least(multipliers: &mut Vec<[f64; 2]>, distance: impl Fn(&[f64; 2]) -> f64) {
+/// Removes the multiplier with the least distance; `None` of none.
+fn remove_least(multipliers: &mut Vec<[f64; 2]>, distance: impl Fn(&[f64; 2]) -> f64) -> Option<[f64; 2]> {
     let numbered = multipliers.iter().enumerate();
-    if let Some((index, _)) = numbered.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) {
-        multipliers.remove(index);
-    }
+    let (index, _) = numbered.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+    Some(multipliers.remove(index))
 }
 
 fn signed(magnitude: f64, count: u32) -> TestValue {

@@ -1,5 +1,5 @@
-//! Folds, flips, Neimark-Sacker and branch points lie within their stated uncertainty of closed forms, with short
-//! steps and long ones; and that is no absurdly wide one.
+//! Folds, flips, Neimark-Sacker and branch points lie within their stated uncertainty of closed forms, with
+//! short steps and long ones; and that is no absurdly wide one.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::{

@@ -5,8 +5,8 @@
 //! sign of `(-1)^k`, k the number of negative `g_i`. A `g_i` below [`KNOWN`] is undecided.
 
 use hammerbeam_path::{
-    Branch, DenseProblem, Judge, ParameterRange, PathProblem, PathStop, Settings, StartDirection, TestValue,
-    follow,
+    Branch, ContinuationPoint, DenseProblem, Judge, ParameterRange, PathProblem, PathStop, Settings,
+    StartDirection, TestValue, follow,
 };
 
 /// What a part of the function is known to.
@@ -57,6 +57,12 @@ fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
 
 /// Zeros of functions as `[x, l]`, and the bits of those that vanish there, once around the circle.
 fn zeros_of(functions: &[&[Part]], step: f64) -> Vec<([f64; 2], u32)> {
+    let at = events(functions, step).into_iter();
+    at.map(|point| ([point.point[0], point.point[1]], point.events.zeros)).collect()
+}
+
+/// Points at which functions vanish, once around the circle.
+fn events(functions: &[&[Part]], step: f64) -> Vec<ContinuationPoint> {
     let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
         residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
         jacobian.copy_from_slice(&[2.0 * z[0], 2.0 * z[1]]);
@@ -69,8 +75,7 @@ fn zeros_of(functions: &[&[Part]], step: f64) -> Vec<([f64; 2], u32)> {
     let branch: Branch =
         follow(&mut circle, &[1.0, 0.0], StartDirection::Increasing, range, settings).unwrap();
     assert_eq!(branch.stop, PathStop::Closed);
-    let at = branch.points.iter().filter(|point| point.events.zeros != 0);
-    at.map(|point| ([point.point[0], point.point[1]], point.events.zeros)).collect()
+    branch.points.into_iter().filter(|point| point.events.zeros != 0).collect()
 }
 
 /// Of either sign, changing at every step.
@@ -126,14 +131,21 @@ fn a_zero_that_is_crossed_is_an_event_however_flat_it_is() {
     }
 }
 
-/// Of a function that is known badly a point may fall beside its zero, where its sign is not known.
+/// Of a function that is known badly a point may fall beside its zero, where its sign is not known. Where the
+/// zero is taken for one at that point, it is told how far it may be off.
 #[test]
 fn a_zero_is_found_though_a_point_beside_it_is_undecided() {
     let coarse: Part = |x, _| 1e-9 * (x - 0.3);
-    for step in (0..60).map(|k| 0.03 + 0.004 * f64::from(k)) {
-        let found = zeros(&[coarse], step);
-        assert_eq!(found.len(), 2, "step {step}: {found:?}");
-        assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 0.011), "step {step}: {found:?}");
+    let line = 0.3_f64.acos();
+    for step in (0..400).map(|k| 0.03 + 0.0006 * f64::from(k)) {
+        let found = events(&[&[coarse]], step);
+        assert_eq!(found.len(), 2, "step {step}");
+        for point in found {
+            let off = (point.point[1].atan2(point.point[0]).abs() - line).abs();
+            let stated = point.uncertainty;
+            assert!(off < 0.011, "step {step}: {off:.1e} off");
+            assert!(off < stated.max(1e-8), "step {step}: {off:.1e} off, within {stated:.1e}");
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use super::{
     null::{null_space, transposed},
     shooting::{Place, Shooting, dot, times},
 };
-use crate::spectrum::shifted;
+use crate::floquet_vectors::shifted;
 
 /// The borders.
 #[derive(Debug, Clone)]

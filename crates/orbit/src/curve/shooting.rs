@@ -12,7 +12,8 @@ use hammerbeam_motion::{
 use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
-    spectrum::{Accuracy, Spectrum},
+    known_matrix::{Accuracy, KnownMatrix},
+    spectrum::Spectrum,
     state_scale::StateScale,
 };
 
@@ -101,7 +102,8 @@ impl Shooting {
             .relative_rate(self.segments.iter().map(|segment| segment.rounding).fold(0.0, f64::hypot));
         let accuracy =
             Accuracy { motion_tolerance: self.integrator.settings().tolerance, residual, rounding };
-        Spectrum::of_orbit(self.size(), &self.products, &accuracy)
+        let segments = self.segments.iter().map(|segment| segment.matrix.as_slice()).collect();
+        Spectrum::of(&KnownMatrix::of_orbit(self.size(), segments, &self.products, &accuracy))
     }
 
     /// How long the segments are in all [cycles].

@@ -1,6 +1,8 @@
 //! Where an event was found, and what is known of the way there.
 
-use hammerbeam_path::{ContinuationPoint, TestValue};
+use hammerbeam_path::{ContinuationPoint, Follower, PathProblem, TestValue, distance};
+
+use crate::shooting::ShootingProblem;
 
 /// A contact that appears or vanishes at grazing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,8 +16,6 @@ pub struct ContactChange {
 /// What the walk knows of the points at and before the event.
 pub(crate) struct Place<'a> {
     pub point: &'a ContinuationPoint,
-    /// Change of the tangent's frequency component per length.
-    pub bend: f64,
     /// To this length along the path the place of a corner is known.
     pub at_corners: f64,
     /// The contacts that change there.
@@ -31,7 +31,12 @@ impl<'a> Place<'a> {
     /// A place of which no more is known than itself, and within which the parameter is known, if that was
     /// computed.
     pub fn alone(point: &'a ContinuationPoint, computed: Option<f64>) -> Self {
-        Self { point, bend: 0.0, at_corners: 0.0, contacts: Vec::new(), computed, approach: None }
+        Self { point, at_corners: 0.0, contacts: Vec::new(), computed, approach: None }
+    }
+
+    /// A place to which a path has come this way.
+    pub fn reached(point: &'a ContinuationPoint, approach: Approach) -> Self {
+        Self { approach: Some(approach), ..Self::alone(point, None) }
     }
 }
 
@@ -40,6 +45,8 @@ impl<'a> Place<'a> {
 pub(crate) struct Approach {
     /// Length of the path from the point before.
     pub chord: f64,
+    /// Change of the tangent's frequency component per length.
+    pub bend: f64,
     /// The point before, on the way to a branch point; `None` on the way to what needs none.
     pub before: Option<Vec<f64>>,
     /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
@@ -51,4 +58,39 @@ pub(crate) struct Approach {
     pub errors: [f64; 2],
     /// Length along the path that a change of the orbit by its own size counts.
     pub unit: f64,
+}
+
+impl Approach {
+    /// Over a length along the path, at the beginning of which the test function was this.
+    ///
+    /// * `problem`, `due`: at the event, and the norm of the correction that is still due there.
+    pub fn over(chord: f64, test: Option<TestValue>, (problem, due): (&ShootingProblem, f64)) -> Self {
+        let unit = problem.hertz_per_norm();
+        let errors = [problem.motion_tolerance(), due / unit];
+        Self { chord, bend: 0.0, before: None, near: None, test, errors, unit }
+    }
+
+    /// Of the last step of a path.
+    ///
+    /// * `current`: the present point, with what happens there.
+    pub fn of(follower: &Follower, problem: &ShootingProblem, current: &ContinuationPoint) -> Self {
+        let tests = &follower.tests().before;
+        // Two of the multipliers, then as many of each kind of near miss.
+        let near = tests.get(2..).filter(|near| !near.is_empty() && near.len().is_multiple_of(3));
+        let near = near.map(|near| {
+            let least = |kind: usize| near[kind * near.len() / 3].value;
+            [least(0).min(least(2)), least(1)]
+        });
+        let zeros = current.events.zeros;
+        let test = (zeros != 0).then(|| tests.get(zeros.trailing_zeros() as usize).copied()).flatten();
+        let mut approach = Self { near, ..Self::over(0.0, test, (problem, current.correction_norm)) };
+        if let [base, before, ..] = follower.state().history.nodes.as_slice() {
+            let last = base.point.len() - 1;
+            approach.chord = distance(problem.weights(), &base.point, &before.point);
+            approach.bend =
+                (base.tangent[last] - before.tangent[last]).abs() / approach.chord.max(f64::MIN_POSITIVE);
+            approach.before = current.events.branch_point.then(|| before.point.clone());
+        }
+        approach
+    }
 }

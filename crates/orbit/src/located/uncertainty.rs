@@ -10,11 +10,13 @@
 //!   not known of it, `10 t` and the response of the orbit to as much of a closure error, with the correction
 //!   that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
 //! * A flip or Neimark-Sacker point is where a multiplier reaches -1 or the unit circle. The monodromy
-//!   matrix is known to an error ([`spectrum`](crate::spectrum)), with which the multiplier may lie as far
-//!   off as its pseudospectrum reaches, by `d`. The test function `g` of these points is a product of
-//!   factors, of which the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
-//! * A branch point is where a real multiplier reaches +1. With g the product of `1 - m` over all multipliers,
-//!   which the point before is asked for, `s` is no less than `d |dg/dm| c/|g_1|`, too.
+//!   matrix is known to an error ([`known_matrix`](crate::known_matrix)), with which the multiplier may lie
+//!   as far off as that moves it, by `d`. The test function `g` of these points is a product of factors, of
+//!   which the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//! * A branch point is where a real multiplier reaches +1. With the product g of `1 - m` over all multipliers,
+//!   for which the point before is asked, the frequency is uncertain by `(d + |1 - m|) |dg/dm| |f_1 - f|/
+//!   |g_1|` on the branch that is left, and by twice that on an arm of a pitchfork, along which the frequency
+//!   is stationary: there `1 - m` goes with the frequency twice as quickly. Twice it is for both.
 //! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
 //!   response of the frequency to a closure error.
 //!
@@ -25,13 +27,14 @@ use hammerbeam_path::{PathProblem, norm, weighed};
 use super::place::{Approach, Place};
 use crate::{
     shooting::ShootingProblem,
-    solve::evaluate,
-    spectrum::reach_from,
     stability::{flip_without, fold, fold_without_nearest},
 };
 
 /// Error of the motion over a period, in tolerances of its steps.
 const MOTION: f64 = 10.0;
+/// On an arm of a pitchfork the multiplier goes with the frequency so many times as quickly as on the branch
+/// from which the arm leaves.
+const ARM: f64 = 2.0;
 
 /// Interval of the frequency, or of what varies, within which an event lies.
 ///
@@ -43,11 +46,11 @@ pub(super) fn of_place(
 ) -> f64 {
     // A multiplier jumps over its place at corners only.
     let at_corner = if jumps { place.at_corners } else { 0.0 };
-    let (mut along, mut at_fold) = (place.point.uncertainty.max(at_corner), 0.0);
+    let (mut along, mut itself) = (place.point.uncertainty.max(at_corner), 0.0);
     if let Some(approach) = &place.approach {
         let events = place.point.events;
         if events.branch_point && !events.signature_change {
-            along = along.max(of_branch_point(problem, place, approach));
+            itself = of_branch_point(problem, place, approach);
         }
         if events.signature_change {
             along = along.max(of_contacts(problem, place, approach));
@@ -58,10 +61,11 @@ pub(super) fn of_place(
         if events.fold && !events.branch_point && !events.signature_change {
             let [tolerance, _] = approach.errors;
             let moved = response_to_closure(problem, place);
-            at_fold = moved.map_or(approach.chord, |moved| MOTION * tolerance * moved.parameter);
+            itself = moved.map_or(approach.chord, |moved| MOTION * tolerance * moved.parameter);
         }
     }
-    along * place.point.tangent_parameter().abs() + 0.5 * place.bend * along * along + at_fold
+    let bend = place.approach.as_ref().map_or(0.0, |approach| approach.bend);
+    along * place.point.tangent_parameter().abs() + 0.5 * bend * along * along + itself
 }
 
 /// Arc length within which a grazing lies.
@@ -87,31 +91,33 @@ fn of_contacts(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Appr
 fn of_multiplier(
     problem: &mut ShootingProblem,
     approach: &Approach,
-    (zeros, [re, im]): (u32, [f64; 2]),
+    (zeros, multiplier): (u32, [f64; 2]),
 ) -> f64 {
     let (Some(test), Ok(spectrum)) = (approach.test, problem.spectrum()) else { return approach.chord };
     // Of a flip the product of the other factors; of a pair the function is `1 - |m|^2`.
     let change = if zeros & 1 != 0 { flip_without(spectrum, test.left_out + 1).value.abs() } else { 2.0 };
-    let (error, modulus) = (spectrum.error, re.hypot(im));
-    let place = [re / modulus, im / modulus];
-    let reach = reach_from(problem.node_size(), problem.monodromy(), error, place);
-    share_of(approach, reach * change, test.value)
+    share_of(approach, problem.known_matrix().reach_from(multiplier) * change, test.value)
 }
 
-/// Arc length within which a branch point lies, by the motion at it and at the point before.
+/// Interval of the frequency within which a branch point lies, by the motion at it and at the point before.
 fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
-    let (Some(before), Ok(spectrum)) = (&approach.before, problem.spectrum()) else { return approach.chord };
-    let (error, change) = (spectrum.error, fold_without_nearest(&spectrum.multipliers));
-    let reach = reach_from(problem.node_size(), problem.monodromy(), error, [1.0, 0.0]);
-    let test = evaluate(problem, before).ok().and_then(|()| {
+    let (Some(before), Ok(spectrum)) = (&approach.before, problem.spectrum()) else { return 0.0 };
+    let Some((multiplier, change)) = fold_without_nearest(&spectrum.multipliers) else { return 0.0 };
+    let reach = problem.known_matrix().reach_from(multiplier);
+    let off = (1.0 - multiplier[0]).hypot(multiplier[1]);
+    let last = before.len() - 1;
+    let way = (before[last] - place.point.parameter()).abs();
+    let test = problem.evaluate(before).ok().and_then(|()| {
         let spectrum = problem.spectrum().ok()?;
         Some(fold(&spectrum.multipliers).value.abs())
     });
     // The motion at the branch point is asked for next.
-    let returned = evaluate(problem, &place.point.point);
+    let returned = problem.evaluate(&place.point.point);
     match test {
-        Some(test) if returned.is_ok() => share_of(approach, reach * change, test),
-        _ => approach.chord,
+        Some(test) if returned.is_ok() => {
+            (ARM * (reach + off) * change * way / test.max(f64::MIN_POSITIVE)).min(way)
+        }
+        _ => way,
     }
 }
 

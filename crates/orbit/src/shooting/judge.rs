@@ -14,7 +14,7 @@ use super::{
     beside::{Beginning, Beside, KnownImages},
     carried::{Along, Carried},
 };
-use crate::{corner, spectrum::norm, stability};
+use crate::{corner, floquet_vectors::norm, stability};
 
 /// Images that are known less well tell nothing.
 const MOST_MAGNIFIED: f64 = 1e3;

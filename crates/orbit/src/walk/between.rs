@@ -13,7 +13,10 @@ use super::{
     row::{RowRecord, row_at},
 };
 use crate::{
-    BranchRow, OrbitError, PeriodicSolution, located, solve::evaluate, spectrum::Spectrum, stability,
+    BranchRow, OrbitError, PeriodicSolution, located,
+    solve::evaluate,
+    spectrum::Spectrum,
+    stability::{self, flip_without, neimark_sacker_without},
 };
 
 /// Halvings to an interval of rounding.
@@ -86,7 +89,8 @@ fn hidden_event(
         return Ok(None);
     }
     let staying = pairs_that_stay(path, ends)?;
-    let number = beyond(&spectrum_at(path, known)?, staying);
+    let (known, chord) = (spectrum_at(path, known)?, far.arc_length - near.arc_length);
+    let number = beyond(&known, staying);
     let (mut other_number, mut known_moved) = (None, false);
     for _ in 0..HALVINGS {
         let Ok(middle) = solve_between(&mut path.problem, [&near, &far], 0.5, &settings) else { break };
@@ -104,7 +108,8 @@ fn hidden_event(
     let place = if is_far_known { far } else { near };
     match other_number {
         Some(other) if known_moved => {
-            event_row(path, ContinuationPoint { uncertainty, ..place }, (number.abs_diff(other), staying))
+            let way = Way { known, chord, staying, change: number.abs_diff(other) };
+            event_row(path, ContinuationPoint { uncertainty, ..place }, &way)
         }
         // It lies at one of the ends, as well as that is known.
         _ => Ok(None),
@@ -122,12 +127,23 @@ fn pairs_that_stay(path: &mut OrbitPath, ends: [&ContinuationPoint; 2]) -> Resul
     Ok(one.min(other))
 }
 
+/// The way over which the number of multipliers outside changes.
+struct Way {
+    /// At the end that no event leaves in doubt.
+    known: Spectrum,
+    chord: f64,
+    /// How many multipliers are on the circle all along.
+    staying: usize,
+    /// How many more or fewer are outside.
+    change: usize,
+}
+
 /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what
 /// so many more or fewer outside tell.
 fn event_row(
     path: &mut OrbitPath,
     mut point: ContinuationPoint,
-    (change, staying): (usize, usize),
+    &Way { ref known, chord, staying, change }: &Way,
 ) -> Result<Option<Between>, OrbitError> {
     let spectrum = spectrum_at(path, &point)?;
     let off = |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
@@ -140,9 +156,10 @@ fn event_row(
     }
     point.events = PathEvents { zeros: if is_pair { 2 } else { 1 }, ..PathEvents::default() };
     let at_corners = path.follower.settings().min_step;
-    let contacts = Vec::new();
-    let place =
-        located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, approach: None };
+    let pairs = staying as u32 / 2;
+    let test = if is_pair { neimark_sacker_without(known, pairs) } else { flip_without(known, 0) };
+    let approach = located::Approach::over(chord, Some(test), (&path.problem, point.correction_norm));
+    let place = located::Place { at_corners, ..located::Place::reached(&point, approach) };
     let located = located::describe(&mut path.problem, place);
     let row = BranchRow { located, ..row_at(path, &point)? };
     Ok(Some(Between { point, row }))
@@ -177,7 +194,7 @@ fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]
 pub(super) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
     let multipliers = solution.floquet_multipliers.clone();
     let at_minus_one = vec![false; multipliers.len()];
-    Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one, error: 0.0 }
+    Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one }
 }
 
 /// Whether as many multipliers may be outside at all of these places.

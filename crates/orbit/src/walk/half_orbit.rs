@@ -205,7 +205,8 @@ fn flip_ahead(
             });
         }
         let is_smooth = !point.events.corner && follower.passed_corner().is_none();
-        let located = located::describe(problem, located::Place::alone(point, None))?;
+        let approach = located::Approach::of(&follower, problem, point);
+        let located = located::describe(problem, located::Place::reached(point, approach))?;
         let is_flip = is_near && is_smooth && located.status == EventStatus::Located;
         return is_flip.then(|| Flip {
             nodes: problem.nodes(&point.point),

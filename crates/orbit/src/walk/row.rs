@@ -1,6 +1,6 @@
 //! The rows of a walk.
 
-use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, distance, weighed};
+use hammerbeam_path::{ContinuationPoint, Judge, PathProblem, weighed};
 
 use super::{
     last_rows::{LastRows, RowPlace},
@@ -45,13 +45,12 @@ impl RowRecord {
         // Beside a rigid stop speeds that the tolerance leaves are no longer told from none.
         let at_corners =
             if path.problem.has_root_corners() { settings.correction_tolerance } else { settings.min_step };
+        let approach = located::Approach::of(&path.follower, &path.problem, &current);
         let place = located::Place {
-            point: &current,
-            bend: frequency_bend(path),
             at_corners,
             contacts: self.contact_changes(path),
             computed: path.follower.passed_corner().map(|corner| corner.uncertainty),
-            approach: Some(approach(path, &current)),
+            ..located::Place::reached(&current, approach)
         };
         let located = located::describe(&mut path.problem, place);
         Ok(BranchRow { located, ..row_at(path, &current)? })
@@ -125,40 +124,4 @@ fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
     let multipliers = stability::without_pairs(path.problem.spectrum()?, left_out);
     Ok(is_smooth && stability::pair_turns_real(&multipliers)
         || point.events.branch_point && stability::pair_is_nearest_to_one(&multipliers))
-}
-
-/// Change of the tangent's frequency component per length over the last step.
-fn frequency_bend(path: &OrbitPath) -> f64 {
-    let history = &path.follower.state().history;
-    let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
-    let last = base.point.len() - 1;
-    (base.tangent[last] - before.tangent[last]).abs() / last_chord(path).max(f64::MIN_POSITIVE)
-}
-
-/// Length of the last step.
-fn last_chord(path: &OrbitPath) -> f64 {
-    let history = &path.follower.state().history;
-    let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
-    distance(path.problem.weights(), &base.point, &before.point)
-}
-
-/// What is known of the way from the point before to an event at the present one.
-fn approach(path: &OrbitPath, current: &ContinuationPoint) -> located::Approach {
-    let unit = path.hertz_per_norm();
-    let tests = &path.follower.tests().before;
-    // Two of the multipliers, then as many of each kind of near miss.
-    let near = tests.get(2..).filter(|near| !near.is_empty() && near.len().is_multiple_of(3)).map(|near| {
-        let least = |kind: usize| near[kind * near.len() / 3].value;
-        [least(0).min(least(2)), least(1)]
-    });
-    let zeros = current.events.zeros;
-    let before = path.follower.state().history.nodes.get(1);
-    located::Approach {
-        chord: last_chord(path),
-        before: before.filter(|_| current.events.branch_point).map(|node| node.point.clone()),
-        near,
-        test: (zeros != 0).then(|| tests.get(zeros.trailing_zeros() as usize).copied()).flatten(),
-        errors: [path.settings.motion_tolerance, current.correction_norm / unit],
-        unit,
-    }
 }

@@ -12,10 +12,10 @@
 //! with `m = -1` at a flip and `m = 1` at a fold: the force has no jump, so the fundamental matrix is the
 //! product of the exponentials.
 //!
-//! With the same stop at `-g`, an orbit that is its own mirror image touches both once a period. Half a period
-//! after `t_1` it is at `-g` with `-v`: `y(t_1 + T/2) = -2g`, `y'(t_1 + T/2) = -v`, and `M = E_k(T/2 - s)
-//! E_K(s)`. A deviation comes back mirrored, as `-M` times itself, so it alternates from one half to the next
-//! where M has the multiplier +1: there the motion loses its symmetry.
+//! With the same stop at `-g`, an orbit that is its own mirror image touches both once a period. Half a
+//! period after `t_1` it is at `-g` with `-v`: `y(t_1 + T/2) = -2g`, `y'(t_1 + T/2) = -v`, and
+//! `M = E_k(T/2 - s) E_K(s)`. A deviation comes back mirrored, as `-M` times itself, so it alternates from
+//! one half to the next where M has the multiplier +1: there the motion loses its symmetry.
 //!
 //! Newton's method with differences solves them.
 

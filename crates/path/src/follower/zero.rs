@@ -170,6 +170,13 @@ impl Ends {
             length: attempt.progress(),
         }
     }
+
+    /// How far behind the last point that one lies behind which the zero is, where it is not within the step:
+    /// the function has the sign of its end right from the last point on, and is no smaller than there.
+    fn lies_behind(&self, value: f64) -> Option<f64> {
+        let is_behind = value * self.high > 0.0 && value.abs() > JUMP_SIZE * self.low.abs();
+        self.taken_over.filter(|_| is_behind)
+    }
 }
 
 /// Makes the zero of one test function before the trial the trial; `None`, with the trial as it was, if the
@@ -206,13 +213,12 @@ fn arrive_at_zero(
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
     let mut uncertainty = bracket.uncertainty(value);
-    if value.abs() > JUMP_SIZE * ends.size {
-        let Some(behind) = ends.taken_over.filter(|_| value * ends.high > 0.0) else {
-            attempt.return_to_trial()?;
-            return Ok(None);
-        };
-        // The zero is behind the last point, which is as near to it as the step can end.
+    if let Some(behind) = ends.lies_behind(value) {
+        // The last point is as near to it as the step can end.
         uncertainty = behind + bracket.newest();
+    } else if value.abs() > JUMP_SIZE * ends.size {
+        attempt.return_to_trial()?;
+        return Ok(None);
     }
     if !attempt.frame.range.contains(locator.probe.parameter()) {
         return Err(StepDoubt::NotLocated);

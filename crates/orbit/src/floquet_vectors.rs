@@ -1,0 +1,157 @@
+//! Vectors of a Floquet multiplier, and how far errors of the motion move it.
+//! Equation (P10) of the book, `docs/theory`.
+//!
+//! The monodromy matrix `A = G_{m-1} ... G_0` is the product of the matrices of the segments of an orbit. A
+//! multiplier `mu` has a right vector, `A v_0 = mu v_0`, which the motion carries on, `v_{k+1} = G_k v_k`,
+//! and a left one, `w_m^H A = mu w_m^H`, which it carries back, `w_k^H = w_{k+1}^H G_k`. Errors `E_k` of the
+//! matrices of the segments and one of the product, E, move it by
+//!
+//! `(sum_k w_{k+1}^H E_k v_k + w_m^H E v_0) / (w_m^H v_0)`
+//!
+//! to first order. So a multiplier is known to `c_s e_s + c e`, where the errors are `|E_k| <= e_s |G_k|` and
+//! `|E| <= e`, with its conditions
+//!
+//! `c_s = sum_k |w_{k+1}| |G_k| |v_k| / |w_m^H v_0|`, `c = |w_m| |v_0| / |w_m^H v_0|`.
+//!
+//! Between its nodes an orbit may be stretched far more than over its period, and in directions that have
+//! nothing to do with this multiplier: the norms of the products tell far less than `c_s`. Since `w_{k+1}^H
+//! v_{k+1}` is the same number everywhere, `c_s >= m` for a multiplier on the unit circle.
+//!
+//! # Source
+//! Golub and Van Loan, *Matrix Computations* (2013), section 7.2, for one matrix.
+
+use hammerbeam_path::DenseLu;
+
+/// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
+const MOST_SHIFTS: u32 = 8;
+
+/// By how much errors of size one move a multiplier, to first order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Condition {
+    /// Relative errors of the matrix of each segment.
+    pub of_segments: f64,
+    /// An error of their product.
+    pub of_product: f64,
+}
+
+impl Condition {
+    /// Of a multiplier of the product of these matrices by rows, which is given, too; `None` if they are not
+    /// finite.
+    pub fn of(size: usize, segments: &[&[f64]], product: &[f64], multiplier: [f64; 2]) -> Option<Self> {
+        let matrix = shifted(size, product, multiplier);
+        let width = matrix.len().isqrt();
+        let left = null_vector(width, transposed(width, &matrix))?;
+        let right = null_vector(width, matrix)?;
+        // Of a real multiplier they have no imaginary part.
+        let parts = |vector: Vec<f64>| vector.chunks_exact(size).map(<[f64]>::to_vec).collect::<Vec<_>>();
+        let (left, right) = (parts(left), parts(right));
+        let together = inner(&left, &right);
+        let of_product = length(&left) * length(&right) / together;
+        let mut behind = vec![length(&left)];
+        let mut vector = left;
+        for matrix in segments.iter().skip(1).rev() {
+            let matrix = transposed(size, matrix);
+            vector.iter_mut().for_each(|part| *part = times(&matrix, part));
+            behind.push(length(&vector));
+        }
+        let (mut of_segments, mut vector) = (0.0, right);
+        for (matrix, behind) in segments.iter().zip(behind.iter().rev()) {
+            of_segments += behind * norm(matrix) * length(&vector) / together;
+            vector.iter_mut().for_each(|part| *part = times(matrix, part));
+        }
+        Some(Self { of_segments, of_product })
+    }
+}
+
+/// Absolute value of `w^H v`, of vectors by real and imaginary part.
+fn inner(w: &[Vec<f64>], v: &[Vec<f64>]) -> f64 {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    match (w, v) {
+        ([w], [v]) => dot(w, v).abs(),
+        ([w_re, w_im], [v_re, v_im]) => {
+            (dot(w_re, v_re) + dot(w_im, v_im)).hypot(dot(w_re, v_im) - dot(w_im, v_re))
+        }
+        _ => 0.0,
+    }
+}
+
+fn length(vector: &[Vec<f64>]) -> f64 {
+    vector.iter().map(|part| norm(part)).fold(0.0, f64::hypot)
+}
+
+/// Root of the sum of the squared entries.
+pub(crate) fn norm(matrix: &[f64]) -> f64 {
+    matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
+
+fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    let rows = matrix.chunks_exact(vector.len());
+    rows.map(|row| row.iter().zip(vector).map(|(entry, value)| entry * value).sum()).collect()
+}
+
+fn transposed(size: usize, matrix: &[f64]) -> Vec<f64> {
+    (0..size * size).map(|k| matrix[k % size * size + k / size]).collect()
+}
+
+/// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the
+/// matrix is not finite.
+pub(crate) fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
+    let largest = matrix.iter().fold(1.0_f64, |largest, entry| largest.max(entry.abs()));
+    let mut lu = DenseLu::new();
+    let mut shifts = 0;
+    while lu.factorise(width, &matrix).is_err() {
+        if shifts == MOST_SHIFTS {
+            return None;
+        }
+        // Singular to the last bit: an inverse needs it a little off, by what the largest entries do not
+        // round away.
+        (0..width).for_each(|i| matrix[i * width + i] += 1e-14 * largest);
+        shifts += 1;
+    }
+    let mut vector = vec![1.0; width];
+    for _ in 0..3 {
+        lu.solve(&mut vector);
+        let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
+        vector.iter_mut().for_each(|v| *v /= length);
+    }
+    Some(vector)
+}
+
+/// `A - z I` of a matrix by rows; for a complex number `[A - a I, b I; -b I, A - a I]`, which acts on real
+/// and imaginary parts.
+pub(crate) fn shifted(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> Vec<f64> {
+    let blocks = if im == 0.0 { 1 } else { 2 };
+    let width = blocks * size;
+    let mut matrix = vec![0.0; width * width];
+    for (i, row) in matrix.chunks_exact_mut(width).enumerate() {
+        let (block, of_block) = (i / size, i % size);
+        row[block * size..(block + 1) * size]
+            .copy_from_slice(&by_rows[of_block * size..(of_block + 1) * size]);
+        row[i] -= re;
+        if blocks == 2 {
+            row[(1 - block) * size + of_block] = if block == 0 { im } else { -im };
+        }
+    }
+    matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded
+    /// away.
+    #[test]
+    fn null_vector_of_an_exactly_singular_matrix_of_large_entries_is_found() {
+        for size in [1e-3, 1.0, 4096.0, 1e9] {
+            let vector =
+                null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
+            assert!((vector[1] / vector[0] + 3.0).abs() < 1e-9, "{vector:?} at {size}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_has_no_null_vector() {
+        assert_eq!(null_vector(2, vec![f64::NAN, 1.0, 1.0, 1.0]), None);
+    }
+}
