@@ -11,12 +11,14 @@
 //!   that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
 //! * A flip or Neimark-Sacker point is where a multiplier reaches -1 or the unit circle. The monodromy
 //!   matrix is known to an error ([`known_matrix`](crate::known_matrix)), with which the multiplier may lie
-//!   as far off as that moves it, by `d`. The test function `g` of these points is a product of factors, of
-//!   which the critical one goes with the multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
-//! * A branch point is where a real multiplier reaches +1. With the product g of `1 - m` over all multipliers,
-//!   for which the point before is asked, the frequency is uncertain by `(d + |1 - m|) |dg/dm| |f_1 - f|/
-//!   |g_1|` on the branch that is left, and by twice that on an arm of a pitchfork, along which the frequency
-//!   is stationary: there `1 - m` goes with the frequency twice as quickly. Twice it is for both.
+//!   as far off as that moves it, by `d`; `d` counts also how far the search left it from its place. The test
+//!   function `g` of these points is a product of factors, of which the critical one goes with the
+//!   multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//! * A branch point is where a real multiplier reaches +1. With the product g of `1 - m` over all
+//!   multipliers, for which the point before is asked, the frequency is uncertain by
+//!   `d |dg/dm| |f_1 - f|/|g_1|` on the branch that is left, and by twice that on an arm of a pitchfork,
+//!   along which the frequency is stationary: there `1 - m` goes with the frequency twice as quickly. Twice
+//!   it is for both.
 //! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
 //!   response of the frequency to a closure error.
 //!
@@ -96,7 +98,9 @@ fn of_multiplier(
     let (Some(test), Ok(spectrum)) = (approach.test, problem.spectrum()) else { return approach.chord };
     // Of a flip the product of the other factors; of a pair the function is `1 - |m|^2`.
     let change = if zeros & 1 != 0 { flip_without(spectrum, test.left_out + 1).value.abs() } else { 2.0 };
-    share_of(approach, problem.known_matrix().reach_from(multiplier) * change, test.value)
+    let [re, im] = multiplier;
+    let off = (1.0 - re.hypot(im)).abs();
+    share_of(approach, (problem.known_matrix().reach_from(multiplier) + off) * change, test.value)
 }
 
 /// Interval of the frequency within which a branch point lies, by the motion at it and at the point before.
