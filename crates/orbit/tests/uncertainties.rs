@@ -4,7 +4,7 @@
 
 use crate::common::{
     bilinear::Bilinear,
-    events::{step_of, whole, with},
+    events::{leaving, step_of, whole, with},
     independent::{oscillator, resting_pair, stop, together},
 };
 use hammerbeam_motion::Parameter;
@@ -95,4 +95,37 @@ fn branch_points_lie_within_their_uncertainty() {
         let compared = compared(oscillator, (0.12, 1.0), (|events| events.branch_point, 1.0));
         assert_eq!(compared, 6, "two at each length of steps, K = {stiff}, gap {gap}");
     }
+}
+
+/// A doubled branch ends at another flip of the harmonic branch: as a branch point of its own, or at the flip
+/// that is looked for on the branch of half the period.
+#[test]
+fn ends_of_doubled_branches_lie_within_their_uncertainty_of_flips() {
+    let (mut ends, range) = (0, (0.12, 0.5));
+    for (stiff, gap) in [(20.0, 0.0), (12.0, 0.0), (40.0, 0.3)] {
+        let oscillator = Bilinear::one_sided(stiff, gap);
+        let subject = oscillator.subject();
+        for step_hz in [5e-4, 2e-3, 7e-3] {
+            let settings = step_of(step_hz);
+            let start = find_start(&subject.0, &subject.1, 0.3, 1, &settings).unwrap();
+            let rows = whole(&subject, &start, range, &settings);
+            let flips = with(&rows, |events| events.flip);
+            for leaves in &flips {
+                let (doubled, _) = leaving(&subject, leaves, Side::Up, range, &settings);
+                let last = doubled.last().unwrap();
+                let found = last.solution.frequency_hz;
+                let is_near = |flip: &&&BranchRow| {
+                    flip.solution.maxima.contacts == 1
+                        && (found / flip.solution.frequency_hz - 1.0).abs() < 1e-4
+                };
+                let Some(arrives) = flips.iter().find(is_near).filter(|_| last.events.branch_point) else {
+                    continue;
+                };
+                let expected = oscillator.frequency_hz(-1.0, &arrives.solution);
+                check(last, found, expected, &format!("K = {stiff}, gap {gap}, steps of {step_hz} Hz"));
+                ends += 1;
+            }
+        }
+    }
+    assert!(ends >= 12, "{ends}");
 }
