@@ -10,7 +10,7 @@ use hammerbeam_motion::{
     DampingPart, Harmonic, HarmonicForce, LawError, Load, LocalElement, Parameter, ParameterError, Stretch,
     System,
     exact::{ContactPiece, ExactIntegrator, ExactSettings},
-    general::{GeneralSettings, observe},
+    general::{GeneralSettings, advance, observe},
     law::RigidStop,
 };
 
@@ -51,6 +51,25 @@ fn a_ball_bounces_as_the_closed_form_says() {
         assert!((jump.state[1] + e * speed).abs() < g * rounding, "{k}: {:?}", jump.state);
         speed *= e;
         time += 2.0 * speed / g;
+    }
+}
+
+/// The independent integrator, from as far beyond the stop as orbits that touch it are known, slowly away
+/// from it: the motion is that of the free oscillator, and no crowd of steps within rounding of the stop.
+#[test]
+fn a_mass_a_little_beyond_its_stop_that_leaves_it_slowly_is_free() {
+    let (w, gap, away) = (20.0_f64, 0.015, 6e-8);
+    let free = model(&[w], diagonal(&[0.0]));
+    let system = System::new(free, &Load::default(), vec![element(&[1.0], 0.0, rigid(1.0, gap))]).unwrap();
+    let stretch = Stretch { frequency_hz: 3.5, start: 0.0, end: 0.5 };
+    let settings = GeneralSettings::with_tolerance(1e-11).state_only();
+    let angle = w * 0.5 / 3.5;
+    for beyond in [0.0, 1e-12, 1e-11, 2e-11] {
+        let state = [gap + beyond, -away];
+        let found = advance(&system, &stretch, &state, &settings).unwrap();
+        let expected = state[0] * angle.cos() + state[1] / w * angle.sin();
+        assert!((found.flow.state[0] - expected).abs() < 1e-10 * gap.max(1.0), "{beyond}");
+        assert!(found.counts.steps < 500, "{beyond}: {} steps", found.counts.steps);
     }
 }
 

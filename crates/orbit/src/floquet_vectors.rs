@@ -138,6 +138,7 @@ pub(crate) fn shifted(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::eigenvalues::eigenvalues;
 
     /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded
     /// away.
@@ -147,6 +148,45 @@ mod tests {
             let vector =
                 null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
             assert!((vector[1] / vector[0] + 3.0).abs() < 1e-9, "{vector:?} at {size}");
+        }
+    }
+
+    /// By differences: with the derivatives of a multiplier by the entries of one segment, all other errors
+    /// zero, the worst error of the norm e moves it by e times the root of the sum of their squares.
+    #[test]
+    fn a_multiplier_moves_as_far_as_its_condition_says() {
+        let segments: [[f64; 9]; 3] = [
+            [30.0, 2.0, -1.0, 0.3, 0.9, 0.5, 0.1, -0.7, 0.8],
+            [0.4, -0.2, 0.1, 5.0, 0.7, -0.9, 2.0, 0.6, 0.4],
+            [1.1, 0.3, -0.4, 0.2, 0.05, 0.6, -0.8, 0.9, 0.2],
+        ];
+        let product = |segments: &[[f64; 9]; 3]| {
+            let times = |a: &[f64], b: &[f64]| -> Vec<f64> {
+                (0..9).map(|k| (0..3).map(|j| a[k / 3 * 3 + j] * b[3 * j + k % 3]).sum()).collect()
+            };
+            times(&segments[2], &times(&segments[1], &segments[0]))
+        };
+        let multipliers =
+            |segments: &[[f64; 9]; 3]| eigenvalues(3, &product(segments)).expect("it converges");
+        let borrowed: Vec<&[f64]> = segments.iter().map(<[f64; 9]>::as_slice).collect();
+        for (k, multiplier) in multipliers(&segments).into_iter().enumerate() {
+            let condition =
+                Condition::of(3, &borrowed, &product(&segments), multiplier).expect("it is finite");
+            let mut expected = 0.0;
+            for of in 0..3 {
+                let squares = (0..9).map(|entry| {
+                    let moved = |h: f64| {
+                        let mut moved = segments;
+                        moved[of][entry] += h;
+                        multipliers(&moved)[k]
+                    };
+                    let (up, down) = (moved(1e-6), moved(-1e-6));
+                    ((up[0] - down[0]).hypot(up[1] - down[1]) / 2e-6).powi(2)
+                });
+                expected += squares.sum::<f64>().sqrt() * norm(&segments[of]);
+            }
+            let found = condition.of_segments;
+            assert!((found / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {found} and {expected}");
         }
     }
 

@@ -29,7 +29,8 @@ use super::{
 
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
-/// What a state at the start, or one that was held, may be off a stop, relative to the same.
+/// What a state at the start, or one that was held, may be off a stop, relative to the same: as far as orbits
+/// are compared.
 pub(super) const AT_START: f64 = 1e-9;
 /// Speed, relative to the usual one, below which it is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
