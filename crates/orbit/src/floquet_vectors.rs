@@ -151,42 +151,41 @@ mod tests {
         }
     }
 
-    /// By differences: with the derivatives of a multiplier by the entries of one segment, all other errors
-    /// zero, the worst error of the norm e moves it by e times the root of the sum of their squares.
+    fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
+        (0..9).map(|k| (0..3).map(|j| a[k / 3 * 3 + j] * b[3 * j + k % 3]).sum()).collect()
+    }
+
+    /// Root of the sum of the squared derivatives of the eigenvalue of that number by the entries of a matrix,
+    /// by differences: the worst error of the norm e moves it by e times as much.
+    fn most_moved(k: usize, product: impl Fn(&[f64]) -> Vec<f64>, matrix: &[f64]) -> f64 {
+        let squares = (0..9).map(|entry| {
+            let [up, down] = [1e-6, -1e-6].map(|h| {
+                let mut moved = matrix.to_vec();
+                moved[entry] += h;
+                eigenvalues(3, &product(&moved)).expect("it converges")[k]
+            });
+            ((up[0] - down[0]).hypot(up[1] - down[1]) / 2e-6).powi(2)
+        });
+        squares.sum::<f64>().sqrt()
+    }
+
     #[test]
     fn a_multiplier_moves_as_far_as_its_condition_says() {
-        let segments: [[f64; 9]; 3] = [
-            [30.0, 2.0, -1.0, 0.3, 0.9, 0.5, 0.1, -0.7, 0.8],
-            [0.4, -0.2, 0.1, 5.0, 0.7, -0.9, 2.0, 0.6, 0.4],
-            [1.1, 0.3, -0.4, 0.2, 0.05, 0.6, -0.8, 0.9, 0.2],
-        ];
-        let product = |segments: &[[f64; 9]; 3]| {
-            let times = |a: &[f64], b: &[f64]| -> Vec<f64> {
-                (0..9).map(|k| (0..3).map(|j| a[k / 3 * 3 + j] * b[3 * j + k % 3]).sum()).collect()
-            };
-            times(&segments[2], &times(&segments[1], &segments[0]))
-        };
-        let multipliers =
-            |segments: &[[f64; 9]; 3]| eigenvalues(3, &product(segments)).expect("it converges");
-        let borrowed: Vec<&[f64]> = segments.iter().map(<[f64; 9]>::as_slice).collect();
-        for (k, multiplier) in multipliers(&segments).into_iter().enumerate() {
-            let condition =
-                Condition::of(3, &borrowed, &product(&segments), multiplier).expect("it is finite");
-            let mut expected = 0.0;
-            for of in 0..3 {
-                let squares = (0..9).map(|entry| {
-                    let moved = |h: f64| {
-                        let mut moved = segments;
-                        moved[of][entry] += h;
-                        multipliers(&moved)[k]
-                    };
-                    let (up, down) = (moved(1e-6), moved(-1e-6));
-                    ((up[0] - down[0]).hypot(up[1] - down[1]) / 2e-6).powi(2)
-                });
-                expected += squares.sum::<f64>().sqrt() * norm(&segments[of]);
-            }
-            let found = condition.of_segments;
-            assert!((found / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {found} and {expected}");
+        let first = [30.0, 2.0, -1.0, 0.3, 0.9, 0.5, 0.1, -0.7, 0.8];
+        let second = [0.4, -0.2, 0.1, -5.0, 0.7, -9.0, 2.0, 6.0, 0.4];
+        let third = [1.1, 0.3, -0.4, 0.2, 0.05, 0.6, -0.8, 0.9, 0.2];
+        let product = times(&third, &times(&second, &first));
+        let multipliers = eigenvalues(3, &product).expect("it converges");
+        assert_eq!(multipliers.iter().filter(|[_, im]| *im != 0.0).count(), 2, "a pair and a real one");
+        for (k, multiplier) in multipliers.into_iter().enumerate() {
+            let condition = Condition::of(3, &[&first, &second, &third], &product, multiplier);
+            let Condition { of_segments, of_product } = condition.expect("it is finite");
+            let expected = norm(&first) * most_moved(k, |m| times(&third, &times(&second, m)), &first)
+                + norm(&second) * most_moved(k, |m| times(&third, &times(m, &first)), &second)
+                + norm(&third) * most_moved(k, |m| times(m, &times(&second, &first)), &third);
+            assert!((of_segments / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {of_segments}, {expected}");
+            let expected = most_moved(k, <[f64]>::to_vec, &product);
+            assert!((of_product / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {of_product}, {expected}");
         }
     }
 

@@ -26,9 +26,10 @@
 //! their matrices are known to rounding.
 //!
 //! Yet the errors of the segments are no errors in any direction: each of them is carried on by the motion.
-//! On an orbit that is stretched by 1e5 between two nodes, the pseudospectrum is that much too wide. So a
-//! multiplier is on the circle only if it is no farther off than twice what these errors move it by to first
-//! order, too ([`Condition`]). Of a pair that meets, where first order fails, that is as far as it parts.
+//! On an orbit that is stretched by 300 in each of two segments and comes back in the third, the
+//! pseudospectrum is 150 times too wide. So a multiplier is on the circle only if it is no farther off than
+//! twice what these errors move it by to first order, too ([`Condition`]). Of a pair that meets, where first
+//! order fails, that is as far as it parts; where three or more meet, it is less.
 //!
 //! Measured on undamped systems, whose multipliers lie on the circle exactly: see the tests of the
 //! verification crate.
@@ -40,8 +41,8 @@ use hammerbeam_path::DenseLu;
 
 use crate::floquet_vectors::{Condition, norm, shifted};
 
-/// Steps of the tolerance of the motion in the error of a monodromy matrix: those of an orbit, whose errors
-/// add.
+/// Steps of the tolerance of the motion in the error of a matrix, whose errors add; those of an orbit, and
+/// allowed for each of its segments.
 const STEPS: f64 = 8.0;
 /// How far a multiplier may be moved by errors, in what they do to first order.
 const MOVED: f64 = 2.0;
@@ -163,6 +164,34 @@ mod tests {
     use super::*;
 
     const ERROR: f64 = 1e-11;
+
+    /// A pair that turns by an angle and grows by a factor, beside what is stretched.
+    fn turned(stretch: f64, growth: f64, angle: f64) -> Vec<f64> {
+        let (c, s) = (growth * angle.cos(), growth * angle.sin());
+        vec![stretch, 0.0, 0.0, 0.0, c, -s, 0.0, s, c]
+    }
+
+    /// The product is known to 9e4 times the tolerance, the pair beside it to 600 times.
+    #[test]
+    fn what_is_stretched_between_the_nodes_leaves_a_pair_beside_it_known() {
+        let accuracy = Accuracy { motion_tolerance: 5e-12, residual: 0.0, rounding: 0.0 };
+        let reaches = |off: f64| {
+            let segments = [turned(300.0, 1.0, 0.4), turned(300.0, 1.0, 0.4), turned(1e-5, 1.0 + off, 0.4)];
+            let products = vec![
+                turned(1.0, 1.0, 0.0),
+                turned(300.0, 1.0, 0.4),
+                turned(9e4, 1.0, 0.8),
+                turned(0.9, 1.0 + off, 1.2),
+            ];
+            let borrowed = segments.iter().map(Vec::as_slice).collect();
+            let known = KnownMatrix::of_orbit(3, borrowed, &products, &accuracy);
+            let pair = [(1.0 + off) * 1.2_f64.cos(), (1.0 + off) * 1.2_f64.sin()];
+            assert!(off < known.error, "the product alone does not tell");
+            known.reaches(pair, off)
+        };
+        assert!(reaches(1e-9));
+        assert!(!reaches(1e-6));
+    }
 
     /// At -1: a multiplier that is alone is off by the error, one of a defective pair by its root.
     #[test]

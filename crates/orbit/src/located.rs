@@ -26,7 +26,7 @@ pub(crate) use place::{Approach, Place};
 const SHARP_FREQUENCY: f64 = 1e-8;
 /// Distance of the critical multiplier from its place that a located fold, flip or Neimark-Sacker point may
 /// have.
-const SHARP_MULTIPLIER: f64 = 1e-5;
+pub(crate) const SHARP_MULTIPLIER: f64 = 1e-5;
 /// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a
 /// branch crosses, an orbit is known to the root of the tolerance only.
 const MIRRORED: f64 = 1e-3;

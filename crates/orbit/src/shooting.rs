@@ -325,13 +325,20 @@ impl ShootingProblem {
     }
 
     /// The monodromy matrix at the last evaluated point, and what is known of it.
-    pub fn known_matrix(&self) -> KnownMatrix<'_> {
+    fn known_matrix(&self) -> KnownMatrix<'_> {
         let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
         let rounding = self.scale.relative_rate(self.rounding);
         let motion_tolerance = if self.is_short_flight { 0.0 } else { self.motion_tolerance() };
         let accuracy = Accuracy { motion_tolerance, residual, rounding };
         let segments = self.segment_matrices.iter().map(Vec::as_slice).collect();
         KnownMatrix::of_orbit(self.node_size(), segments, &self.products, &accuracy)
+    }
+
+    /// How far a multiplier at the last evaluated point may be from its place on the unit circle; infinite
+    /// where the orbit is cut at a touch at which a force sets in with a jump, so that its matrices are those
+    /// of no cut.
+    pub fn reach_of(&self, multiplier: [f64; 2]) -> f64 {
+        if self.jumps_at_cut { f64::INFINITY } else { self.known_matrix().reach_from(multiplier) }
     }
 
     /// Whether flips and Neimark-Sacker points are looked for.

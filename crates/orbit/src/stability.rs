@@ -30,10 +30,13 @@ const ON_CIRCLE: f64 = 1e-7;
 /// circle is not followed in steps below 0.09 rad for that.
 const WITHIN: f64 = 1e-3;
 
+/// The most that a distance from -1 counts in [`flip`].
+pub(crate) const MOST_COUNTED: f64 = 1e3;
+
 /// Vanishes where a multiplier is -1.
 pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
     // Factors far from zero say nothing, and might overflow.
-    let factor = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im).clamp(0.0, 1e3);
+    let factor = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im).min(MOST_COUNTED);
     let count = multipliers.iter().filter(|[re, im]| *im == 0.0 && *re < -1.0).count() as u32;
     signed(multipliers.iter().map(factor).product(), count)
 }
@@ -94,11 +97,11 @@ pub(crate) fn fold(multipliers: &[[f64; 2]]) -> TestValue {
     flip(&mirrored)
 }
 
-/// The multiplier that is nearest to +1, and the absolute value of [`fold`] without it.
-pub(crate) fn fold_without_nearest(multipliers: &[[f64; 2]]) -> Option<([f64; 2], f64)> {
-    let mut left = multipliers.to_vec();
-    let nearest = remove_least(&mut left, from_one)?;
-    Some((nearest, fold(&left).value.abs()))
+/// The multiplier that is nearest to +1, and the others.
+pub(crate) fn nearest_to_one(multipliers: &[[f64; 2]]) -> Option<([f64; 2], Vec<[f64; 2]>)> {
+    let mut others = multipliers.to_vec();
+    let nearest = remove_least(&mut others, from_one)?;
+    Some((nearest, others))
 }
 
 fn from_one([re, im]: &[f64; 2]) -> f64 {

@@ -29,9 +29,10 @@ use super::{
 
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
-/// What a state at the start, or one that was held, may be off a stop, relative to the same: as far as orbits
-/// are compared.
-pub(super) const AT_START: f64 = 1e-9;
+/// What a state at the start, or one that was held, may be off a stop, relative to the same.
+pub(super) const AT_START: f64 = 1e-10;
+/// What a state that leaves a stop may be beyond it, relative to the same: as far as orbits are compared.
+const LEAVING: f64 = 1e-9;
 /// Speed, relative to the usual one, below which it is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
 
@@ -236,8 +237,8 @@ impl SystemField<'_> {
         }
     }
 
-    /// Moves an element that leaves its stop to before it, if it is no farther beyond than a state at the
-    /// start may be: as far as it has drifted while it was held. A stop that is left without speed would be
+    /// Moves an element that leaves its stop to before it, if it is no farther beyond than orbits
+    /// are known, or than it has drifted while it was held. A stop that is left without speed would be
     /// met again with each next step else.
     fn put_before(&self, e: usize, time: f64, state: &mut [f64]) {
         let n = self.system.dof();
@@ -247,7 +248,7 @@ impl SystemField<'_> {
         let carried = self.carried(&element.support_ratios, time)[0].abs();
         let rounding = AT_REST * parts.fold(level.abs() + carried, |sum, part| sum + part);
         let beyond = self.relative_displacement(element, &state[..n], time) - level;
-        let way = AT_START * self.usual_speed(e, state) * self.period;
+        let way = LEAVING * self.usual_speed(e, state) * self.period;
         if (-rounding..way).contains(&beyond) {
             let direction = self.free_direction(e);
             let back = (beyond + rounding) / dot(&element.shape, &direction);

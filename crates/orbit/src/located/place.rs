@@ -84,6 +84,7 @@ impl Approach {
         let zeros = current.events.zeros;
         let test = (zeros != 0).then(|| tests.get(zeros.trailing_zeros() as usize).copied()).flatten();
         let mut approach = Self { near, ..Self::over(0.0, test, (problem, current.correction_norm)) };
+        // The point before stays in the history, where only the present one counts behind an event, too.
         if let [base, before, ..] = follower.state().history.nodes.as_slice() {
             let last = base.point.len() - 1;
             approach.chord = distance(problem.weights(), &base.point, &before.point);

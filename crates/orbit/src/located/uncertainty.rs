@@ -13,7 +13,8 @@
 //!   matrix is known to an error ([`known_matrix`](crate::known_matrix)), with which the multiplier may lie
 //!   as far off as that moves it, by `d`; `d` counts also how far the search left it from its place. The test
 //!   function `g` of these points is a product of factors, of which the critical one goes with the
-//!   multiplier: `s` is no less than `d |dg/dm| c/|g_1|`.
+//!   multiplier: `s` is no less than `d |dg/dm| c/|g_1|`. A factor below d, as of a pair that meets there,
+//!   counts as d.
 //! * A branch point is where a real multiplier reaches +1. With the product g of `1 - m` over all
 //!   multipliers, for which the point before is asked, the frequency is uncertain by
 //!   `d |dg/dm| |f_1 - f|/|g_1|` on the branch that is left, and by twice that on an arm of a pitchfork,
@@ -29,7 +30,7 @@ use hammerbeam_path::{PathProblem, norm, weighed};
 use super::place::{Approach, Place};
 use crate::{
     shooting::ShootingProblem,
-    stability::{flip_without, fold, fold_without_nearest},
+    stability::{MOST_COUNTED, nearest_to_one, without_at_minus_one},
 };
 
 /// Error of the motion over a period, in tolerances of its steps.
@@ -95,34 +96,46 @@ fn of_multiplier(
     approach: &Approach,
     (zeros, multiplier): (u32, [f64; 2]),
 ) -> f64 {
-    let (Some(test), Ok(spectrum)) = (approach.test, problem.spectrum()) else { return approach.chord };
-    // Of a flip the product of the other factors; of a pair the function is `1 - |m|^2`.
-    let change = if zeros & 1 != 0 { flip_without(spectrum, test.left_out + 1).value.abs() } else { 2.0 };
+    let Some(test) = approach.test else { return approach.chord };
     let [re, im] = multiplier;
-    let off = (1.0 - re.hypot(im)).abs();
-    share_of(approach, (problem.known_matrix().reach_from(multiplier) + off) * change, test.value)
+    let off = problem.reach_of(multiplier) + (1.0 - re.hypot(im)).abs();
+    // Of a pair the function is `1 - |m|^2`.
+    let is_flip = zeros & 1 != 0;
+    let change = match problem.spectrum() {
+        Ok(spectrum) if is_flip => distances(&without_at_minus_one(spectrum, test.left_out + 1), -1.0, off),
+        Ok(_) => 2.0,
+        Err(_) => return approach.chord,
+    };
+    share_of(approach, off * change, test.value)
 }
 
 /// Interval of the frequency within which a branch point lies, by the motion at it and at the point before.
 fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
-    let (Some(before), Ok(spectrum)) = (&approach.before, problem.spectrum()) else { return 0.0 };
-    let Some((multiplier, change)) = fold_without_nearest(&spectrum.multipliers) else { return 0.0 };
-    let reach = problem.known_matrix().reach_from(multiplier);
-    let off = (1.0 - multiplier[0]).hypot(multiplier[1]);
-    let last = before.len() - 1;
-    let way = (before[last] - place.point.parameter()).abs();
+    let nearest = problem.spectrum().ok().and_then(|spectrum| nearest_to_one(&spectrum.multipliers));
+    let (Some(before), Some((multiplier, others))) = (&approach.before, nearest) else {
+        return approach.chord;
+    };
+    let off = problem.reach_of(multiplier) + (1.0 - multiplier[0]).hypot(multiplier[1]);
+    let way = (before[before.len() - 1] - place.point.parameter()).abs();
     let test = problem.evaluate(before).ok().and_then(|()| {
         let spectrum = problem.spectrum().ok()?;
-        Some(fold(&spectrum.multipliers).value.abs())
+        Some(distances(&spectrum.multipliers, 1.0, 0.0))
     });
     // The motion at the branch point is asked for next.
     let returned = problem.evaluate(&place.point.point);
     match test {
         Some(test) if returned.is_ok() => {
-            (ARM * (reach + off) * change * way / test.max(f64::MIN_POSITIVE)).min(way)
+            let slope = ARM * way / test.max(f64::MIN_POSITIVE);
+            (off * distances(&others, 1.0, off) * slope).min(approach.chord)
         }
-        _ => way,
+        _ => approach.chord,
     }
+}
+
+/// Product of the distances of multipliers from a place, each no less than this, and no more than test
+/// functions count.
+fn distances(multipliers: &[[f64; 2]], place: f64, least: f64) -> f64 {
+    multipliers.iter().map(|[re, im]| (re - place).hypot(*im).max(least).min(MOST_COUNTED)).product()
 }
 
 /// The part of the chord over which a test function with this value at its beginning changes by so much.

@@ -6,7 +6,7 @@
 //! although nothing happens at either that accounts for it, the place between is found by halving. Where the
 //! contacts change, multipliers may jump, and nothing is asked.
 
-use hammerbeam_path::{ContinuationPoint, PathEvents, solve_between};
+use hammerbeam_path::{ContinuationPoint, PathEvents, TestValue, solve_between};
 
 use super::{
     orbit_path::OrbitPath,
@@ -156,9 +156,11 @@ fn event_row(
     }
     point.events = PathEvents { zeros: if is_pair { 2 } else { 1 }, ..PathEvents::default() };
     let at_corners = path.follower.settings().min_step;
-    let pairs = staying as u32 / 2;
-    let test = if is_pair { neimark_sacker_without(known, pairs) } else { flip_without(known, 0) };
-    let approach = located::Approach::over(chord, Some(test), (&path.problem, point.correction_norm));
+    let approach = located::Approach::over(
+        chord,
+        test_before(known, staying, is_pair),
+        (&path.problem, point.correction_norm),
+    );
     let place = located::Place { at_corners, ..located::Place::reached(&point, approach) };
     let located = located::describe(&mut path.problem, place);
     let row = BranchRow { located, ..row_at(path, &point)? };
@@ -189,6 +191,16 @@ fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]
         !**is_on || on > staying
     });
     moves.map(|(multiplier, _)| multiplier)
+}
+
+/// The test function of a pair, or of a flip, at the end that is known; `None` where the pair is real there.
+fn test_before(known: &Spectrum, staying: usize, is_pair: bool) -> Option<TestValue> {
+    if !is_pair {
+        return Some(flip_without(known, 0));
+    }
+    let pairs = || known.multipliers.iter().zip(&known.on_circle).filter(|([_, im], _)| *im > 0.0);
+    let stay = pairs().filter(|(_, on)| **on).count().min(staying / 2);
+    (pairs().count() > stay).then(|| neimark_sacker_without(known, stay as u32))
 }
 
 pub(super) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {

@@ -22,7 +22,7 @@ use super::{
     settings::path_settings,
 };
 use crate::{
-    BranchRow, EventStatus, OrbitError, OrbitSettings, StopReason, located,
+    BranchRow, OrbitError, OrbitSettings, StopReason, located,
     shooting::ShootingProblem,
     solve::{evaluate, nodes_from},
 };
@@ -207,7 +207,8 @@ fn flip_ahead(
         let is_smooth = !point.events.corner && follower.passed_corner().is_none();
         let approach = located::Approach::of(&follower, problem, point);
         let located = located::describe(problem, located::Place::reached(point, approach))?;
-        let is_flip = is_near && is_smooth && located.status == EventStatus::Located;
+        let off = located.multiplier.map_or(f64::INFINITY, |[re, im]| (1.0 + re).hypot(im));
+        let is_flip = is_near && is_smooth && off <= located::SHARP_MULTIPLIER;
         return is_flip.then(|| Flip {
             nodes: problem.nodes(&point.point),
             point: point.clone(),

@@ -43,6 +43,11 @@ impl Bracket {
         (value.abs() / self.slope().max(f64::MIN_POSITIVE)).min(self.width())
     }
 
+    /// Whether no probe had the sign of the beginning.
+    pub fn begins_at_start(&self) -> bool {
+        self.low.0 == 0.0
+    }
+
     /// The place of the newest probe.
     pub fn newest(&self) -> f64 {
         self.known[self.known.len() - 1].0

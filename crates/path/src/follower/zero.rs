@@ -173,9 +173,11 @@ impl Ends {
 
     /// How far behind the last point that one lies behind which the zero is, where it is not within the step:
     /// the function has the sign of its end right from the last point on, and is no smaller than there.
-    fn lies_behind(&self, value: f64) -> Option<f64> {
-        let is_behind = value * self.high > 0.0 && value.abs() > JUMP_SIZE * self.low.abs();
-        self.taken_over.filter(|_| is_behind)
+    ///
+    /// * `value`: of the newest probe.
+    fn lies_behind(&self, bracket: &Bracket, value: f64) -> Option<f64> {
+        let at_last_point = bracket.begins_at_start() && bracket.newest() <= JUMP_WIDTH * self.length;
+        self.taken_over.filter(|_| at_last_point && value.abs() > JUMP_SIZE * self.low.abs())
     }
 }
 
@@ -213,7 +215,7 @@ fn arrive_at_zero(
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
     let mut uncertainty = bracket.uncertainty(value);
-    if let Some(behind) = ends.lies_behind(value) {
+    if let Some(behind) = ends.lies_behind(&bracket, value) {
         // The last point is as near to it as the step can end.
         uncertainty = behind + bracket.newest();
     } else if value.abs() > JUMP_SIZE * ends.size {
