@@ -155,8 +155,8 @@ mod tests {
         (0..9).map(|k| (0..3).map(|j| a[k / 3 * 3 + j] * b[3 * j + k % 3]).sum()).collect()
     }
 
-    /// Root of the sum of the squared derivatives of the eigenvalue of that number by the entries of a matrix,
-    /// by differences: the worst error of the norm e moves it by e times as much.
+    /// Root of the sum of the squared derivatives of the eigenvalue of that number by the entries of a
+    /// matrix, by differences: the worst error of the norm e moves it by e times as much.
     fn most_moved(k: usize, product: impl Fn(&[f64]) -> Vec<f64>, matrix: &[f64]) -> f64 {
         let squares = (0..9).map(|entry| {
             let [up, down] = [1e-6, -1e-6].map(|h| {
