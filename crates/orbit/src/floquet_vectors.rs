@@ -22,6 +22,8 @@
 
 use hammerbeam_path::DenseLu;
 
+use crate::by_rows::{norm, shifted, times, transposed};
+
 /// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
 const MOST_SHIFTS: u32 = 8;
 
@@ -79,20 +81,6 @@ fn length(vector: &[Vec<f64>]) -> f64 {
     vector.iter().map(|part| norm(part)).fold(0.0, f64::hypot)
 }
 
-/// Root of the sum of the squared entries.
-pub(crate) fn norm(matrix: &[f64]) -> f64 {
-    matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
-}
-
-fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
-    let rows = matrix.chunks_exact(vector.len());
-    rows.map(|row| row.iter().zip(vector).map(|(entry, value)| entry * value).sum()).collect()
-}
-
-fn transposed(size: usize, matrix: &[f64]) -> Vec<f64> {
-    (0..size * size).map(|k| matrix[k % size * size + k / size]).collect()
-}
-
 /// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the
 /// matrix is not finite.
 pub(crate) fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
@@ -117,24 +105,6 @@ pub(crate) fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>
     Some(vector)
 }
 
-/// `A - z I` of a matrix by rows; for a complex number `[A - a I, b I; -b I, A - a I]`, which acts on real
-/// and imaginary parts.
-pub(crate) fn shifted(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> Vec<f64> {
-    let blocks = if im == 0.0 { 1 } else { 2 };
-    let width = blocks * size;
-    let mut matrix = vec![0.0; width * width];
-    for (i, row) in matrix.chunks_exact_mut(width).enumerate() {
-        let (block, of_block) = (i / size, i % size);
-        row[block * size..(block + 1) * size]
-            .copy_from_slice(&by_rows[of_block * size..(of_block + 1) * size]);
-        row[i] -= re;
-        if blocks == 2 {
-            row[(1 - block) * size + of_block] = if block == 0 { im } else { -im };
-        }
-    }
-    matrix
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,7 +121,7 @@ mod tests {
         }
     }
 
-    fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
+    fn product_of(a: &[f64], b: &[f64]) -> Vec<f64> {
         (0..9).map(|k| (0..3).map(|j| a[k / 3 * 3 + j] * b[3 * j + k % 3]).sum()).collect()
     }
 
@@ -174,15 +144,16 @@ mod tests {
         let first = [30.0, 2.0, -1.0, 0.3, 0.9, 0.5, 0.1, -0.7, 0.8];
         let second = [0.4, -0.2, 0.1, -5.0, 0.7, -9.0, 2.0, 6.0, 0.4];
         let third = [1.1, 0.3, -0.4, 0.2, 0.05, 0.6, -0.8, 0.9, 0.2];
-        let product = times(&third, &times(&second, &first));
+        let product = product_of(&third, &product_of(&second, &first));
         let multipliers = eigenvalues(3, &product).expect("it converges");
         assert_eq!(multipliers.iter().filter(|[_, im]| *im != 0.0).count(), 2, "a pair and a real one");
         for (k, multiplier) in multipliers.into_iter().enumerate() {
             let condition = Condition::of(3, &[&first, &second, &third], &product, multiplier);
             let Condition { of_segments, of_product } = condition.expect("it is finite");
-            let expected = norm(&first) * most_moved(k, |m| times(&third, &times(&second, m)), &first)
-                + norm(&second) * most_moved(k, |m| times(&third, &times(m, &first)), &second)
-                + norm(&third) * most_moved(k, |m| times(m, &times(&second, &first)), &third);
+            let expected = norm(&first)
+                * most_moved(k, |m| product_of(&third, &product_of(&second, m)), &first)
+                + norm(&second) * most_moved(k, |m| product_of(&third, &product_of(m, &first)), &second)
+                + norm(&third) * most_moved(k, |m| product_of(m, &product_of(&second, &first)), &third);
             assert!((of_segments / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {of_segments}, {expected}");
             let expected = most_moved(k, <[f64]>::to_vec, &product);
             assert!((of_product / expected - 1.0).abs() < 1e-5, "{multiplier:?}: {of_product}, {expected}");

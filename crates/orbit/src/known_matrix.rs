@@ -39,7 +39,10 @@
 
 use hammerbeam_path::DenseLu;
 
-use crate::floquet_vectors::{Condition, norm, shifted};
+use crate::{
+    by_rows::{norm, shifted},
+    floquet_vectors::Condition,
+};
 
 /// Steps of the tolerance of the motion in the error of a matrix, whose errors add; those of an orbit, and
 /// allowed for each of its segments.

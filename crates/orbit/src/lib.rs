@@ -30,7 +30,7 @@
 //! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
 //!   stable, marginal, unstable
 //! - `known_matrix.rs`, `floquet_vectors.rs`: what is known of a monodromy matrix, and how far that moves a
-//!   multiplier
+//!   multiplier; `by_rows.rs`: what they and others do with matrices
 //! - `stability.rs`, `located.rs`: test functions of flips and Neimark-Sacker points; what is known of an
 //!   event
 //! - `switch.rs`: leaving a flip or branch point onto the other branch
@@ -99,6 +99,7 @@
 mod arrival;
 mod backbone;
 mod beginning;
+mod by_rows;
 mod catalogue;
 mod checkpoint;
 mod continuation_parameter;

@@ -14,7 +14,8 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, PathProblem, norm, weighed};
 
 use crate::{
-    floquet_vectors::{null_vector, shifted},
+    by_rows::shifted,
+    floquet_vectors::null_vector,
     shooting::ShootingProblem,
     spectrum::Spectrum,
     stability::{without_at_minus_one, without_pairs},

@@ -1,7 +1,7 @@
 //! Floquet multipliers, and which of them lie on the unit circle as well as they are known: see
 //! `known_matrix.rs`.
 
-use crate::{NoEigenvalues, eigenvalues::eigenvalues, floquet_vectors::norm, known_matrix::KnownMatrix};
+use crate::{NoEigenvalues, by_rows::norm, eigenvalues::eigenvalues, known_matrix::KnownMatrix};
 
 /// What is known of the stability of a periodic solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -77,16 +77,12 @@ impl Spectrum {
         // Two multipliers that meet part by the root of the error times the norm at most.
         let reach = known.error.max(2.0 * (known.error * norm(known.by_rows)).sqrt());
         let minus_one = [-1.0, 0.0];
-        let mut at_minus_one: Vec<bool> = multipliers
-            .iter()
-            .map(|mu| {
-                let off = (1.0 + mu[0]).hypot(mu[1]);
-                off <= reach && known.reaches(*mu, off)
-            })
-            .collect();
-        if at_minus_one.contains(&true) && !known.belongs(minus_one) {
-            at_minus_one.fill(false);
-        }
+        let off_minus_one = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im);
+        let near_minus_one = |mu: &[f64; 2]| off_minus_one(mu) <= reach;
+        let is_at_minus_one = multipliers.iter().any(near_minus_one) && known.belongs(minus_one);
+        let at_minus_one =
+            |mu: &[f64; 2]| is_at_minus_one && near_minus_one(mu) && known.reaches(*mu, off_minus_one(mu));
+        let at_minus_one = multipliers.iter().map(at_minus_one).collect();
         let mut on_circle = Vec::with_capacity(multipliers.len());
         for mu in &multipliers {
             let off = (mu[0].hypot(mu[1]) - 1.0).abs();

@@ -18,7 +18,7 @@ use hammerbeam_motion::{
 use hammerbeam_path::DenseLu;
 
 use super::touch::{Touch, largest_speed};
-use crate::{OrbitError, shooting::ShootingProblem};
+use crate::{OrbitError, by_rows::times, shooting::ShootingProblem};
 
 /// Longest time for which stops are opened beside a touch [cycles].
 const WIDEST: f64 = 1.0 / 32.0;
@@ -411,11 +411,6 @@ fn reach(problem: &ShootingProblem, element: usize) -> f64 {
 
 fn is_gap_of(parameter: Parameter, elements: &[usize]) -> bool {
     elements.iter().any(|&element| parameter == Parameter::gap(element))
-}
-
-/// `M v`, the matrix by rows.
-pub(super) fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
-    matrix.chunks_exact(vector.len()).map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum()).collect()
 }
 
 /// `A B` by rows.

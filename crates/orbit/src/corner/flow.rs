@@ -3,8 +3,9 @@
 
 use hammerbeam_motion::{Stretch, exact::ExactIntegrator};
 
-use super::equations::{Beside, TouchEquations, Unknowns, times, times_matrix};
+use super::equations::{Beside, TouchEquations, Unknowns, times_matrix};
 use crate::OrbitError;
+use crate::by_rows::times;
 
 /// The flow from one touch to the next in scaled states, the matrix by rows.
 pub(super) struct Passage {

@@ -9,10 +9,10 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     linear::Linear,
-    null::{null_space, transposed},
-    shooting::{Place, Shooting, dot, times},
+    null::null_space,
+    shooting::{Place, Shooting, dot},
 };
-use crate::floquet_vectors::shifted;
+use crate::by_rows::{shifted, times, transposed};
 
 /// The borders.
 #[derive(Debug, Clone)]

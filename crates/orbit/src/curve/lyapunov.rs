@@ -6,8 +6,9 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     normal_form::{Bend, Coefficient, answer, bends, is_answer, settled, summed},
-    shooting::{Place, Shooting, dot, times},
+    shooting::{Place, Shooting, dot},
 };
+use crate::by_rows::times;
 
 /// Real and imaginary part.
 pub(super) type Complex = [Vec<f64>; 2];

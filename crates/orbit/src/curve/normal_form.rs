@@ -30,8 +30,9 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     bordered::Vectors,
-    shooting::{Place, Shooting, dot, times},
+    shooting::{Place, Shooting, dot},
 };
+use crate::by_rows::times;
 
 /// Step along a vector, relative to the orbit, with which a coefficient far from zero is known well enough.
 const STEP: f64 = 1.25e-3;

@@ -34,7 +34,3 @@ pub(super) fn orthonormalise(columns: &mut [Vec<f64>]) {
         column[0].iter_mut().for_each(|x| *x /= length);
     }
 }
-
-pub(super) fn transposed(size: usize, matrix: &[f64]) -> Vec<f64> {
-    (0..size * size).map(|k| matrix[k % size * size + k / size]).collect()
-}

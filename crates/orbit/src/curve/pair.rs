@@ -11,10 +11,13 @@ use hammerbeam_motion::exact::MotionError;
 use super::{
     linear::Linear,
     lyapunov,
-    null::{null_space, transposed},
-    shooting::{Place, Shooting, dot, times},
+    null::null_space,
+    shooting::{Place, Shooting, dot},
 };
-use crate::eigenvalues::eigenvalues;
+use crate::{
+    by_rows::{times, transposed},
+    eigenvalues::eigenvalues,
+};
 
 /// The pair that is followed.
 #[derive(Debug, Clone, Copy)]

@@ -13,8 +13,9 @@ use super::{
     linear::Linear,
     marks,
     opposite::opposite_clearance,
-    shooting::{Place, Shooting, times},
+    shooting::{Place, Shooting},
 };
+use crate::by_rows::times;
 
 /// The extended equations.
 #[derive(Debug)]

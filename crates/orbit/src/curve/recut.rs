@@ -86,7 +86,7 @@ fn carried(
         let stretch = Stretch { frequency_hz: place.frequency_hz, start: begin, end: begin + offset };
         let node = k * size..(k + 1) * size;
         let flow = shooting.flow_over((stretch, false), &point[node.clone()])?;
-        let slope = super::shooting::times(&flow.matrix, &tangent[node.clone()]);
+        let slope = crate::by_rows::times(&flow.matrix, &tangent[node.clone()]);
         for i in 0..size {
             point[k * size + i] = flow.end[i];
             tangent[k * size + i] =

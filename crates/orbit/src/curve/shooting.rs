@@ -12,6 +12,7 @@ use hammerbeam_motion::{
 use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
+    by_rows::times,
     known_matrix::{Accuracy, KnownMatrix},
     spectrum::Spectrum,
     state_scale::StateScale,
@@ -225,11 +226,6 @@ impl Shooting {
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// `M v`, the matrix by rows.
-pub(super) fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
-    matrix.chunks_exact(vector.len()).map(|row| dot(row, vector)).collect()
 }
 
 /// `w^T M`, the matrix by rows.

@@ -14,7 +14,7 @@ use super::{
     beside::{Beginning, Beside, KnownImages},
     carried::{Along, Carried},
 };
-use crate::{corner, floquet_vectors::norm, stability};
+use crate::{by_rows::norm, corner, stability};
 
 /// Images that are known less well tell nothing.
 const MOST_MAGNIFIED: f64 = 1e3;
