@@ -65,6 +65,10 @@ fn free_vibrations_that_repeat_with_the_motion_are_one_solution_and_no_branch() 
     let again = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&again)).unwrap();
     assert_eq!(document["branches"].as_array().unwrap().len(), 1, "{document}");
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let ends = workshop.table("results/export/ends.csv");
+    let words: Vec<&str> = ends.iter().map(|end| end["end"].as_str()).collect();
+    assert!(words.contains(&"free-vibration") && !words.contains(&"unbounded"), "{words:?}");
 }
 
 /// At the eigenfrequency there is no periodic motion, and `orbit` says why.

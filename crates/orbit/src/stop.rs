@@ -80,13 +80,21 @@ pub enum StopReason {
         has_no_losses: bool,
     },
     /// The amplitude has no bound while the parameter stands still: the branch goes to infinity, and what
-    /// lies beyond is another one; or a mode without damping vibrates freely at a multiple of the frequency;
-    /// or nothing takes energy out of the motion, which went so far beyond all gaps that no step was found.
+    /// lies beyond is another one; or nothing takes energy out of the motion, which went so far beyond all
+    /// gaps that no step was found.
     Unbounded {
         /// Where [Hz].
         frequency_hz: f64,
         /// The mode that resonates, where that is one of the structure alone.
         mode: Option<ResonantMode>,
+    },
+    /// A mode without damping, which is not driven, vibrates freely at a multiple of the frequency: motions of
+    /// every amplitude of it are periodic there, and none of them leads on.
+    FreeVibration {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// The mode.
+        mode: ResonantMode,
     },
     /// The walk took more work than it may, or than it may without getting on.
     TooMuchWork {
@@ -133,6 +141,7 @@ impl StopReason {
             | Self::ContactReopens { frequency_hz, .. }
             | Self::NoProgress { frequency_hz, .. }
             | Self::Unbounded { frequency_hz, .. }
+            | Self::FreeVibration { frequency_hz, .. }
             | Self::TooMuchWork { frequency_hz, .. }
             | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
             Self::Closed | Self::Budget { .. } => None,
@@ -140,7 +149,7 @@ impl StopReason {
     }
 }
 
-/// A mode without damping, or with next to none, at whose resonance a branch goes to infinity.
+/// A mode without damping, or with next to none, at whose frequency or a part of it a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResonantMode {
     /// Its number, the lowest being 1.

@@ -40,6 +40,9 @@ impl Display for StopReason {
             Self::Unbounded { frequency_hz, .. } => {
                 write!(formatter, "the amplitude has no bound at {frequency_hz}")
             }
+            Self::FreeVibration { frequency_hz, mode } => {
+                write!(formatter, "{mode} and vibrates freely besides at {frequency_hz}")
+            }
             Self::TooMuchWork { frequency_hz, solutions, .. } => {
                 write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")
             }

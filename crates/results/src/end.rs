@@ -56,10 +56,10 @@ impl BranchEnd {
         self.stored().place
     }
 
-    /// Whether the branch goes to infinity.
+    /// Whether the amplitude may be any there: the branch goes to infinity, or a mode vibrates freely besides.
     #[must_use]
-    pub fn is_unbounded(&self) -> bool {
-        matches!(self, Self::Walk(StopReason::Unbounded { .. }))
+    pub fn has_any_amplitude(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::Unbounded { .. } | StopReason::FreeVibration { .. }))
     }
 
     /// Whether more budget lets the walk go on.
@@ -87,7 +87,7 @@ impl BranchEnd {
             self,
             Self::Walk(StopReason::RangeEnd { .. }) | Self::Crossing { .. } | Self::Joins { .. }
         );
-        is_end || self.is_closed() || self.is_unbounded() || self.is_shorter_period()
+        is_end || self.is_closed() || self.has_any_amplitude() || self.is_shorter_period()
     }
 }
 
@@ -174,8 +174,11 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             StoredEnd::at("no-progress", *frequency_hz).with(numbers)
         }
         StopReason::Unbounded { frequency_hz, mode } => {
-            let of_mode = mode.map(|mode| vec![mode.number as f64, mode.frequency_hz, mode.damping_ratio]);
-            StoredEnd::at("unbounded", *frequency_hz).with(of_mode.unwrap_or_default())
+            let of_mode = mode.as_ref().map_or_else(Vec::new, |mode| numbers_of(mode).to_vec());
+            StoredEnd::at("unbounded", *frequency_hz).with(of_mode)
+        }
+        StopReason::FreeVibration { frequency_hz, mode } => {
+            StoredEnd::at("free-vibration", *frequency_hz).with(numbers_of(mode))
         }
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
@@ -185,6 +188,14 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             StoredEnd::at("motion", *frequency_hz).saying(message)
         }
     }
+}
+
+fn numbers_of(mode: &ResonantMode) -> [f64; 3] {
+    [mode.number as f64, mode.frequency_hz, mode.damping_ratio]
+}
+
+fn mode_of([number, frequency_hz, damping_ratio]: [f64; 3]) -> ResonantMode {
+    ResonantMode { number: number as usize, frequency_hz, damping_ratio }
 }
 
 fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
@@ -218,9 +229,11 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
             StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses }
         }
         ("unbounded", [], frequency_hz) => StopReason::Unbounded { frequency_hz, mode: None },
-        ("unbounded", [number, at_hz, ratio], frequency_hz) => {
-            let mode = ResonantMode { number: *number as usize, frequency_hz: *at_hz, damping_ratio: *ratio };
-            StopReason::Unbounded { frequency_hz, mode: Some(mode) }
+        ("unbounded", &[number, at_hz, ratio], frequency_hz) => {
+            StopReason::Unbounded { frequency_hz, mode: Some(mode_of([number, at_hz, ratio])) }
+        }
+        ("free-vibration", &[number, at_hz, ratio], frequency_hz) => {
+            StopReason::FreeVibration { frequency_hz, mode: mode_of([number, at_hz, ratio]) }
         }
         ("too-much-work", [solutions, gets_on], frequency_hz) => {
             let solutions = *solutions as u64;
@@ -321,6 +334,7 @@ pub(crate) mod tests {
             },
             StopReason::Unbounded { frequency_hz, mode: Some(mode) },
             StopReason::Unbounded { frequency_hz, mode: None },
+            StopReason::FreeVibration { frequency_hz, mode },
             StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },
             StopReason::Motion { frequency_hz, message: text() },
         ];
@@ -370,7 +384,7 @@ pub(crate) mod tests {
     #[test]
     fn only_ends_where_nothing_is_left_are_complete() {
         let complete: Vec<&str> =
-            ["range-end", "closed", "shorter-period", "crossing", "joins", "unbounded"].into();
+            ["range-end", "closed", "shorter-period", "crossing", "joins", "unbounded", "free-vibration"].into();
         for end in every_end().iter().filter(|end| !matches!(end, BranchEnd::Curve(_))) {
             assert_eq!(end.is_complete(), complete.contains(&end.word()), "{end:?}");
         }

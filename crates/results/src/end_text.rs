@@ -155,6 +155,11 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::Unbounded { frequency_hz, mode } => {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))
         }
+        StopReason::FreeVibration { frequency_hz, mode } => format!(
+            "at {} {mode} and vibrates freely at a multiple of the frequency: motions of every amplitude of \
+                it are periodic there; with damping ([damping]) there is one",
+            at(*frequency_hz)
+        ),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
             format!("at {} {}", at(*frequency_hz), too_much_work(*solutions, *gets_on))
         }

@@ -9,7 +9,7 @@ use crate::file::{MatricesTable, MatrixPointEntry, Place, StructureTable, Study}
 
 /// Version of the computed data: counted up when the same study gives other numbers, so that a results folder
 /// is never continued with another program's numbers.
-pub const DATA_VERSION: u32 = 22;
+pub const DATA_VERSION: u32 = 23;
 
 impl Study {
     /// Everything the solutions depend on, as text: one `path = value` line for each number and word.

@@ -29,18 +29,18 @@ pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind,
     let down = (0..start.down.rows.len()).rev().map(|number| (Side::Down, number));
     let up = (0..start.up.rows.len()).map(|number| (Side::Up, number));
     let events = down.chain(up).filter_map(|(side, number)| at_row(start, (side, number), depth, plan));
-    let beyond = [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_infinity(start, side, plan));
+    let beyond = [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_any_amplitude(start, side, plan));
     events.chain(beyond.filter(|_| start.period_multiple == 1)).collect()
 }
 
-/// Distance from a frequency at which a branch goes to infinity to where the next harmonic one is looked for,
+/// Distance from a frequency at which the amplitude may be any to where the next harmonic one is looked for,
 /// in parts of the range.
 const BEYOND: f64 = 1e-3;
 
-/// A search for the harmonic branch on the other side of a frequency at which a side goes to infinity.
-fn beyond_infinity(start: &Start, side: Side, plan: &Plan) -> Option<(JobKind, f64, Option<i64>, u32)> {
+/// A search for the harmonic branch on the other side of a frequency at which the amplitude may be any.
+fn beyond_any_amplitude(start: &Start, side: Side, plan: &Plan) -> Option<(JobKind, f64, Option<i64>, u32)> {
     let walk = start.walk(side);
-    let ends = walk.end.as_ref().is_some_and(BranchEnd::is_unbounded);
+    let ends = walk.end.as_ref().is_some_and(BranchEnd::has_any_amplitude);
     let last = walk.rows.last().filter(|_| ends && plan.multiples.contains(&1))?.frequency_hz;
     let [low, high] = plan.range_hz;
     let step = BEYOND * (high - low);

@@ -4,7 +4,7 @@ use hammerbeam_path::PathStop;
 
 use super::{
     chatter::chatters,
-    growth::{free_mode, has_no_losses, is_far_beyond_gaps},
+    growth::{end_at_mode, free_mode, has_no_losses, is_far_beyond_gaps},
     orbit_path::OrbitPath,
     row::row_at,
     shorter_period::is_near_shorter_period,
@@ -37,7 +37,7 @@ fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<St
     }
     let mode = free_mode(path);
     let has_no_bound = mode.is_some() || has_no_losses(path.problem.system()) && is_far_beyond_gaps(path);
-    has_no_bound.then_some(StopReason::Unbounded { frequency_hz, mode })
+    has_no_bound.then(|| end_at_mode(path, frequency_hz, mode))
 }
 
 /// The reason of a path, in terms of orbits.

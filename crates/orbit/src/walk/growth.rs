@@ -75,12 +75,23 @@ impl Growth {
         let still = of_itself.min(OF_RANGE * (high - low));
         let growth = self.note(size, parameter, still);
         let unbounded = growth >= FOR_ANY || (growth >= GROWTH && is_beyond_all_levels(path));
-        let ends = |mode| StopReason::Unbounded { frequency_hz: parameter, mode };
         if unbounded {
             let touches_nothing = touches.iter().all(|&touches| touches == 0);
-            return Some(ends(free_mode(path).filter(|_| touches_nothing)));
+            let mode = free_mode(path).filter(|_| touches_nothing);
+            return Some(end_at_mode(path, parameter, mode));
         }
-        free_mode(path).filter(|_| stands_still(path)).map(|mode| ends(Some(mode)))
+        let mode = free_mode(path).filter(|_| stands_still(path))?;
+        Some(end_at_mode(path, parameter, Some(mode)))
+    }
+}
+
+/// Why a walk ends where the amplitude may be any: a mode that vibrates freely there, unless it is driven.
+pub(super) fn end_at_mode(path: &OrbitPath, frequency_hz: f64, mode: Option<ResonantMode>) -> StopReason {
+    let driving_hz = path.problem.frequency(&path.follower.current().point);
+    let is_driven = || free_vibration::resonance(path.problem.system(), driving_hz).is_some();
+    match mode {
+        Some(mode) if !is_driven() => StopReason::FreeVibration { frequency_hz, mode },
+        mode => StopReason::Unbounded { frequency_hz, mode },
     }
 }
 
