@@ -77,12 +77,18 @@ pub struct Peak {
     pub equal: u64,
     /// Maximum displacement [m].
     pub max_abs_displacement_m: f64,
+    /// How much higher the branch may be between this solution and those beside it [m].
+    pub higher_between_m: f64,
     /// Whether the solutions there are stable; `None` where some are and others are not.
     pub stability: Option<Stability>,
 }
 
 /// Rise and fall, relative to the peak, that make it one.
 const PROMINENCE: f64 = 0.05;
+
+/// How much higher a branch may be beside its highest solution, in parts of the larger fall to its neighbours:
+/// 1/8 on a parabola with equal steps, 1/3 where one step is twice the other.
+const BETWEEN: f64 = 0.5;
 
 /// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
 const EQUAL: f64 = 1e-10;
@@ -168,6 +174,10 @@ struct PeakFinder {
     found: Vec<Peak>,
     highest: Option<Peak>,
     lowest: Option<f64>,
+    /// Height of the last solution that is no event, since these may lie close to others.
+    before: f64,
+    /// Whether such a solution came after the highest one.
+    followed: bool,
     rising: bool,
     largest: f64,
 }
@@ -181,6 +191,13 @@ impl PeakFinder {
     }
 
     fn add(&mut self, row: &Row) {
+        self.add_height(row);
+        if row.events == EventSet::default() {
+            self.before = row.maxima.displacement;
+        }
+    }
+
+    fn add_height(&mut self, row: &Row) {
         let value = row.maxima.displacement;
         self.largest = self.largest.max(value);
         let lowest = self.lowest.get_or_insert(value);
@@ -193,16 +210,21 @@ impl PeakFinder {
         if !self.rising {
             return;
         }
-        let Some(highest) = &mut self.highest else {
-            self.highest = Some(Peak::of(row));
+        let height = self.highest.map_or(f64::NEG_INFINITY, |peak| peak.max_abs_displacement_m);
+        let Some(highest) = self.highest.as_mut().filter(|_| value <= height * (1.0 + EQUAL)) else {
+            self.highest = Some(Peak::of(row, self.before));
+            self.followed = false;
             return;
         };
-        let height = highest.max_abs_displacement_m;
-        if value > height * (1.0 + EQUAL) {
-            *highest = Peak::of(row);
-        } else if value >= height * (1.0 - EQUAL) {
+        if value >= height * (1.0 - EQUAL) {
             highest.join(row);
-        } else if height - value > PROMINENCE * height {
+            return;
+        }
+        if highest.equal <= 2 && !self.followed && row.events == EventSet::default() {
+            highest.higher_between_m = highest.higher_between_m.max(BETWEEN * (height - value));
+            self.followed = true;
+        }
+        if height - value > PROMINENCE * height {
             self.found.push(*highest);
             (self.rising, self.lowest) = (false, Some(value));
         }
@@ -210,29 +232,37 @@ impl PeakFinder {
 }
 
 impl Peak {
-    fn of(row: &Row) -> Self {
+    /// The peak of one solution behind another of the height `before` [m].
+    fn of(row: &Row, before: f64) -> Self {
+        let height = row.maxima.displacement;
         Self {
             frequency_hz: row.frequency_hz,
             equal_hz: [row.frequency_hz; 2],
             equal: 1,
-            max_abs_displacement_m: row.maxima.displacement,
+            max_abs_displacement_m: height,
+            higher_between_m: BETWEEN * (height - before).max(0.0),
             stability: Some(row.stability),
         }
     }
 
-    /// Takes in a solution that is as high.
+    /// Takes in a solution that is as high. Two may stand on either side of the top; of three, the branch is
+    /// level there.
     fn join(&mut self, row: &Row) {
+        if self.equal > 1 {
+            self.higher_between_m = 0.0;
+        }
         let [low, high] = self.equal_hz;
         self.equal_hz = [low.min(row.frequency_hz), high.max(row.frequency_hz)];
         self.equal += 1;
         self.stability = self.stability.filter(|stability| *stability == row.stability);
     }
 
-    /// Whether two peaks are as high as one another.
+    /// Whether two peaks are as high as one another, as far as their solutions tell: those of a motion and of
+    /// its mirror image are stored at different places.
     #[must_use]
     pub fn equals(&self, other: &Self) -> bool {
         let [one, two] = [self, other].map(|peak| peak.max_abs_displacement_m);
-        (one - two).abs() <= EQUAL * one.max(two)
+        (one - two).abs() <= EQUAL * one.max(two) + self.higher_between_m + other.higher_between_m
     }
 }
 
@@ -296,6 +326,31 @@ mod tests {
         let heights = [1.0, 2.0, 2.0 + 1e-9, 1.0];
         heights.iter().enumerate().for_each(|(index, value)| finder.add(&row(index as f64, *value)));
         assert_eq!((finder.found[0].equal_hz, finder.found[0].equal), ([2.0; 2], 1));
+    }
+
+    /// One and the same parabola, stored at steps that lie differently, with an event beside a solution.
+    #[test]
+    fn peaks_of_equal_height_at_different_places_are_equal_and_others_are_not() {
+        let peak = |height: f64, first: f64, ratio: f64| {
+            let mut finder = PeakFinder::default();
+            let mut place = first;
+            for number in 0..60 {
+                finder.add(&row(place, height - 0.1 * (place - 4.0).powi(2)));
+                let beside = Row { events: EventSet::default().with(BranchEventKind::Grazing), ..row(place, 0.0) };
+                let displacement = height - 0.1 * (place + 1e-6 - 4.0).powi(2);
+                finder.add(&Row { maxima: OrbitMaxima { displacement, ..beside.maxima }, ..beside });
+                place += if number % 2 == 0 { 0.1 } else { 0.1 * ratio };
+            }
+            let [peak] = finder.finish()[..] else { panic!("not one peak") };
+            peak
+        };
+        for ratio in [1.0, 1.5, 2.0] {
+            for offset in 0..20 {
+                let other = peak(2.0, 0.01 * f64::from(offset), ratio);
+                assert!(peak(2.0, 0.0, 1.0).equals(&other), "{ratio}, {offset}");
+                assert!(!peak(2.01, 0.0, 1.0).equals(&other), "{ratio}, {offset}");
+            }
+        }
     }
 
     #[test]

@@ -261,10 +261,10 @@ fn peaks_text(peaks: &[Peak], unit: FrequencyUnit) -> Vec<String> {
     let groups = peaks.chunk_by(|one, next| one.equals(next)).take(SHOWN);
     let line = |group: &[&Peak]| {
         let mut group = group.to_vec();
+        let height = readable_to(group[0].max_abs_displacement_m, "m", 5);
         group.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         let more =
             if group.len() > SHOWN { format!(", and {} more", group.len() - SHOWN) } else { String::new() };
-        let height = readable_to(group[0].max_abs_displacement_m, "m", 5);
         let place = |peak: &&Peak| format!("{}, {}", peak_place(peak, unit), peak_stability(peak));
         let places: Vec<String> = group.iter().take(SHOWN).map(place).collect();
         match group[..] {
