@@ -91,6 +91,22 @@ fn a_walk_that_was_stored_on_its_way_to_infinity_ends_with_the_same_bits() {
     assert_eq!(walk(&system, (0.1, Side::Up), 37), whole);
 }
 
+/// A motion thousands of times as large as that from rest, whose steps Newton's method bounds by the size of the
+/// motion: the linear response is where it begins.
+#[test]
+fn the_orbit_beside_an_undamped_resonance_is_found_on_both_sides() {
+    let (system, response) = oscillator(0.0, None);
+    let settings = OrbitSettings::default();
+    for part in [-1e-4, -1e-5, -2e-6, 2e-6, 1e-5, 1e-4] {
+        let orbit = (NATURAL * (1.0 + part), 1);
+        let found = find_orbits(&system, &response, orbit, RANGE, &settings, &mut || false).unwrap();
+        let [orbit] = &found.orbits[..] else { panic!("{} orbits at {part}", found.orbits.len()) };
+        let w = TAU * orbit.frequency_hz;
+        let error = orbit.maxima.displacement * (1.0 - w * w).abs() - 1.0;
+        assert!(error.abs() < 1e-9, "{error:.1e} at {part}");
+    }
+}
+
 /// The peak of a damping ratio of 1e-5 is 5e4 times the static amplitude, and finite.
 #[test]
 fn a_weakly_damped_resonance_is_passed() {

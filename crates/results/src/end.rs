@@ -384,7 +384,8 @@ pub(crate) mod tests {
     #[test]
     fn only_ends_where_nothing_is_left_are_complete() {
         let complete: Vec<&str> =
-            ["range-end", "closed", "shorter-period", "crossing", "joins", "unbounded", "free-vibration"].into();
+            ["range-end", "closed", "shorter-period", "crossing", "joins", "unbounded", "free-vibration"]
+                .into();
         for end in every_end().iter().filter(|end| !matches!(end, BranchEnd::Curve(_))) {
             assert_eq!(end.is_complete(), complete.contains(&end.word()), "{end:?}");
         }

@@ -336,7 +336,8 @@ mod tests {
             let mut place = first;
             for number in 0..60 {
                 finder.add(&row(place, height - 0.1 * (place - 4.0).powi(2)));
-                let beside = Row { events: EventSet::default().with(BranchEventKind::Grazing), ..row(place, 0.0) };
+                let beside =
+                    Row { events: EventSet::default().with(BranchEventKind::Grazing), ..row(place, 0.0) };
                 let displacement = height - 0.1 * (place + 1e-6 - 4.0).powi(2);
                 finder.add(&Row { maxima: OrbitMaxima { displacement, ..beside.maxima }, ..beside });
                 place += if number % 2 == 0 { 0.1 } else { 0.1 * ratio };

@@ -29,7 +29,8 @@ pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind,
     let down = (0..start.down.rows.len()).rev().map(|number| (Side::Down, number));
     let up = (0..start.up.rows.len()).map(|number| (Side::Up, number));
     let events = down.chain(up).filter_map(|(side, number)| at_row(start, (side, number), depth, plan));
-    let beyond = [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_any_amplitude(start, side, plan));
+    let beyond =
+        [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_any_amplitude(start, side, plan));
     events.chain(beyond.filter(|_| start.period_multiple == 1)).collect()
 }
 

@@ -24,6 +24,10 @@ use crate::{ModalLoad, Stretch, System};
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
 const RESONANT: f64 = 1e-4;
 
+/// The same where the steady motion itself is wanted: nearer to the resonance of an undamped mode it is taken
+/// for one that is driven there, which has none.
+const NO_STEADY_MOTION: f64 = 1e-6;
+
 /// Eigenfrequency and damping of a block, relative to the excitation, below which it is slow.
 const SLOW: f64 = 1e-2;
 
@@ -55,6 +59,8 @@ pub(crate) struct Drive {
     pub(super) scale: f64,
     /// Circular frequency below which constant loads on blocks are secular [rad/s].
     slow: f64,
+    /// Relative distance from resonance up to which a load is secular.
+    resonant: f64,
 }
 
 /// Value of an output and of its first two derivatives by time.
@@ -72,9 +78,9 @@ impl Drive {
             .with_loads(system, blocks, outputs)
     }
 
-    /// The steady motion, also of slow blocks.
+    /// The steady motion, also of slow blocks and beside a resonance.
     pub fn steady_motion(system: &System, blocks: &Blocks, stretch: &Stretch) -> Self {
-        Self::silent(system, stretch).with_loads(system, blocks, &[])
+        Self { resonant: NO_STEADY_MOTION, ..Self::silent(system, stretch) }.with_loads(system, blocks, &[])
     }
 
     fn with_loads(self, system: &System, blocks: &Blocks, outputs: &[Output]) -> Self {
@@ -116,7 +122,16 @@ impl Drive {
         let start_angle = Self::start_angle(stretch);
         let (secular, secular_changes) = (Vec::new(), Vec::new());
         let (orders, scale) = (Vec::new(), system.excitation_scale());
-        Self { circular_frequency, start_angle, orders, secular, secular_changes, scale, slow: 0.0 }
+        Self {
+            circular_frequency,
+            start_angle,
+            orders,
+            secular,
+            secular_changes,
+            scale,
+            slow: 0.0,
+            resonant: RESONANT,
+        }
     }
 
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
@@ -178,7 +193,7 @@ impl Drive {
             }
             let denominator = c64::new(k - w * w, w * c);
             let is_slow = w == 0.0 && k <= self.slow * self.slow && c <= k.sqrt();
-            if is_slow || denominator.norm() <= RESONANT * (k + w * w) {
+            if is_slow || denominator.norm() <= self.resonant * (k + w * w) {
                 let rate = TAU * order;
                 let angle = order * self.start_angle;
                 self.secular.push(SecularLoad::new(
