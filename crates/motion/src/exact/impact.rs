@@ -211,10 +211,12 @@ impl ExactIntegrator {
         if !self.hops_briefly(run, element) {
             let place = self.first_touch(element);
             self.touches[place] = self.touches[place].saturating_add(1);
+            if self.notes_course {
+                self.course.touch(element, impact.before.slope);
+            }
         }
         if self.notes_course {
-            self.course.touch(impact.touch.element, impact.before.slope);
-            self.course.impact(impact.touch.element, (impulse, energy), sticks);
+            self.course.impact(element, (impulse, energy), sticks);
         }
         self.trace_impact(run, impact.touch, (impulse, energy), sticks);
     }
