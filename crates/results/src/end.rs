@@ -56,7 +56,7 @@ impl BranchEnd {
         self.stored().place
     }
 
-    /// Whether the amplitude may be any there: the branch goes to infinity, or a mode vibrates freely besides.
+    /// Whether the amplitude may be any there: the branch goes to infinity, or a mode vibrates freely.
     #[must_use]
     pub fn has_any_amplitude(&self) -> bool {
         matches!(self, Self::Walk(StopReason::Unbounded { .. } | StopReason::FreeVibration { .. }))

@@ -86,8 +86,8 @@ pub struct Peak {
 /// Rise and fall, relative to the peak, that make it one.
 const PROMINENCE: f64 = 0.05;
 
-/// How much higher a branch may be beside its highest solution, in parts of the larger fall to its neighbours:
-/// 1/8 on a parabola with equal steps, 1/3 where one step is twice the other.
+/// How much higher a branch may be beside its highest solution, in parts of the larger fall to its
+/// neighbours: 1/8 on a parabola with equal steps, 1/3 where one step is twice the other.
 const BETWEEN: f64 = 0.5;
 
 /// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
