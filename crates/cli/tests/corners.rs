@@ -339,8 +339,8 @@ fn a_branch_goes_on_across_a_grazing_beside_which_another_plastic_stop_lets_go()
     assert_eq!(workshop.table("results/export/ends.csv").len(), 2);
 }
 
-/// The general integrator met it again with each step, and each brief hop was a slow touch: what is left of its
-/// speed is rounding, which let steps shrink.
+/// The general integrator met it again with each step, and each brief hop was a slow touch: what is left of
+/// its speed is rounding, which let steps shrink.
 #[test]
 fn solutions_at_a_stop_that_is_left_without_speed_are_verified() {
     let beside = left_without_speed([4.11607, 4.1161], 2e-7, 1);

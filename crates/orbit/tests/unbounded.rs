@@ -91,8 +91,8 @@ fn a_walk_that_was_stored_on_its_way_to_infinity_ends_with_the_same_bits() {
     assert_eq!(walk(&system, (0.1, Side::Up), 37), whole);
 }
 
-/// A motion thousands of times as large as that from rest, whose steps Newton's method bounds by the size of the
-/// motion: the linear response is where it begins.
+/// A motion thousands of times as large as that from rest, whose steps Newton's method bounds by the size of
+/// the motion: the linear response is where it begins.
 #[test]
 fn the_orbit_beside_an_undamped_resonance_is_found_on_both_sides() {
     let (system, response) = oscillator(0.0, None);
