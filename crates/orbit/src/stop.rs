@@ -88,8 +88,8 @@ pub enum StopReason {
         /// The mode that resonates, where that is one of the structure alone.
         mode: Option<ResonantMode>,
     },
-    /// A mode without damping, which is not driven, vibrates freely at a multiple of the frequency: motions
-    /// of every amplitude of it are periodic there, and none of them leads on.
+    /// A mode without damping, which is not driven, vibrates freely at a multiple of the frequency of the
+    /// motion: motions of every amplitude of it are periodic there, and none of them leads on.
     FreeVibration {
         /// Where [Hz].
         frequency_hz: f64,

@@ -156,8 +156,8 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
             format!("at {} {}", at(*frequency_hz), unbounded(*mode))
         }
         StopReason::FreeVibration { frequency_hz, mode } => format!(
-            "at {} {mode} and vibrates freely at a multiple of the frequency: motions of every amplitude of \
-                it are periodic there; with damping ([damping]) there is one",
+            "at {} {mode} and vibrates freely at a multiple of the frequency of the motion: motions of every \
+                amplitude of it are periodic there; with damping ([damping]) there is one",
             at(*frequency_hz)
         ),
         StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {

@@ -21,7 +21,8 @@ pub(super) enum Passage {
     /// A flight, from a homogeneous block state; with the elements that are closed, those held on rigid
     /// stops, and the impulses that these got.
     Flight { start: f64, duration: f64, state: Span, closed: u64, held: Span, impulses: Span },
-    /// A contact of this element closed with that relative velocity [m/s].
+    /// A contact of this element closed with that relative velocity [m/s]; a brief hop (`impact.rs`) does
+    /// not end it.
     Touch { element: usize, speed: f64 },
     /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy
     /// [J], and after which the contact stuck or not.
