@@ -175,7 +175,7 @@ struct PeakFinder {
     highest: Option<Peak>,
     lowest: Option<f64>,
     /// Height of the last solution that is no event, since these may lie close to others.
-    before: f64,
+    before: Option<f64>,
     /// Whether such a solution came after the highest one.
     followed: bool,
     rising: bool,
@@ -193,7 +193,7 @@ impl PeakFinder {
     fn add(&mut self, row: &Row) {
         self.add_height(row);
         if row.events == EventSet::default() {
-            self.before = row.maxima.displacement;
+            self.before = Some(row.maxima.displacement);
         }
     }
 
@@ -232,15 +232,16 @@ impl PeakFinder {
 }
 
 impl Peak {
-    /// The peak of one solution behind another of the height `before` [m].
-    fn of(row: &Row, before: f64) -> Self {
+    /// The peak of one solution, behind another of the height `before` [m] if there is one.
+    fn of(row: &Row, before: Option<f64>) -> Self {
         let height = row.maxima.displacement;
+        let rise = height - before.unwrap_or(height);
         Self {
             frequency_hz: row.frequency_hz,
             equal_hz: [row.frequency_hz; 2],
             equal: 1,
             max_abs_displacement_m: height,
-            higher_between_m: BETWEEN * (height - before).max(0.0),
+            higher_between_m: BETWEEN * rise.max(0.0),
             stability: Some(row.stability),
         }
     }
