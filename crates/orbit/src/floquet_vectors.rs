@@ -22,7 +22,7 @@
 
 use hammerbeam_path::DenseLu;
 
-use crate::by_rows::{norm, shifted, times, transposed};
+use crate::by_rows::{dot, left_times, norm, shifted, times, transposed};
 
 /// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
 const MOST_SHIFTS: u32 = 8;
@@ -52,8 +52,7 @@ impl Condition {
         let mut behind = vec![length(&left)];
         let mut vector = left;
         for matrix in segments.iter().skip(1).rev() {
-            let matrix = transposed(size, matrix);
-            vector.iter_mut().for_each(|part| *part = times(&matrix, part));
+            vector.iter_mut().for_each(|part| *part = left_times(matrix, part));
             behind.push(length(&vector));
         }
         let (mut of_segments, mut vector) = (0.0, right);
@@ -67,7 +66,6 @@ impl Condition {
 
 /// Absolute value of `w^H v`, of vectors by real and imaginary part.
 fn inner(w: &[Vec<f64>], v: &[Vec<f64>]) -> f64 {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     match (w, v) {
         ([w], [v]) => dot(w, v).abs(),
         ([w_re, w_im], [v_re, v_im]) => {

@@ -10,9 +10,9 @@ use hammerbeam_path::DenseLu;
 use super::{
     linear::Linear,
     null::null_space,
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
 };
-use crate::by_rows::{shifted, times, transposed};
+use crate::by_rows::{dot, shifted, times, transposed};
 
 /// The borders.
 #[derive(Debug, Clone)]

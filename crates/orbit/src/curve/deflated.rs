@@ -9,8 +9,10 @@
 //! # Source
 //! Golub and Van Loan, *Matrix Computations* (2013), sections 5.1 and 7.1.
 
-use super::shooting::dot;
-use crate::eigenvalues::{NoEigenvalues, eigenvalues};
+use crate::{
+    by_rows::dot,
+    eigenvalues::{NoEigenvalues, eigenvalues},
+};
 
 /// Eigenvalues `[re, im]` of a matrix, given by rows, but those of an invariant subspace.
 ///

@@ -6,9 +6,9 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     normal_form::{Bend, Coefficient, answer, bends, is_answer, settled, summed},
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
 };
-use crate::by_rows::times;
+use crate::by_rows::{dot, times};
 
 /// Real and imaginary part.
 pub(super) type Complex = [Vec<f64>; 2];

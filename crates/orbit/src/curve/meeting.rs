@@ -26,9 +26,9 @@ use super::{
     image::{Apart, apart, nodes_from_first, unfolded},
     problem::CurveProblem,
     row::CurveSettings,
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
 };
-use crate::{OrbitError, OrbitSettings, Response, solve::integrator};
+use crate::{OrbitError, OrbitSettings, Response, by_rows::dot, solve::integrator};
 
 /// Asymmetry, relative to the orbit, within which the end is looked for.
 const NEAR: f64 = 0.05;

@@ -30,9 +30,9 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     bordered::Vectors,
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
 };
-use crate::by_rows::times;
+use crate::by_rows::{dot, times};
 
 /// Step along a vector, relative to the orbit, with which a coefficient far from zero is known well enough.
 const STEP: f64 = 1.25e-3;

@@ -2,7 +2,7 @@
 
 use hammerbeam_path::DenseLu;
 
-use super::shooting::dot;
+use crate::by_rows::dot;
 
 /// Orthonormal columns near the null space of a nearly singular matrix, given by rows.
 pub(super) fn null_space(size: usize, matrix: &[f64], count: usize) -> Vec<Vec<f64>> {

@@ -12,10 +12,10 @@ use super::{
     linear::Linear,
     lyapunov,
     null::null_space,
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
 };
 use crate::{
-    by_rows::{times, transposed},
+    by_rows::{dot, multiply, times, transposed},
     eigenvalues::eigenvalues,
 };
 
@@ -92,9 +92,8 @@ impl Pair {
         let size = shooting.size();
         let monodromy = shooting.monodromy();
         let (half_trace, product) = self.half_trace_and_product(&eigenvalues(size, monodromy).ok()?)?;
-        let squares: Vec<f64> = (0..size)
-            .flat_map(|i| super::shooting::left_times(monodromy, &monodromy[i * size..(i + 1) * size]))
-            .collect();
+        let mut squares = vec![0.0; size * size];
+        multiply(size, monodromy, monodromy, &mut squares);
         let mut matrix: Vec<f64> =
             squares.iter().zip(monodromy).map(|(square, a)| square - 2.0 * half_trace * a).collect();
         (0..size).for_each(|i| matrix[i * size + i] += product);

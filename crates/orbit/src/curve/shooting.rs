@@ -12,7 +12,7 @@ use hammerbeam_motion::{
 use super::{closing::Closing, passing::Passing};
 use crate::{
     NoEigenvalues,
-    by_rows::times,
+    by_rows::{dot, left_times, multiply, times},
     known_matrix::{Accuracy, KnownMatrix},
     spectrum::Spectrum,
     state_scale::StateScale,
@@ -51,9 +51,11 @@ impl Segment {
         let sum = |first: &[f64], second: &[f64]| -> Vec<f64> {
             times(&next.matrix, first).iter().zip(second).map(|(a, b)| a + b).collect()
         };
+        let mut matrix = vec![0.0; self.matrix.len()];
+        multiply(self.end.len(), &next.matrix, &self.matrix, &mut matrix);
         Self {
             end: next.end.clone(),
-            matrix: multiply(self.end.len(), &next.matrix, &self.matrix),
+            matrix,
             by_frequency: sum(&self.by_frequency, &next.by_frequency),
             by_parameter: sum(&self.by_parameter, &next.by_parameter),
             touches: self.touches.iter().zip(&next.touches).map(|(a, b)| a + b).collect(),
@@ -177,7 +179,8 @@ impl Shooting {
             let segment = self.flow(k, place, &place.nodes[k * size..(k + 1) * size])?;
             let touches = self.touches.iter_mut().zip(&segment.touches);
             touches.for_each(|(sum, touches)| *sum += touches);
-            let product = multiply(size, &segment.matrix, &self.products[k]);
+            let mut product = vec![0.0; size * size];
+            multiply(size, &segment.matrix, &self.products[k], &mut product);
             self.products.push(product);
             self.segments.push(segment);
         }
@@ -222,22 +225,4 @@ impl Shooting {
         let rate = self.integrator.system().rate(place.frequency_hz, phase, &state);
         rate.iter().zip(scales).map(|(r, s)| r / s).collect()
     }
-}
-
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// `w^T M`, the matrix by rows.
-pub(super) fn left_times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
-    let size = matrix.len() / vector.len();
-    let mut sum = vec![0.0; size];
-    for (row, w) in matrix.chunks_exact(size).zip(vector) {
-        sum.iter_mut().zip(row).for_each(|(s, entry)| *s += w * entry);
-    }
-    sum
-}
-
-fn multiply(size: usize, factor: &[f64], source: &[f64]) -> Vec<f64> {
-    factor.chunks_exact(size).flat_map(|row| left_times(source, row)).collect()
 }

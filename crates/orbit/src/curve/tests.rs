@@ -18,10 +18,10 @@ use super::{
     normal_form::{self, answer},
     pair::Pair,
     problem::CurveProblem,
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting},
     touched::Touch,
 };
-use crate::{OrbitSettings, Response, solve::integrator, state_scale::StateScale};
+use crate::{OrbitSettings, Response, by_rows::dot, solve::integrator, state_scale::StateScale};
 
 /// Two modes with a cubic spring and a stop, under two harmonics of a force.
 fn system() -> System {

@@ -3,7 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use faer::{Accum, MatMut, MatRef, Par, linalg::matmul::matmul};
 use hammerbeam_motion::{
     Stretch, System,
     exact::{MotionError, complete_touches, touches_lacking},
@@ -11,15 +10,11 @@ use hammerbeam_motion::{
 use hammerbeam_path::EvaluationError;
 
 use super::ShootingProblem;
-use crate::{NoEigenvalues, spectrum::Spectrum};
+use crate::{NoEigenvalues, by_rows::multiply, spectrum::Spectrum};
 
 /// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of
 /// these cuts are as far apart as instants of a symmetric motion are.
 const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
-
-/// Numbers in a state from which on the general library multiplies matrices: it takes 1.3 us for 32, a loop
-/// 23 us; for fewer the sums keep their order.
-const LARGE: usize = 32;
 
 /// Excitation frequency over the lowest eigenfrequency from which on rounding of states would leave less of
 /// an orbit than its tolerance asks for.
@@ -231,40 +226,4 @@ fn jumps(system: &System, contact: usize) -> bool {
     let laws = system.elements().iter().map(|element| &element.law);
     let mut of_contacts = laws.flat_map(|law| std::iter::repeat_n(law, law.contacts().len()));
     of_contacts.nth(contact).is_some_and(|law| law.onset_damping() > 0.0)
-}
-
-/// `target = factor source` by rows.
-fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
-    if size >= LARGE {
-        let [factor, source] = [factor, source].map(|rows| MatRef::from_row_major_slice(rows, size, size));
-        let target = MatMut::from_row_major_slice_mut(target, size, size);
-        return matmul(target, Accum::Replace, factor, source, 1.0, Par::Seq);
-    }
-    target.fill(0.0);
-    for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
-        for (value, from) in row.iter().zip(source.chunks_exact(size)) {
-            out.iter_mut().zip(from).for_each(|(o, s)| *o += value * s);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The library multiplies large matrices as the loops do small ones.
-    #[test]
-    fn products_of_large_and_small_matrices_are_alike() {
-        for size in [1, LARGE - 1, LARGE, LARGE + 5] {
-            let entry = |k: usize, seed: f64| (seed * (k + 1) as f64).sin();
-            let factor: Vec<f64> = (0..size * size).map(|k| entry(k, 1.3)).collect();
-            let source: Vec<f64> = (0..size * size).map(|k| entry(k, 2.9)).collect();
-            let mut product = vec![f64::NAN; size * size];
-            multiply(size, &factor, &source, &mut product);
-            for (i, j) in [(0, 0), (size / 2, size - 1), (size - 1, size / 3), (size - 1, size - 1)] {
-                let expected: f64 = (0..size).map(|k| factor[i * size + k] * source[k * size + j]).sum();
-                assert!((product[i * size + j] - expected).abs() < 1e-12, "{i}, {j} of {size}");
-            }
-        }
-    }
 }
