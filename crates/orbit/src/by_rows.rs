@@ -2,8 +2,8 @@
 
 use faer::{Accum, MatMut, MatRef, Par, linalg::matmul::matmul};
 
-/// Rows from which on the general library multiplies matrices: it takes 1.3 us for 32, a loop 23 us; for fewer
-/// the sums keep their order.
+/// Rows from which on the general library multiplies matrices: it takes 1.3 us for 32, a loop 23 us; for
+/// fewer the sums keep their order.
 const LARGE: usize = 32;
 
 /// Root of the sum of the squared entries.
