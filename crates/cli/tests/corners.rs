@@ -311,6 +311,24 @@ fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert!(off.len() == 1 && off[0].abs() < 1e-8, "{off:?}");
 }
 
+/// Behind that corner both impacts lie near the ends of the two segments, and a disturbance grows by 1e10 in a
+/// period: over one segment the orbit is lost.
+#[test]
+fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
+    for ratio in ["0.012", "0.02"] {
+        let study = format!(
+            "[structure]\nkind = \"lumped\"\nmass = [{{ name = \"m\", mass_kg = 0.3 }}]\n\
+             spring = [{{ between = [\"m\", \"ground\"], stiffness_n_m = 120.0 }}]\n\
+             [damping]\nmodal_ratio = {ratio}\n[excitation]\nkind = \"force\"\nat = \"m\"\n\
+             amplitude_n = 0.5\nfrequency_hz = [3.7, 4.0]\n[[stop]]\nname = \"s\"\nat = \"m\"\n\
+             law = \"rigid\"\nrestitution = 0.88\nside = \"both\"\ngap_m = 0.009\n"
+        );
+        let workshop = Workshop::exported(&study);
+        assert_whole(&workshop, (3.7, 4.0), WHOLE);
+        assert_eq!(grazings(&workshop).len(), 1, "{ratio}");
+    }
+}
+
 #[test]
 fn a_branch_at_a_plastic_stop_gets_on() {
     let workshop = Workshop::exported(PLASTIC);

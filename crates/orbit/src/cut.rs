@@ -54,6 +54,11 @@ impl Gap {
         self.end - self.begin
     }
 
+    /// The same so much later.
+    pub fn later(self, by: f64) -> Self {
+        Self { begin: self.begin + by, end: self.end + by }
+    }
+
     /// Its middle after the phase `from`, which is one of a grid, so that the phase there is one, too.
     pub fn middle(self, from: f64) -> f64 {
         let grid = if self.is_short() { FINE_GRID } else { GRID };

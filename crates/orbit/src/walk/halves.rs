@@ -7,7 +7,8 @@
 //! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
 //!
 //! The phases at which a cut orbit begins and is cut must all be clear of impacts. Where an impact comes
-//! near one of them the orbit is made one segment again, whose begin may move. An orbit of one segment with
+//! near one of them all segments begin later (`recut.rs`); where that cannot be, or there is no longer more
+//! than one impact, the orbit is made one segment again, whose begin may move. An orbit of one segment with
 //! an impact near its ends, as behind the corner of two stops, is cut elsewhere (`recut.rs`). A branch of
 //! doubled period begins with twice the segments of the orbit that it leaves: with four, where that one was
 //! cut.
@@ -54,15 +55,21 @@ pub(super) fn offset_to_clear_ends(path: &mut OrbitPath, segments: usize) -> Opt
     let point = &follower.current().point;
     problem.move_to(point).ok()?;
     let (phase, cycles) = (problem.phase(), f64::from(problem.period_multiple()));
-    let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
-    let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
-    match contacts.len() {
+    let (frequency_hz, nodes) = (problem.frequency(point), problem.nodes(point));
+    let part = cycles / nodes.len() as f64;
+    let mut closed = Vec::new();
+    for (number, node) in nodes.iter().enumerate() {
+        let later = number as f64 * part;
+        let of_part = contacts(problem.integrator(), (phase + later, part), node, frequency_hz).ok()?;
+        closed.extend(of_part.into_iter().map(|contact| contact.later(later)));
+    }
+    match closed.len() {
         0 => return Some(0.0),
         1 => return None,
         _ => {}
     }
     let length = cycles / segments as f64;
-    let (gap, nearest) = longest_of_orbit(&folded(&contacts, length), length, false)?;
+    let (gap, nearest) = longest_of_orbit(&folded(&closed, length), length, false)?;
     Some(if gap.asks_to_move(nearest) { gap.middle(phase).rem_euclid(length) } else { 0.0 })
 }
 

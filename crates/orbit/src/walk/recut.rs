@@ -14,8 +14,8 @@
 //!
 //! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
 //! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
-//! Orbits that are cut (`halves.rs`) are made one segment again first; where the study gives the number of
-//! segments the phase does not move.
+//! All segments of an orbit that is cut (`halves.rs`) begin later by the same time, or are made one again
+//! first; where the study gives the number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
@@ -41,7 +41,7 @@ pub(super) fn keep_phase_clear(path: &mut OrbitPath) {
     if path.follower.stop_reason().is_some() {
         return;
     }
-    if is_cut(path) {
+    if is_cut(path) && !begin_later(path) {
         join_at_contacts(path);
     }
     if !moves_phase(path) {
@@ -161,7 +161,32 @@ fn cut_in_halves_elsewhere(path: &mut OrbitPath, offset: f64) -> bool {
     true
 }
 
-/// Point and tangent of an orbit whose first node lies this much later than at the phase `from`.
+/// Lets all segments of an orbit that is cut begin so much later that their ends are clear of impacts: over
+/// one segment a disturbance may grow so fast that the orbit is lost. False if the walk stays as it was.
+fn begin_later(path: &mut OrbitPath) -> bool {
+    let segments = path.problem.segments();
+    if path.is_near_lost_start() {
+        return false;
+    }
+    let Some(offset) = offset_to_clear_ends(path, segments).filter(|offset| *offset > 0.0) else {
+        return false;
+    };
+    let start_of_walk = origin_now(path);
+    let OrbitPath { problem, follower, origin, .. } = path;
+    let before = problem.phase();
+    let Ok(later) = carried(problem, follower.current(), (before, offset)) else { return false };
+    problem.set_phase((before + offset).rem_euclid(f64::from(problem.period_multiple())));
+    if follower.transfer_afresh(problem, &later, None).is_err() {
+        problem.set_phase(before);
+        return false;
+    }
+    *origin = start_of_walk;
+    begin_journal_anew(path);
+    true
+}
+
+/// Point and tangent of an orbit whose nodes lie this much later than those of a point that begins at the
+/// phase `from`.
 fn carried(
     problem: &mut ShootingProblem,
     at: &ContinuationPoint,
@@ -171,12 +196,17 @@ fn carried(
     if offset == 0.0 {
         return Ok(Node { point, tangent });
     }
-    let (size, frequency_hz) = (problem.node_size(), problem.frequency(&point));
+    let (size, frequency_hz, last) = (problem.node_size(), problem.frequency(&point), point.len() - 1);
     problem.move_to(&point)?;
-    let stretch = Stretch { frequency_hz, start: from, end: from + offset };
-    let first = problem.node_slope(&point, &tangent, 0);
-    let carried = problem.carried(&first, &stretch, tangent[size])?;
-    point[..size].copy_from_slice(&carried.node);
-    tangent[..size].copy_from_slice(&carried.slope);
+    let nodes = last / size;
+    for node in 0..nodes {
+        let start = from + node as f64 * f64::from(problem.period_multiple()) / nodes as f64;
+        let stretch = Stretch { frequency_hz, start, end: start + offset };
+        let slope = problem.node_slope(&at.point, &at.tangent, node);
+        let carried = problem.carried(&slope, &stretch, at.tangent[last])?;
+        let place = node * size..(node + 1) * size;
+        point[place.clone()].copy_from_slice(&carried.node);
+        tangent[place].copy_from_slice(&carried.slope);
+    }
     Ok(Node { point, tangent })
 }
