@@ -311,8 +311,8 @@ fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert!(off.len() == 1 && off[0].abs() < 1e-8, "{off:?}");
 }
 
-/// Behind that corner both impacts lie near the ends of the two segments, and a disturbance grows by 1e10 in a
-/// period: over one segment the orbit is lost.
+/// Behind that corner both impacts lie near the ends of the two segments, and a disturbance grows by 1e10 in
+/// a period: over one segment the orbit is lost.
 #[test]
 fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
     for ratio in ["0.012", "0.02"] {
