@@ -57,7 +57,8 @@ impl Display for ResonantMode {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         let Self { number, frequency_hz, damping_ratio } = self;
         write!(formatter, "mode {number} ({frequency_hz:.6} Hz) has ")?;
-        if *damping_ratio > 0.0 {
+        // What rounding leaves of a damper between two points that move alike is none.
+        if *damping_ratio > f64::EPSILON {
             write!(formatter, "next to no damping, a ratio of {damping_ratio:.1e}")
         } else {
             write!(formatter, "no damping")

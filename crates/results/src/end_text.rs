@@ -252,13 +252,16 @@ fn too_much_work(solutions: u64, gets_on: bool) -> String {
     )
 }
 
-/// What a branch does that goes to infinity, and what keeps it finite.
+/// What a branch does that goes to infinity, and what keeps it finite. Where no mode resonates, it was
+/// followed as far as it could be, and has a bound or not.
 fn unbounded(mode: Option<ResonantMode>) -> String {
-    let why = match mode {
-        Some(mode) => mode.to_string(),
-        None => "nothing there takes energy out of the motion".to_owned(),
+    let (what, why) = match mode {
+        Some(mode) => ("has no bound", mode.to_string()),
+        None => {
+            ("goes beyond all that was followed", "nothing there takes energy out of the motion".to_owned())
+        }
     };
-    format!("the amplitude has no bound: {why}; with damping ([damping]) it has one")
+    format!("the amplitude {what}: {why}; with damping ([damping]) it has a bound")
 }
 
 #[cfg(test)]
