@@ -311,22 +311,42 @@ fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     assert!(off.len() == 1 && off[0].abs() < 1e-8, "{off:?}");
 }
 
+/// One mass between two rigid stops, with that damping ratio.
+fn between_stops(ratio: &str, [low, high]: [f64; 2]) -> String {
+    format!(
+        "[structure]\nkind = \"lumped\"\nmass = [{{ name = \"m\", mass_kg = 0.3 }}]\n\
+         spring = [{{ between = [\"m\", \"ground\"], stiffness_n_m = 120.0 }}]\n\
+         [damping]\nmodal_ratio = {ratio}\n[excitation]\nkind = \"force\"\nat = \"m\"\n\
+         amplitude_n = 0.5\nfrequency_hz = [{low}, {high}]\n[[stop]]\nname = \"s\"\nat = \"m\"\n\
+         law = \"rigid\"\nrestitution = 0.88\nside = \"both\"\ngap_m = 0.009\n"
+    )
+}
+
 /// Behind that corner both impacts lie near the ends of the two segments, and a disturbance grows by 1e10 in
 /// a period: over one segment the orbit is lost.
 #[test]
 fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
     for ratio in ["0.012", "0.02"] {
-        let study = format!(
-            "[structure]\nkind = \"lumped\"\nmass = [{{ name = \"m\", mass_kg = 0.3 }}]\n\
-             spring = [{{ between = [\"m\", \"ground\"], stiffness_n_m = 120.0 }}]\n\
-             [damping]\nmodal_ratio = {ratio}\n[excitation]\nkind = \"force\"\nat = \"m\"\n\
-             amplitude_n = 0.5\nfrequency_hz = [3.7, 4.0]\n[[stop]]\nname = \"s\"\nat = \"m\"\n\
-             law = \"rigid\"\nrestitution = 0.88\nside = \"both\"\ngap_m = 0.009\n"
-        );
-        let workshop = Workshop::exported(&study);
+        let workshop = Workshop::exported(&between_stops(ratio, [3.7, 4.0]));
         assert_whole(&workshop, (3.7, 4.0), WHOLE);
         assert_eq!(grazings(&workshop).len(), 1, "{ratio}");
     }
+}
+
+/// Where an orbit of three periods grazes both stops at once, its asymmetric arms, with one contact more and
+/// not two, end: beyond they would go on along the symmetric branch.
+#[test]
+fn an_asymmetric_arm_ends_where_the_symmetric_orbit_grazes_both_stops() {
+    let study = between_stops("0.012", [3.78, 3.96]);
+    let workshop = Workshop::exported(&format!(
+        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 1e-3\n"
+    ));
+    assert_whole(&workshop, (3.78, 3.96), &[WHOLE, &["joins"]].concat());
+    let ends = workshop.table("results/export/ends.csv");
+    let joining = ends.iter().filter(|end| end["end"] == "joins").map(|end| number(end, "frequency_hz"));
+    let joining: Vec<f64> = joining.collect();
+    let corner = grazings(&workshop).into_iter().fold(0.0, f64::max);
+    assert!(joining.len() == 2 && joining.iter().all(|hz| (hz / corner - 1.0).abs() < 1e-7), "{joining:?}");
 }
 
 #[test]

@@ -77,7 +77,7 @@ pub fn sentence(end: &BranchEnd, along: BranchOver<'_>) -> String {
             format!("leaves a branch of half the period at {frequency_hz:.6} Hz")
         }
         BranchEnd::Joins { branch, frequency_hz } => {
-            format!("beyond {frequency_hz:.6} Hz it is branch {branch}, which ended there")
+            format!("beyond {frequency_hz:.6} Hz it is branch {branch}")
         }
         BranchEnd::NotStarted { message } => {
             format!("the branch could not be followed from its start: {message}")

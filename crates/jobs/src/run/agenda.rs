@@ -27,6 +27,8 @@ pub(super) struct Sketch {
     /// No other multiplier lies outside the unit circle.
     pub else_stable: bool,
     pub branch_point: bool,
+    /// A contact is grazed.
+    pub grazes: bool,
     /// Contacts in a period.
     pub contacts: u32,
 }
@@ -40,6 +42,7 @@ impl Sketch {
             flip: row.events.has(BranchEventKind::Flip),
             else_stable: is_on_circle(row.leading_multiplier),
             branch_point: row.events.has(BranchEventKind::BranchPoint),
+            grazes: row.events.has(BranchEventKind::Grazing),
             contacts: row.maxima.contacts,
         }
     }
@@ -307,6 +310,7 @@ pub(super) mod examples {
             flip: false,
             else_stable: true,
             branch_point: false,
+            grazes: false,
             contacts: 0,
         }
     }

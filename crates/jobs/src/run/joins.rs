@@ -1,14 +1,19 @@
-//! Where a branch comes upon an earlier one that was lost there.
+//! Where a branch comes upon an earlier one: where that was lost, or where both graze the same contacts.
 //!
 //! A walk that ends early (its corrector fails, its budget is used up) leaves the rest of its curve to be
 //! found by a later search. The branch that begins there comes, at the lost end, upon solutions that are
 //! stored already. It is cut there, so that no solution is stored twice.
 //!
-//! A start on an earlier branch makes no branch, so a later branch can come upon an earlier one only over one
-//! of its early ends. Each pair of neighbouring rows of the later branch is compared with the last solution
-//! of each such end, and with a few before it: the last ones may lie where a curve is so crowded that the
-//! step between two rows hides them. The cut follows from the rows alone, so it is the same whether the walk
-//! is compared while it is under way or when all of it is there.
+//! Where several contacts are grazed at once, as by a symmetric orbit between two stops, more than two pieces
+//! of curve meet: that with none of the contacts, that with all, and those with some. A branch that comes
+//! there goes on along one of them, and another one along the same. The later one is cut at the grazing.
+//!
+//! A start on an earlier branch makes no branch, so a later branch can come upon an earlier one only at such
+//! places. Each pair of neighbouring rows of the later branch is compared with the last solution of each
+//! early end, and with a few before it: the last ones may lie where a curve is so crowded that the step
+//! between two rows hides them. So are a few solutions on either side of each grazing. The cut follows from
+//! the rows alone, so it is the same whether the walk is compared while it is under way or when all of it is
+//! there.
 
 use hammerbeam_orbit::Side;
 use hammerbeam_results::{
@@ -22,11 +27,20 @@ use super::{
     known::{self, Placed},
 };
 
-/// An early end of an earlier branch: its number, the frequency of its last solution [Hz], and the solutions
-/// that are compared.
-struct LostEnd<'a> {
+/// How many solutions off such a place those are that are compared.
+const APART: [usize; 5] = [0, 4, 16, 64, 256];
+/// Relative difference of frequencies up to which two grazings can be the same.
+const SAME_GRAZING: f64 = 1e-7;
+
+/// A place at which a later branch may come upon an earlier one.
+struct Junction<'a> {
+    /// The earlier branch.
     branch: u32,
+    /// Frequency of its last solution there, or of its grazing [Hz].
     frequency_hz: f64,
+    /// Whether it is a grazing, from which the branch goes on.
+    grazes: bool,
+    /// The solutions that are compared.
     rows: Vec<Placed<'a>>,
 }
 
@@ -44,7 +58,7 @@ pub(super) fn cut(
     if start.walk(side).compared == start.walk(side).rows.len() {
         return Ok(None);
     }
-    let found = first_join(store, solver, (start, side), &lost_ends(agenda, start))?;
+    let found = first_join(store, solver, (start, side), &junctions(agenda, start))?;
     let start = &mut agenda.jobs[job].starts[place];
     let key = start.key;
     let walk = start.walk_mut(side);
@@ -58,12 +72,12 @@ pub(super) fn cut(
     Ok(Some(end))
 }
 
-/// After how many of its solutions the side comes upon an early end, and the end that this makes.
+/// After how many of its solutions the side comes upon an earlier branch, and the end that this makes.
 fn first_join(
     store: &Store,
     solver: &dyn Solver,
     (start, side): (&Start, Side),
-    ends: &[LostEnd<'_>],
+    junctions: &[Junction<'_>],
 ) -> Result<Option<(usize, BranchEnd)>, StoreError> {
     let compared = start.walk(side).compared;
     // The other side has the start itself.
@@ -71,37 +85,74 @@ fn first_join(
     let shared = known::rows_of_side(start, Side::Up).take(ahead);
     let skipped = (compared + ahead).saturating_sub(1);
     let rows: Vec<Placed<'_>> = shared.chain(known::rows_of_side(start, side)).skip(skipped).collect();
-    let mut first: Option<(usize, &LostEnd<'_>)> = None;
-    for end in ends {
-        for &row in &end.rows {
+    let mut first: Option<(usize, &Junction<'_>)> = None;
+    for junction in junctions {
+        for &row in &junction.rows {
             let upto = first.map_or(rows.len(), |(index, _)| index + 1);
-            if let Some(index) = known::passes(store, solver, &rows[..upto], row)? {
-                first = Some((index, end));
+            // Beside a grazing lie orbits with more contacts and with fewer, and Newton's method goes over.
+            let contacts = junction.grazes.then_some(row.1.contacts);
+            if let Some(index) = known::passes(store, solver, &rows[..upto], (row, contacts))? {
+                first = Some((index, junction));
             }
         }
     }
-    Ok(first.map(|(index, lost)| {
-        let end = BranchEnd::Joins { branch: lost.branch, frequency_hz: lost.frequency_hz };
-        (skipped + index + 1 - ahead, end)
+    Ok(first.map(|(index, junction)| {
+        let end = BranchEnd::Joins { branch: junction.branch, frequency_hz: junction.frequency_hz };
+        let walk = &start.walk(side).rows;
+        let passed = (skipped + index + 1).saturating_sub(ahead).min(walk.len());
+        let solutions = if junction.grazes { grazing_before(walk, passed, junction) } else { passed };
+        (solutions, end)
     }))
 }
 
-/// Early ends of the branches before the one of a start, of the same period.
-fn lost_ends<'a>(agenda: &'a Agenda, start: &Start) -> Vec<LostEnd<'a>> {
-    let is_before =
-        |other: &&Start| other.branch < start.branch && other.period_multiple == start.period_multiple;
-    let earlier = agenda.accepted().filter(is_before);
-    earlier.flat_map(|other| [Side::Up, Side::Down].map(|side| (other, side))).filter_map(lost_end).collect()
+/// How many solutions a side has up to the grazing behind which it came upon the earlier branch; `passed`
+/// where it has none there.
+fn grazing_before(rows: &[Sketch], passed: usize, junction: &Junction<'_>) -> usize {
+    let is_there =
+        |row: &Sketch| row.grazes && (row.frequency_hz / junction.frequency_hz - 1.0).abs() <= SAME_GRAZING;
+    rows[..passed].iter().rposition(is_there).map_or(passed, |index| index + 1)
 }
 
-fn lost_end((start, side): (&Start, Side)) -> Option<LostEnd<'_>> {
+/// Early ends and grazings of the branches before the one of a start, of the same period.
+fn junctions<'a>(agenda: &'a Agenda, start: &Start) -> Vec<Junction<'a>> {
+    let is_before =
+        |other: &&Start| other.branch < start.branch && other.period_multiple == start.period_multiple;
+    let sides = agenda.accepted().filter(is_before).flat_map(|other| SIDES.map(|side| (other, side)));
+    sides.flat_map(|(other, side)| grazings(other, side).into_iter().chain(lost_end(other, side))).collect()
+}
+
+const SIDES: [Side; 2] = [Side::Up, Side::Down];
+
+fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
     let walk = start.walk(side);
     let branch = start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
     let rows: Vec<Placed<'_>> = known::rows_of_side(start, side).collect();
     let last: &Sketch = rows.last()?.1;
-    let back = [0, 4, 16, 64, 256].into_iter();
-    let compared = back.filter_map(|back| rows.len().checked_sub(1 + back).map(|index| rows[index]));
+    let compared =
+        APART.into_iter().filter_map(|back| rows.len().checked_sub(1 + back).map(|index| rows[index]));
     // At a branch point another branch has the same solution and is another one all the same.
     let compared = compared.filter(|(_, row)| !row.branch_point);
-    Some(LostEnd { branch, frequency_hz: last.frequency_hz, rows: compared.collect() })
+    Some(Junction { branch, frequency_hz: last.frequency_hz, grazes: false, rows: compared.collect() })
+}
+
+/// The grazings of a side, with solutions on either side of each: at the grazing itself another branch has
+/// the same one.
+fn grazings(start: &Start, side: Side) -> Vec<Junction<'_>> {
+    let Some(branch) = start.branch else { return Vec::new() };
+    let rows: Vec<Placed<'_>> = known::rows_of_side(start, side).collect();
+    let is_plain = |(_, row): &Placed<'_>| !row.branch_point && !row.grazes;
+    let around = |index: usize| {
+        let apart = APART.into_iter().skip(1);
+        let beside = apart.flat_map(move |apart| [index.checked_sub(apart), index.checked_add(apart)]);
+        beside.flatten().filter_map(|index| rows.get(index).copied()).filter(is_plain).collect()
+    };
+    let grazes = rows.iter().enumerate().filter(|(_, (_, row))| row.grazes);
+    grazes
+        .map(|(index, (_, row))| Junction {
+            branch,
+            frequency_hz: row.frequency_hz,
+            grazes: true,
+            rows: around(index),
+        })
+        .collect()
 }

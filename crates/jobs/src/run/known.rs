@@ -50,18 +50,19 @@ pub(super) fn lies_on(
     }
     let rows: Vec<Placed<'_>> = rows_of(start).collect();
     let at = (solution.frequency_hz, [solution.maxima.displacement, solution.maxima.acceleration]);
-    Ok(first_before(store, solver, &rows, (at, || Ok(solution.clone())))?.is_some())
+    Ok(first_before(store, solver, (&rows, None), (at, || Ok(solution.clone())))?.is_some())
 }
 
-/// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them.
+/// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them; of
+/// rows with so many contacts, if that is given.
 pub(super) fn passes(
     store: &Store,
     solver: &dyn Solver,
     rows: &[Placed<'_>],
-    (key, sketch): Placed<'_>,
+    ((key, sketch), contacts): (Placed<'_>, Option<u32>),
 ) -> Result<Option<usize>, StoreError> {
     let at = (sketch.frequency_hz, [sketch.displacement, sketch.acceleration]);
-    first_before(store, solver, rows, (at, || store.solution_of_key(key)))
+    first_before(store, solver, (rows, contacts), (at, || store.solution_of_key(key)))
 }
 
 /// The same for a solution of which frequency and maxima are known, and which is fetched where they allow
@@ -69,10 +70,11 @@ pub(super) fn passes(
 fn first_before(
     store: &Store,
     solver: &dyn Solver,
-    rows: &[Placed<'_>],
+    (rows, contacts): (&[Placed<'_>], Option<u32>),
     (at, solution): ((f64, [f64; 2]), impl FnOnce() -> Result<PeriodicSolution, StoreError>),
 ) -> Result<Option<usize>, StoreError> {
-    let pairs = rows.windows(2).enumerate();
+    let has_contacts = |(_, row): &Placed<'_>| contacts.is_none_or(|contacts| row.contacts == contacts);
+    let pairs = rows.windows(2).enumerate().filter(|(_, pair)| pair.iter().all(has_contacts));
     let mut near =
         pairs.filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?))).peekable();
     if near.peek().is_none() {
