@@ -29,8 +29,6 @@ use super::{
 
 /// How many solutions off such a place those are that are compared.
 const APART: [usize; 5] = [0, 4, 16, 64, 256];
-/// Relative difference of frequencies up to which two grazings can be the same.
-const SAME_GRAZING: f64 = 1e-7;
 
 /// A place at which a later branch may come upon an earlier one.
 struct Junction<'a> {
@@ -97,20 +95,21 @@ fn first_join(
         }
     }
     Ok(first.map(|(index, junction)| {
-        let end = BranchEnd::Joins { branch: junction.branch, frequency_hz: junction.frequency_hz };
         let walk = &start.walk(side).rows;
-        let passed = (skipped + index + 1).saturating_sub(ahead).min(walk.len());
-        let solutions = if junction.grazes { grazing_before(walk, passed, junction) } else { passed };
-        (solutions, end)
+        let mut solutions = skipped + index + 1 - ahead;
+        let mut frequency_hz = junction.frequency_hz;
+        if let Some(grazing) = grazing_before(walk, solutions).filter(|_| junction.grazes) {
+            (solutions, frequency_hz) = (grazing + 1, walk[grazing].frequency_hz);
+        }
+        (solutions, BranchEnd::Joins { branch: junction.branch, frequency_hz })
     }))
 }
 
-/// How many solutions a side has up to the grazing behind which it came upon the earlier branch; `passed`
-/// where it has none there.
-fn grazing_before(rows: &[Sketch], passed: usize, junction: &Junction<'_>) -> usize {
-    let is_there =
-        |row: &Sketch| row.grazes && (row.frequency_hz / junction.frequency_hz - 1.0).abs() <= SAME_GRAZING;
-    rows[..passed].iter().rposition(is_there).map_or(passed, |index| index + 1)
+/// The grazing from which on a side has the contacts that it has after so many solutions.
+fn grazing_before(rows: &[Sketch], solutions: usize) -> Option<usize> {
+    let contacts = rows[..solutions].last()?.contacts;
+    let changes = |row: &Sketch| row.grazes || row.contacts != contacts;
+    rows[..solutions].iter().rposition(changes).filter(|&index| rows[index].grazes)
 }
 
 /// Early ends and grazings of the branches before the one of a start, of the same period.
