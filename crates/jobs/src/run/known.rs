@@ -54,7 +54,7 @@ pub(super) fn lies_on(
 }
 
 /// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them; of
-/// rows with so many contacts, if that is given.
+/// rows with so many contacts, if that is given, and at none where branches cross.
 pub(super) fn passes(
     store: &Store,
     solver: &dyn Solver,
@@ -73,8 +73,9 @@ fn first_before(
     (rows, contacts): (&[Placed<'_>], Option<u32>),
     (at, solution): ((f64, [f64; 2]), impl FnOnce() -> Result<PeriodicSolution, StoreError>),
 ) -> Result<Option<usize>, StoreError> {
-    let has_contacts = |(_, row): &Placed<'_>| contacts.is_none_or(|contacts| row.contacts == contacts);
-    let pairs = rows.windows(2).enumerate().filter(|(_, pair)| pair.iter().all(has_contacts));
+    let counts =
+        |(_, row): &Placed<'_>| contacts.is_none_or(|contacts| row.contacts == contacts && !row.branch_point);
+    let pairs = rows.windows(2).enumerate().filter(|(_, pair)| pair.iter().all(counts));
     let mut near =
         pairs.filter_map(|(index, pair)| Some((index, share(pair[0].1, pair[1].1, at)?))).peekable();
     if near.peek().is_none() {
