@@ -125,10 +125,9 @@ const SIDES: [Side; 2] = [Side::Up, Side::Down];
 fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
     let walk = start.walk(side);
     let branch = start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
-    let rows: Vec<Placed<'_>> = known::rows_of_side(start, side).collect();
-    let last: &Sketch = rows.last()?.1;
-    let compared =
-        APART.into_iter().filter_map(|back| rows.len().checked_sub(1 + back).map(|index| rows[index]));
+    let last = walk.rows.last()?;
+    let before = |back: usize| known::row_of_side(start, side, walk.rows.len().checked_sub(1 + back)?);
+    let compared = APART.into_iter().filter_map(before);
     // At a branch point another branch has the same solution and is another one all the same.
     let compared = compared.filter(|(_, row)| !row.branch_point);
     Some(Junction { branch, frequency_hz: last.frequency_hz, grazes: false, rows: compared.collect() })
@@ -138,16 +137,16 @@ fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
 /// the same one.
 fn grazings(start: &Start, side: Side) -> Vec<Junction<'_>> {
     let Some(branch) = start.branch else { return Vec::new() };
-    let rows: Vec<Placed<'_>> = known::rows_of_side(start, side).collect();
     let is_plain = |(_, row): &Placed<'_>| !row.branch_point && !row.grazes;
     let around = |index: usize| {
         let apart = APART.into_iter().skip(1);
         let beside = apart.flat_map(move |apart| [index.checked_sub(apart), index.checked_add(apart)]);
-        beside.flatten().filter_map(|index| rows.get(index).copied()).filter(is_plain).collect()
+        let at = |index| known::row_of_side(start, side, index);
+        beside.flatten().filter_map(at).filter(is_plain).collect()
     };
-    let grazes = rows.iter().enumerate().filter(|(_, (_, row))| row.grazes);
+    let grazes = start.walk(side).rows.iter().enumerate().filter(|(_, row)| row.grazes);
     grazes
-        .map(|(index, (_, row))| Junction {
+        .map(|(index, row)| Junction {
             branch,
             frequency_hz: row.frequency_hz,
             grazes: true,

@@ -132,8 +132,7 @@ fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
     let of_side = |side| {
         let walk = start.walk(side);
         let ends = walk.end.as_ref().is_some_and(BranchEnd::is_shorter_period);
-        let last = walk.rows.last().filter(|_| ends)?;
-        Some((solution_key(start.key, side, walk.rows.len() as u32 - 1), last))
+        row_of_side(start, side, walk.rows.len().checked_sub(1)?).filter(|_| ends)
     };
     [Side::Up, Side::Down].into_iter().filter_map(of_side)
 }
@@ -146,8 +145,13 @@ fn rows_of(start: &Start) -> impl Iterator<Item = Placed<'_>> {
 
 /// Rows of a side, from the start on.
 pub(super) fn rows_of_side(start: &Start, side: Side) -> impl Iterator<Item = Placed<'_>> {
-    let key = solution_key(start.key, side, 0);
-    start.walk(side).rows.iter().enumerate().map(move |(number, row)| (key + number as i64, row))
+    (0..start.walk(side).rows.len()).filter_map(move |number| row_of_side(start, side, number))
+}
+
+/// The row of that number on a side.
+pub(super) fn row_of_side(start: &Start, side: Side, number: usize) -> Option<Placed<'_>> {
+    let row = start.walk(side).rows.get(number)?;
+    Some((solution_key(start.key, side, number as u32), row))
 }
 
 /// Where between two rows a solution lies by its frequency, if its maxima of displacement and acceleration
