@@ -170,6 +170,12 @@ impl EventSet {
         self.0 >> kind as u32 & 1 == 1
     }
 
+    /// Whether nothing happens.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
     /// Whether the motion bifurcates there: a fold, a flip, a Neimark-Sacker point or a branch point.
     #[must_use]
     pub fn is_bifurcation(self) -> bool {

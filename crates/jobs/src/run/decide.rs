@@ -101,7 +101,8 @@ impl Decisions<'_> {
             let known = if root {
                 known::has_branch_point(self.store, self.solver, other, (&solution, left_from))?
             } else {
-                known::lies_on(self.store, self.solver, other, &solution)?
+                known::goes_on_to(other, &solution)
+                    || known::lies_on(self.store, self.solver, other, &solution)?
             };
             if let (true, Some(branch)) = (known, other.branch) {
                 return Ok(Finding::OnBranch(branch));

@@ -6,6 +6,9 @@
 //! starts of all its excitation periods, and the orbit that Newton's method finds from there must be the
 //! solution itself.
 //!
+//! Where the amplitude may be any a branch ends, but orbits of larger amplitude go on from there, at next to
+//! the same frequency: a solution among them lies on that branch, too.
+//!
 //! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point
 //! there: the same frequency and the same state. A point that was bracketed and not located is taken to lie
 //! within [`DOUBTS`] times its uncertainty.
@@ -25,7 +28,7 @@ use super::{
 const MARGIN: f64 = 0.02;
 /// Relative difference of frequencies up to which two branch points can be the same, besides what their place
 /// is uncertain by.
-const SAME_FREQUENCY: f64 = 1e-7;
+pub(super) const SAME_FREQUENCY: f64 = 1e-7;
 /// Uncertainties within which a bracketed point lies: they are what the last steps of its search moved it by,
 /// and have been seen to be a third of its error.
 const DOUBTS: f64 = 10.0;
@@ -34,6 +37,10 @@ const DOUBTS: f64 = 10.0;
 const SAME_STATE: f64 = 5e-3;
 /// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
 const OVERHANG: f64 = 1e-3;
+
+/// What is left of a branch whose amplitude may be any, in parts of the way over which that doubled last:
+/// with `a = c/|f* - f|^p` it is `1/(2^(1/p) - 1)`, and p at most two.
+const LEFT: f64 = 3.0;
 
 /// A row of a branch: where it is stored, and its sketch.
 pub(super) type Placed<'a> = (i64, &'a Sketch);
@@ -51,6 +58,24 @@ pub(super) fn lies_on(
     let rows: Vec<Placed<'_>> = rows_of(start).collect();
     let at = (solution.frequency_hz, [solution.maxima.displacement, solution.maxima.acceleration]);
     Ok(first_before(store, solver, (&rows, None), (at, || Ok(solution.clone())))?.is_some())
+}
+
+/// Whether the branch of a start goes on to the solution beyond an end at which its amplitude may be any.
+pub(super) fn goes_on_to(start: &Start, solution: &PeriodicSolution) -> bool {
+    let goes_on = |side: Side| {
+        let walk = start.walk(side);
+        let last = walk.rows.last().filter(|_| walk.end.as_ref().is_some_and(BranchEnd::has_any_amplitude));
+        let half = |last: &Sketch| {
+            walk.rows.iter().rev().find(|row| row.displacement <= 0.5 * last.displacement)
+        };
+        last.zip(last.and_then(half)).is_some_and(|(last, half)| {
+            let left = LEFT * (last.frequency_hz - half.frequency_hz).abs();
+            let way = (solution.frequency_hz - last.frequency_hz).abs();
+            solution.maxima.displacement >= last.displacement
+                && way <= left.max(SAME_FREQUENCY * last.frequency_hz)
+        })
+    };
+    start.period_multiple == solution.period_multiple && [Side::Up, Side::Down].into_iter().any(goes_on)
 }
 
 /// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them; of

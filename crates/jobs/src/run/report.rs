@@ -5,13 +5,13 @@ use std::{collections::BTreeMap, path::PathBuf};
 use hammerbeam_orbit::{BranchEventKind, Side, Stability};
 use hammerbeam_results::{
     end_text::{BranchOver, NOT_FINISHED, sentence},
-    store::{JobRecord, PieceRecord, WalkRecord},
+    store::{JobOutcome, JobRecord, PieceRecord, WalkRecord},
     summary::{BranchSummary, Peak, PieceSummary},
 };
 use hammerbeam_study::{UndampedInContact, UndampedMode};
 use serde::{Serialize, Serializer};
 
-use super::RunOutcome;
+use super::{RunOutcome, known::SAME_FREQUENCY};
 use crate::{
     MirrorImage,
     check::{in_contact_documents, undamped_documents},
@@ -65,9 +65,20 @@ impl RunReport {
         self.searches.iter().filter(|search| search.outcome.is_none()).count()
     }
 
-    /// Those of which nothing came or that were not complete, with the reason.
+    /// Those of which nothing came or that were not complete, with the reason. Where a stored branch ends at
+    /// the flip or grazing from which another one was looked for, that is the other one.
     pub fn failed(&self) -> impl Iterator<Item = (&JobRecord, &str)> {
-        let ended = self.searches.iter().filter(|search| search.outcome.is_some());
+        let records = self.branches.iter().map(|branch| &branch.summary.record);
+        let ends = records.flat_map(|record| [&record.up, &record.down]).filter_map(|walk| walk.end.as_ref());
+        let met: Vec<f64> =
+            ends.filter(|end| end.is_shorter_period()).filter_map(|end| end.place()).collect();
+        let is_met = move |search: &JobRecord| {
+            let apart = |at: &f64| (at - search.frequency_hz).abs() <= SAME_FREQUENCY * search.frequency_hz;
+            search.outcome == Some(JobOutcome::Nothing)
+                && search.source.is_some()
+                && met.iter().any(apart)
+        };
+        let ended = self.searches.iter().filter(move |search| search.outcome.is_some() && !is_met(search));
         ended.filter_map(|search| Some((search, search.message.as_deref()?)))
     }
 }

@@ -1,13 +1,14 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
 use hammerbeam_motion::{Law, LocalElement, System, general::ElementMaxima};
-use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution};
+use hammerbeam_orbit::{BranchEventKind, PeriodicSolution};
 use hammerbeam_results::row::Row;
 
 use super::{
     quantity::VerifiedQuantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
+    stored::Claims,
     unknown::{Unknown, behind_hard_contacts, touches_at_nodes},
 };
 
@@ -170,7 +171,7 @@ fn pushed(system: &System) -> f64 {
 /// * `sensitivity`: how much the monodromy matrix changes with the first node, as far as that is wanted.
 pub(super) fn compare(
     (system, response): (&System, &[f64]),
-    (row, claims, solution): (&Row, EventSet, &PeriodicSolution),
+    (row, claims, solution): (&Row, Claims, &PeriodicSolution),
     scales: &[f64],
     found: &Recomputed,
     (tolerance, sensitivity): (f64, f64),
@@ -194,7 +195,7 @@ pub(super) fn compare(
     };
     list.push(contacts(row, found, grazing + crossed + turned + cut.len()));
     // At a damper multipliers jump on the row of the grazing, which lies where the grazing was located.
-    let (damped_row, located) = if claims.has(BranchEventKind::Grazing) {
+    let (damped_row, located) = if claims.events.has(BranchEventKind::Grazing) {
         (damped.min(nearest_kink(system, found)), margin.max(EVENT * measures.contact[0]))
     } else {
         (f64::INFINITY, margin)
@@ -338,7 +339,7 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
 ///   to a grazing at which they jump: from one side of the place of such an event to the other, so that none
 ///   need be there.
 fn events(
-    claims: EventSet,
+    claims: Claims,
     found: &Recomputed,
     measures: &Measures,
     (unknown, jump): (f64, f64),
@@ -359,11 +360,13 @@ fn events(
             list.push(plain(VerifiedQuantity::Events, 0.0, distance, distance));
         }
     };
-    let has = |kind| claims.has(kind);
-    claim(has(BranchEventKind::Fold) && !jumps, nearest(&|m| (m - 1.0).norm()));
-    claim(has(BranchEventKind::Flip) && !jumps, nearest(&|m| (m + 1.0).norm()));
+    let has = |kind| claims.events.has(kind);
+    // Where the multiplier of an event that was bracketed only was said to lie.
+    let off = |m: faer::c64| claims.bracketed.map(|[re, im]| (m - faer::c64::new(re, im)).norm());
+    claim(has(BranchEventKind::Fold) && !jumps, nearest(&|m| off(m).unwrap_or((m - 1.0).norm())));
+    claim(has(BranchEventKind::Flip) && !jumps, nearest(&|m| off(m).unwrap_or((m + 1.0).norm())));
     let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(has(BranchEventKind::NeimarkSacker) && !jumps, nearest(&circle));
+    claim(has(BranchEventKind::NeimarkSacker) && !jumps, nearest(&|m| off(m).unwrap_or(circle(m))));
     claim(has(BranchEventKind::Grazing), touch / measures.contact[0]);
     list
 }

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use hammerbeam_motion::System;
-use hammerbeam_orbit::{BranchEventKind, EventSet, PeriodicSolution, Response};
+use hammerbeam_orbit::{BranchEventKind, EventSet, EventStatus, PeriodicSolution, Response};
 use hammerbeam_results::{
     Store, StoreError,
     row::Row,
@@ -42,11 +42,19 @@ pub(super) struct ChosenRow {
 pub(super) struct StoredRow<'a> {
     pub place: VerifiedPlace,
     pub row: Row,
-    pub claims: EventSet,
+    pub claims: Claims,
     pub solution: PeriodicSolution,
     is_of_curve: bool,
     model: &'a Model,
     parameter: Option<&'a Result<StudyParameter, String>>,
+}
+
+/// What is claimed to happen at a row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Claims {
+    pub events: EventSet,
+    /// The multiplier of an event that was bracketed only: it is said to lie there, and not in its place.
+    pub bracketed: Option<[f64; 2]>,
 }
 
 impl<'a> StoredRows<'a> {
@@ -94,7 +102,10 @@ impl<'a> StoredRows<'a> {
             branch: branch.id,
             frequency_hz: solution.frequency_hz,
         };
-        let claims = piece.as_ref().map_or(row.events, |piece| piece.claims(row.events));
+        let events = piece.as_ref().map_or(row.events, |piece| piece.claims(row.events));
+        let event = if events.is_empty() { None } else { store.event(key)? };
+        let bracketed = event.filter(|event| event.status == EventStatus::Bracketed);
+        let claims = Claims { events, bracketed: bracketed.and_then(|event| event.multiplier) };
         let parameter = piece.as_ref().map(|piece| &piece.parameter);
         let is_of_curve = piece.as_ref().is_some_and(|piece| piece.kind.is_curve());
         Ok(StoredRow { place, row, claims, solution, is_of_curve, model: self.model, parameter })

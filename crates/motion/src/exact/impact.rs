@@ -51,9 +51,6 @@ use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, hole, run::
 
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
-/// How long a brief hop takes at most [cycles]. Its height is about 6e-12 of the motion then, some thousand
-/// rounding margins.
-const BRIEF_HOP: f64 = 1e-4;
 /// Steps of Newton's method to a touch; one or two are usual.
 const NEWTON_STEPS: usize = 20;
 
@@ -208,7 +205,7 @@ impl ExactIntegrator {
         sticks: bool,
     ) {
         let element = impact.touch.element;
-        if !self.hops_briefly(run, element) {
+        if !self.ends_a_brief_hop(run, element) {
             let place = self.first_touch(element);
             self.touches[place] = self.touches[place].saturating_add(1);
             if self.notes_course {
@@ -219,14 +216,6 @@ impl ExactIntegrator {
             self.course.impact(element, (impulse, energy), sticks);
         }
         self.trace_impact(run, impact.touch, (impulse, energy), sticks);
-    }
-
-    /// Whether a stop that gives nothing back was left so shortly before that its contact is taken to go on:
-    /// where what presses on it vanishes for an instant it opens by next to nothing, and rounding says
-    /// whether at all, while the motion goes on smoothly.
-    fn hops_briefly(&self, run: &Run, element: usize) -> bool {
-        let away = run.time - run.left[element].at;
-        !self.laws[element].chatters() && away * self.stretch.frequency_hz < BRIEF_HOP
     }
 
     /// Place of the first contact of an element among the numbers of touches.

@@ -49,10 +49,12 @@ pub(crate) struct Run {
 pub(crate) struct Left {
     pub at: f64,
     pub until: f64,
+    /// Whether it is pressed on again at once (`stick.rs`).
+    pub briefly: bool,
 }
 
 impl Left {
-    pub const NEVER: Self = Self { at: f64::NEG_INFINITY, until: f64::NEG_INFINITY };
+    pub const NEVER: Self = Self { at: f64::NEG_INFINITY, until: f64::NEG_INFINITY, briefly: false };
 }
 
 /// What is known of an element at the start of a step.

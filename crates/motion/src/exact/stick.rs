@@ -32,6 +32,9 @@ use super::{
 
 /// Height of a bounce, in rounding margins of the clearance, below which it sticks.
 const CHATTER: f64 = 1e3;
+/// How long a brief hop takes at most [cycles]. Its height is about 6e-12 of the motion then, some thousand
+/// rounding margins.
+const BRIEF_HOP: f64 = 1e-4;
 /// Added to the number of touches with every chatter that comes to its end.
 pub(super) const STUCK_TOUCHES: u32 = 1 << 16;
 
@@ -84,7 +87,23 @@ impl ExactIntegrator {
         let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();
         let wait = cubic.min(quadratic);
         let until = run.time + wait.min(1e-3 * self.stretch.duration());
-        run.left[element] = Left { at: run.time, until };
+        let briefly = !self.laws[element].chatters() && self.hops_briefly(run, element);
+        run.left[element] = Left { at: run.time, until, briefly };
+    }
+
+    /// Whether an element that moves off its stop without speed is pressed on again at once. What presses
+    /// says so, to all digits: with `r'' = -a + j t` it comes back after `3 a/j`. When it does so is known
+    /// less well, since it comes slowly.
+    fn hops_briefly(&self, run: &Run, element: usize) -> bool {
+        self.press_after(run, element, BRIEF_HOP / (3.0 * self.stretch.frequency_hz)) > 0.0
+    }
+
+    /// Whether a touch is the end of such a hop. Its contact is taken to have gone on: where what presses on
+    /// a stop that gives nothing back vanishes for an instant it opens by next to nothing, and rounding says
+    /// whether at all, while the motion goes on smoothly.
+    pub(super) fn ends_a_brief_hop(&self, run: &Run, element: usize) -> bool {
+        let away = run.time - run.left[element].at;
+        run.left[element].briefly && away * self.stretch.frequency_hz < 10.0 * BRIEF_HOP
     }
 
     fn mobility_in_free(&self, element: usize) -> f64 {

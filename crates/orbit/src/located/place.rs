@@ -47,7 +47,7 @@ pub(crate) struct Approach {
     pub chord: f64,
     /// Change of the tangent's frequency component per length.
     pub bend: f64,
-    /// The point before, on the way to a branch point; `None` on the way to what needs none.
+    /// The point before, on the way to a fold or branch point; `None` on the way to what needs none.
     pub before: Option<Vec<f64>>,
     /// How near contacts came to a change there: least clearance or penetration of a turn [m], and least
     /// squared speed of a touch [m^2/s^2]; `None` where that is not known.
@@ -90,7 +90,8 @@ impl Approach {
             approach.chord = distance(problem.weights(), &base.point, &before.point);
             approach.bend =
                 (base.tangent[last] - before.tangent[last]).abs() / approach.chord.max(f64::MIN_POSITIVE);
-            approach.before = current.events.branch_point.then(|| before.point.clone());
+            let at_unity = current.events.branch_point || current.events.fold;
+            approach.before = at_unity.then(|| before.point.clone());
         }
         approach
     }

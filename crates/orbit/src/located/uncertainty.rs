@@ -20,8 +20,9 @@
 //!   `d |dg/dm| |f_1 - f|/|g_1|` on the branch that is left, and by twice that on an arm of a pitchfork,
 //!   along which the frequency is stationary: there `1 - m` goes with the frequency twice as quickly. Twice
 //!   it is for both.
-//! * At a fold the frequency is stationary along the path. It moves with the motion, by `10 t` times the
-//!   response of the frequency to a closure error.
+//! * At a fold a real multiplier reaches +1, too. With the same product g it is `s` that is no less than
+//!   `d |dg/dm| c/|g_1|`. The frequency is stationary there; it moves with the motion besides, by `10 t`
+//!   times the response of the frequency to a closure error.
 //!
 //! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
 
@@ -62,6 +63,7 @@ pub(super) fn of_place(
             along = along.max(of_multiplier(problem, approach, (events.zeros, multiplier)));
         }
         if events.fold && !events.branch_point && !events.signature_change {
+            along = along.max(of_unit_multiplier(problem, place, approach, approach.chord));
             let [tolerance, _] = approach.errors;
             let moved = response_to_closure(problem, place);
             itself = moved.map_or(approach.chord, |moved| MOTION * tolerance * moved.parameter);
@@ -109,23 +111,36 @@ fn of_multiplier(
     share_of(approach, off * change, test.value)
 }
 
-/// Interval of the frequency within which a branch point lies, by the motion at it and at the point before.
+/// Interval of the frequency within which a branch point lies.
 fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
+    let before = approach.before.as_ref().and_then(|before| before.last());
+    before.map_or(approach.chord, |before| {
+        let way = (before - place.point.parameter()).abs();
+        of_unit_multiplier(problem, place, approach, ARM * way)
+    })
+}
+
+/// The part of a way from the point before within which a multiplier is +1, by the motion at both points.
+fn of_unit_multiplier(
+    problem: &mut ShootingProblem,
+    place: &Place<'_>,
+    approach: &Approach,
+    way: f64,
+) -> f64 {
     let nearest = problem.spectrum().ok().and_then(|spectrum| nearest_to_one(&spectrum.multipliers));
     let (Some(before), Some((multiplier, others))) = (&approach.before, nearest) else {
         return approach.chord;
     };
     let off = problem.reach_of(multiplier) + (1.0 - multiplier[0]).hypot(multiplier[1]);
-    let way = (before[before.len() - 1] - place.point.parameter()).abs();
     let test = problem.evaluate(before).ok().and_then(|()| {
         let spectrum = problem.spectrum().ok()?;
         Some(distances(&spectrum.multipliers, 1.0, 0.0))
     });
-    // The motion at the branch point is asked for next.
+    // The motion at the event is asked for next.
     let returned = problem.evaluate(&place.point.point);
     match test {
         Some(test) if returned.is_ok() => {
-            let slope = ARM * way / test.max(f64::MIN_POSITIVE);
+            let slope = way / test.max(f64::MIN_POSITIVE);
             (off * distances(&others, 1.0, off) * slope).min(approach.chord)
         }
         _ => approach.chord,

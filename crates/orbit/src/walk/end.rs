@@ -82,7 +82,7 @@ fn doubt_in_unstable(path: &mut OrbitPath, doubt: String) -> String {
 }
 
 /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
-fn largest_multiplier(path: &mut OrbitPath) -> f64 {
+pub(super) fn largest_multiplier(path: &mut OrbitPath) -> f64 {
     let point = path.current().clone();
     let row = evaluate(&mut path.problem, &point.point).and_then(|()| row_at(path, &point));
     row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())

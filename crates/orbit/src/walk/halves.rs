@@ -1,17 +1,17 @@
-//! Orbits whose ends have to keep clear of impacts, cut into two segments and made one again.
+//! Orbits whose ends have to keep clear of impacts, cut into two segments, four and more, and joined again.
 //!
 //! A symmetric orbit comes to graze two opposite rigid stops at once. Over one segment the speed `v` of the
 //! first touch, which goes like the root of its depth, moves the second one, whose speed then goes like the
 //! root of `v`: the corner there is none of those that the path crate turns. Cut in two, each touch lies in a
 //! segment of its own, and depends on the state before it alone. The multipliers grow like the product of
-//! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
+//! `1/v` of all touches, so an orbit of several slow impacts is better cut, too, and if two segments are not
+//! enough, each of them again.
 //!
 //! The phases at which a cut orbit begins and is cut must all be clear of impacts. Where an impact comes
 //! near one of them all segments begin later (`recut.rs`); where that cannot be, or there is no longer more
-//! than one impact, the orbit is made one segment again, whose begin may move. An orbit of one segment with
-//! an impact near its ends, as behind the corner of two stops, is cut elsewhere (`recut.rs`). A branch of
-//! doubled period begins with twice the segments of the orbit that it leaves: with four, where that one was
-//! cut.
+//! than one impact, each two segments are joined, and a single one may begin elsewhere. An orbit with an
+//! impact near the ends of its new segments, as behind the corner of two stops, is cut elsewhere
+//! (`recut.rs`). A branch of doubled period begins with twice the segments of the orbit that it leaves.
 
 use hammerbeam_path::{ContinuationPoint, Node};
 
@@ -21,7 +21,7 @@ use super::{
 };
 use crate::cut::{contacts, folded, longest_of_orbit};
 
-/// Cuts orbits of one segment, whose begin and half are clear of impacts, in two; false if the walk stays as
+/// Cuts each segment in two, where the ends of the new ones are clear of impacts; false if the walk stays as
 /// it was.
 pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     let OrbitPath { problem, follower, .. } = path;
@@ -30,21 +30,24 @@ pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     };
     let begun = Some(&follower.state().start).filter(|_| follower.state().has_start());
     let start = begun.and_then(|start| refine(problem, start, 2).ok());
-    go_on_with(path, 2, &current, start.as_ref())
+    let segments = 2 * path.problem.segments();
+    go_on_with(path, segments, &current, start.as_ref())
 }
 
-/// Makes the segments of an orbit one again where an impact comes near their ends, or the start of the walk
-/// is to be found again.
-pub(super) fn join_at_contacts(path: &mut OrbitPath) {
+/// Joins each two segments of an orbit where an impact comes near their ends, or the start of the walk is to
+/// be found again; false if the walk stays as it was.
+pub(super) fn join_at_contacts(path: &mut OrbitPath) -> bool {
     let segments = path.problem.segments();
     if offset_to_clear_ends(path, segments) == Some(0.0) && !path.is_near_lost_start() {
-        return;
+        return false;
     }
     let size = path.problem.node_size();
-    let current = first_node(path.follower.current(), size);
+    // All are made one where their number is odd.
+    let joined = if segments.is_multiple_of(2) { 2 } else { segments };
+    let current = every(joined, path.follower.current(), size);
     let state = path.follower.state();
-    let start = state.has_start().then(|| first_node(&state.start, size));
-    go_on_with(path, 1, &current, start.as_ref());
+    let start = state.has_start().then(|| every(joined, &state.start, size));
+    go_on_with(path, segments / joined, &current, start.as_ref())
 }
 
 /// By how much later the present orbit would have to begin for the ends of so many segments to be clear of
@@ -97,15 +100,18 @@ pub(super) fn origin_now(path: &OrbitPath) -> Option<Origin> {
     let state = path.follower.state();
     let of_start = || {
         let mut point = state.in_first_units(&state.start);
-        let node = first_node(&point, path.problem.node_size());
+        let node = every(path.problem.segments(), &point, path.problem.node_size());
         (point.point, point.tangent) = (node.point, node.tangent);
         Origin { phase: path.problem.phase(), point }
     };
     path.origin.clone().or_else(|| state.has_start().then(of_start))
 }
 
-/// The first node of a point and the last unknown, with the tangent there.
-fn first_node(at: &ContinuationPoint, size: usize) -> Node {
-    let of = |values: &[f64]| values[..size].iter().chain(values.last()).copied().collect();
+/// The first of each so many nodes of a point and the last unknown, with the tangent there.
+fn every(joined: usize, at: &ContinuationPoint, size: usize) -> Node {
+    let of = |values: &[f64]| {
+        let nodes = values.chunks_exact(size).step_by(joined).flatten();
+        nodes.chain(values.last()).copied().collect()
+    };
     Node { point: of(&at.point), tangent: of(&at.tangent) }
 }

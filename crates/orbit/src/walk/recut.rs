@@ -31,6 +31,13 @@ use crate::{
     shooting::ShootingProblem,
 };
 
+/// Most segments of an orbit whose ends keep clear of impacts.
+const MOST_CUT: usize = 16;
+
+/// An orbit on which a disturbance becomes so many times as large in a period is cut once, and not again: just
+/// behind a corner of several stops, rounding of slow impacts would go into all new nodes.
+const LOST: f64 = 1e12;
+
 /// Whether the orbits of a path may have to start at another phase.
 pub(super) fn moves_phase(path: &OrbitPath) -> bool {
     begins_with_care(path.problem.system()) && path.problem.segments() == 1
@@ -41,9 +48,7 @@ pub(super) fn keep_phase_clear(path: &mut OrbitPath) {
     if path.follower.stop_reason().is_some() {
         return;
     }
-    if is_cut(path) && !begin_later(path) {
-        join_at_contacts(path);
-    }
+    while is_cut(path) && !begin_later(path) && join_at_contacts(path) {}
     if !moves_phase(path) {
         return;
     }
@@ -124,20 +129,24 @@ fn begin_journal_anew(path: &mut OrbitPath) {
     path.measures_anew = true;
 }
 
-/// Goes on with orbits of two segments, which begin elsewhere where an impact is near an end of the two.
+/// Goes on with orbits of twice the segments, which begin elsewhere where an impact is near an end of one.
 /// False if the walk stays as it was.
-pub(super) fn halve(path: &mut OrbitPath) -> bool {
-    if path.problem.segments() != 1 || !path.problem.system().has_rigid_stops() {
+///
+/// * `largest`: modulus of its multipliers.
+pub(super) fn halve(path: &mut OrbitPath, largest: f64) -> bool {
+    let segments = 2 * path.problem.segments();
+    let is_lost = segments > 2 && largest > LOST;
+    if is_lost || segments > MOST_CUT || !path.problem.system().has_rigid_stops() {
         return false;
     }
-    match offset_to_clear_ends(path, 2) {
+    match offset_to_clear_ends(path, segments) {
         Some(offset) if offset > 0.0 => cut_in_halves_elsewhere(path, offset),
         Some(_) => cut_in_halves(path),
         None => false,
     }
 }
 
-/// Cuts the present orbit of one segment into two, the first of which begins this much later.
+/// Cuts each segment of the present orbit into two, the first of which begins this much later.
 ///
 /// Behind a corner in which several stops were grazed a disturbance grows so fast over one segment that its
 /// phase cannot be moved any more.
@@ -150,9 +159,10 @@ fn cut_in_halves_elsewhere(path: &mut OrbitPath, offset: f64) -> bool {
         ContinuationPoint { point: begin.point, tangent: begin.tangent, ..follower.current().clone() };
     problem.set_phase((before + offset).rem_euclid(f64::from(problem.period_multiple())));
     let halves = refine(problem, &begin, 2);
-    problem.set_segments(2);
+    let segments = problem.segments();
+    problem.set_segments(2 * segments);
     if !halves.is_ok_and(|halves| follower.transfer_afresh(problem, &halves, None).is_ok()) {
-        problem.set_segments(1);
+        problem.set_segments(segments);
         problem.set_phase(before);
         return false;
     }

@@ -1,5 +1,6 @@
 //! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
-//! Where nodes have to keep clear of contacts (`cut.rs`) one segment becomes two, and no more (`halves.rs`).
+//! Where nodes have to keep clear of impacts on rigid stops each segment becomes two (`halves.rs`), and those
+//! of laws that remember how a contact began are not cut.
 //!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k +
 //! dZ/df t_f`. The present point and the start of the walk are cut anew, and the follower goes on in the new
@@ -16,11 +17,13 @@ const MOST: usize = 64;
 
 /// Goes on from the present point with more segments; false if there are enough already, or if neither
 /// point is found with more.
-pub(super) fn resegment(path: &mut OrbitPath) -> Result<bool, OrbitError> {
+///
+/// * `largest`: modulus of its multipliers.
+pub(super) fn resegment(path: &mut OrbitPath, largest: f64) -> Result<bool, OrbitError> {
     let OrbitPath { problem, follower, .. } = path;
     let segments = problem.segments();
     if begins_with_care(problem.system()) {
-        return Ok(halve(path));
+        return Ok(halve(path, largest));
     }
     if segments * FACTOR > MOST {
         return Ok(false);
@@ -68,7 +71,7 @@ mod tests {
                 return (rows, reason, walk.path.problem.segments());
             }
             if cuts.contains(&step) {
-                assert!(super::resegment(&mut walk.path).unwrap());
+                assert!(super::resegment(&mut walk.path, 1.0).unwrap());
             }
             if step == stored {
                 journal.extend(walk.take_journal());
