@@ -340,6 +340,21 @@ fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
     }
 }
 
+/// Four slow impacts within three periods, over which a disturbance becomes 1e11 times as large: cut in two,
+/// 10 000 solutions brought the branch no further.
+#[test]
+fn an_orbit_of_many_slow_impacts_is_cut_more_than_once() {
+    let study = between_stops(0.012, [2.336, 2.75]);
+    let workshop = Workshop::exported(&format!(
+        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 2e-3\n"
+    ));
+    // Near the harmonic orbit, which all branches come to, they lie too close together for `assert_whole`.
+    let ends = workshop.table("results/export/ends.csv");
+    assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
+    let rows = workshop.table("results/export/branches.csv").len();
+    assert!(rows < 3000, "{rows} solutions");
+}
+
 /// Where an orbit of three periods grazes both stops at once, its asymmetric arms, with one contact more and
 /// not two, end: beyond they would go on along the symmetric branch.
 #[test]
@@ -400,7 +415,8 @@ fn solutions_at_a_stop_that_is_left_without_speed_are_verified() {
 /// shorter hop says less well when; it was counted now and then, on either stop for itself.
 #[test]
 fn both_plastic_stops_are_struck_once_more_from_one_grazing_on() {
-    let study = one_mass([0.9, 320.0, 0.02, 2.5], [1.62, 1.64], "restitution = 0\nside = \"both\"\ngap_m = 0.006");
+    let study =
+        one_mass([0.9, 320.0, 0.02, 2.5], [1.62, 1.64], "restitution = 0\nside = \"both\"\ngap_m = 0.006");
     let workshop = Workshop::exported(&study);
     assert_whole(&workshop, (1.62, 1.64), WHOLE);
     let (grazings, rows) = (grazings(&workshop), workshop.table("results/export/branches.csv"));

@@ -47,6 +47,36 @@ fn a_run_over_an_undamped_resonance_has_both_sides_of_it_and_ends() {
     assert_eq!(ends.matches(",unbounded,").count(), 2, "{ends}");
 }
 
+/// An impact gives back all: two branches go to infinity at the eigenfrequency, and searches beside it meet
+/// orbits of a thousand metres, which belong to them.
+#[test]
+fn orbits_beyond_an_end_at_infinity_make_no_branches() {
+    let workshop = Workshop::with(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m", mass_kg = 0.95 }]
+spring = [{ between = ["m", "ground"], stiffness_n_m = 370.0 }]
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 1.7
+frequency_hz = [3.0, 3.3]
+[[stop]]
+name = "s"
+at = "m"
+law = "rigid"
+restitution = 1.0
+side = "below"
+gap_m = 0.013
+"#,
+    );
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    assert_success(&run);
+    let report: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
+    assert_eq!(report["branches"].as_array().unwrap().len(), 2, "{report}");
+}
+
 /// Half the eigenfrequency, where its free vibration repeats with the motion.
 #[test]
 fn free_vibrations_that_repeat_with_the_motion_are_one_solution_and_no_branch() {

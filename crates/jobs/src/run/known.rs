@@ -65,9 +65,8 @@ pub(super) fn goes_on_to(start: &Start, solution: &PeriodicSolution) -> bool {
     let goes_on = |side: Side| {
         let walk = start.walk(side);
         let last = walk.rows.last().filter(|_| walk.end.as_ref().is_some_and(BranchEnd::has_any_amplitude));
-        let half = |last: &Sketch| {
-            walk.rows.iter().rev().find(|row| row.displacement <= 0.5 * last.displacement)
-        };
+        let half =
+            |last: &Sketch| walk.rows.iter().rev().find(|row| row.displacement <= 0.5 * last.displacement);
         last.zip(last.and_then(half)).is_some_and(|(last, half)| {
             let left = LEFT * (last.frequency_hz - half.frequency_hz).abs();
             let way = (solution.frequency_hz - last.frequency_hz).abs();

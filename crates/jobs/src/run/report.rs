@@ -74,9 +74,7 @@ impl RunReport {
             ends.filter(|end| end.is_shorter_period()).filter_map(|end| end.place()).collect();
         let is_met = move |search: &JobRecord| {
             let apart = |at: &f64| (at - search.frequency_hz).abs() <= SAME_FREQUENCY * search.frequency_hz;
-            search.outcome == Some(JobOutcome::Nothing)
-                && search.source.is_some()
-                && met.iter().any(apart)
+            search.outcome == Some(JobOutcome::Nothing) && search.source.is_some() && met.iter().any(apart)
         };
         let ended = self.searches.iter().filter(move |search| search.outcome.is_some() && !is_met(search));
         ended.filter_map(|search| Some((search, search.message.as_deref()?)))

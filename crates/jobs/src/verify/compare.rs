@@ -355,19 +355,16 @@ fn events(
     let touch = found.extrema.iter().chain(kinks).map(|turn| turn.abs()).fold(f64::INFINITY, f64::min);
     let jumps = jump <= EVENT * measures.contact[0];
     let mut list = Vec::new();
-    let mut claim = |claimed: bool, distance: f64| {
-        if claimed {
-            list.push(plain(VerifiedQuantity::Events, 0.0, distance, distance));
-        }
+    let mut claim = |distance: f64| {
+        list.push(plain(VerifiedQuantity::Events, 0.0, distance, distance));
     };
-    let has = |kind| claims.events.has(kind);
-    // Where the multiplier of an event that was bracketed only was said to lie.
-    let off = |m: faer::c64| claims.bracketed.map(|[re, im]| (m - faer::c64::new(re, im)).norm());
-    claim(has(BranchEventKind::Fold) && !jumps, nearest(&|m| off(m).unwrap_or((m - 1.0).norm())));
-    claim(has(BranchEventKind::Flip) && !jumps, nearest(&|m| off(m).unwrap_or((m + 1.0).norm())));
-    let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(has(BranchEventKind::NeimarkSacker) && !jumps, nearest(&|m| off(m).unwrap_or(circle(m))));
-    claim(has(BranchEventKind::Grazing), touch / measures.contact[0]);
+    use BranchEventKind::{Flip, Fold, Grazing, NeimarkSacker};
+    for kind in [Fold, Flip, NeimarkSacker].into_iter().filter(|kind| claims.events.has(*kind) && !jumps) {
+        claim(nearest(&|m| claims.off_place(kind, m)));
+    }
+    if claims.events.has(Grazing) {
+        claim(touch / measures.contact[0]);
+    }
     list
 }
 

@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 
+use faer::c64;
 use hammerbeam_motion::System;
 use hammerbeam_orbit::{BranchEventKind, EventSet, EventStatus, PeriodicSolution, Response};
 use hammerbeam_results::{
@@ -55,6 +56,21 @@ pub(super) struct Claims {
     pub events: EventSet,
     /// The multiplier of an event that was bracketed only: it is said to lie there, and not in its place.
     pub bracketed: Option<[f64; 2]>,
+}
+
+impl Claims {
+    /// How far a multiplier is from where an event of this kind is said to put one.
+    pub fn off_place(&self, kind: BranchEventKind, multiplier: c64) -> f64 {
+        if let Some([re, im]) = self.bracketed {
+            return (multiplier - c64::new(re, im)).norm();
+        }
+        match kind {
+            BranchEventKind::Flip => (multiplier + 1.0).norm(),
+            BranchEventKind::NeimarkSacker if multiplier.im == 0.0 => f64::INFINITY,
+            BranchEventKind::NeimarkSacker => (multiplier.norm() - 1.0).abs(),
+            _ => (multiplier - 1.0).norm(),
+        }
+    }
 }
 
 impl<'a> StoredRows<'a> {
@@ -151,5 +167,28 @@ impl StoredRow<'_> {
         let parameter = parameter.as_ref().map_err(Clone::clone)?;
         let (system, response) = self.model.with_parameter(parameter, self.row.parameter)?;
         Ok((Cow::Owned(system), Cow::Owned(response)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_multiplier_of_a_bracketed_event_lies_where_it_was_said_to_and_not_in_its_place() {
+        let events = EventSet::of([(true, BranchEventKind::Fold)]);
+        let off = |bracketed, re: f64| {
+            Claims { events, bracketed }.off_place(BranchEventKind::Fold, c64::new(re, 0.0))
+        };
+        assert_eq!([off(None, 1.0), off(None, 1.5)], [0.0, 0.5]);
+        assert_eq!([off(Some([1.5, 0.0]), 1.5), off(Some([1.5, 0.0]), 1.0)], [0.0, 0.5]);
+    }
+
+    #[test]
+    fn only_a_complex_multiplier_makes_a_neimark_sacker_point() {
+        let claims =
+            Claims { events: EventSet::of([(true, BranchEventKind::NeimarkSacker)]), bracketed: None };
+        let off = |re, im| claims.off_place(BranchEventKind::NeimarkSacker, c64::new(re, im));
+        assert_eq!([off(0.6, 0.8), off(1.0, 0.0)], [0.0, f64::INFINITY]);
     }
 }
