@@ -140,35 +140,10 @@ pub(super) fn halve(path: &mut OrbitPath, largest: f64) -> bool {
         return false;
     }
     match offset_to_clear_ends(path, segments) {
-        Some(offset) if offset > 0.0 => cut_in_halves_elsewhere(path, offset),
+        Some(offset) if offset > 0.0 => cut_elsewhere(path, offset, 2),
         Some(_) => cut_in_halves(path),
         None => false,
     }
-}
-
-/// Cuts each segment of the present orbit into two, the first of which begins this much later.
-///
-/// Behind a corner in which several stops were grazed a disturbance grows so fast over one segment that its
-/// phase cannot be moved any more.
-fn cut_in_halves_elsewhere(path: &mut OrbitPath, offset: f64) -> bool {
-    let start_of_walk = origin_now(path);
-    let OrbitPath { problem, follower, origin, .. } = path;
-    let before = problem.phase();
-    let Ok(begin) = carried(problem, follower.current(), (before, offset)) else { return false };
-    let begin =
-        ContinuationPoint { point: begin.point, tangent: begin.tangent, ..follower.current().clone() };
-    problem.set_phase((before + offset).rem_euclid(f64::from(problem.period_multiple())));
-    let halves = refine(problem, &begin, 2);
-    let segments = problem.segments();
-    problem.set_segments(2 * segments);
-    if !halves.is_ok_and(|halves| follower.transfer_afresh(problem, &halves, None).is_ok()) {
-        problem.set_segments(segments);
-        problem.set_phase(before);
-        return false;
-    }
-    *origin = start_of_walk;
-    begin_journal_anew(path);
-    true
 }
 
 /// Lets all segments of an orbit that is cut begin so much later that their ends are clear of impacts: over
@@ -178,15 +153,25 @@ fn begin_later(path: &mut OrbitPath) -> bool {
     if path.is_near_lost_start() {
         return false;
     }
-    let Some(offset) = offset_to_clear_ends(path, segments).filter(|offset| *offset > 0.0) else {
-        return false;
-    };
+    let offset = offset_to_clear_ends(path, segments).filter(|offset| *offset > 0.0);
+    offset.is_some_and(|offset| cut_elsewhere(path, offset, 1))
+}
+
+/// Lets the present orbit begin this much later, and cuts each of its segments into `factor`: behind a corner
+/// in which several stops were grazed a disturbance grows so fast over one segment that its phase cannot be
+/// moved any more. The start of the walk is out of reach from then on. False if the walk stays as it was.
+fn cut_elsewhere(path: &mut OrbitPath, offset: f64, factor: usize) -> bool {
     let start_of_walk = origin_now(path);
     let OrbitPath { problem, follower, origin, .. } = path;
-    let before = problem.phase();
+    let (before, segments) = (problem.phase(), problem.segments());
     let Ok(later) = carried(problem, follower.current(), (before, offset)) else { return false };
+    let later =
+        ContinuationPoint { point: later.point, tangent: later.tangent, ..follower.current().clone() };
     problem.set_phase((before + offset).rem_euclid(f64::from(problem.period_multiple())));
-    if follower.transfer_afresh(problem, &later, None).is_err() {
+    let cut = refine(problem, &later, factor);
+    problem.set_segments(segments * factor);
+    if !cut.is_ok_and(|cut| follower.transfer_afresh(problem, &cut, None).is_ok()) {
+        problem.set_segments(segments);
         problem.set_phase(before);
         return false;
     }
