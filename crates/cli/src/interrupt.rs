@@ -59,7 +59,8 @@ impl Interrupt {
     fn end_if_late(&self, output: Output) {
         thread::sleep(PATIENCE);
         if !self.in_order.load(Ordering::SeqCst) {
-            let message = "interrupted within a long computation; what was stored before it is kept";
+            let message =
+                "interrupted within a long computation; results folders keep what was stored before";
             let failure = Failure::Interrupted(message.to_owned());
             output.failure(&failure);
             process::exit(i32::from(failure.code()));

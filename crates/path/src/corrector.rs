@@ -58,6 +58,8 @@ pub(crate) struct Limits {
     pub residual_tolerance: f64,
     /// Residual above which corrections go on as long as they shrink.
     pub residual_wanted: f64,
+    /// The same where the correction changes the parameter by more than this part of it, if above this, too.
+    pub parameter_tolerance: f64,
     pub max_iterations: u32,
     /// Bound of the total displacement of the prediction.
     pub max_displacement: f64,
@@ -142,8 +144,9 @@ impl Candidate {
             let has_converged = size <= limits.tolerance || (stagnant && size <= loose);
             // Where the matrix is large, a correction that might stay unapplied may still leave a residual
             // that it takes away.
-            let corrects_residual =
-                !stagnant && self.residual_norm > limits.residual_wanted.min(limits.residual_tolerance);
+            let wanted = limits.residual_wanted.min(limits.residual_tolerance);
+            let corrects_residual = !stagnant
+                && (self.residual_norm > wanted || self.moves_parameter(limits.parameter_tolerance));
             if has_converged && (!corrects_residual || self.iterations >= limits.max_iterations) {
                 return self.finish(problem, limits);
             }
@@ -152,6 +155,13 @@ impl Candidate {
             self.apply_correction();
             last = size;
         }
+    }
+
+    /// Whether the correction that is due changes the parameter by more than this part of it, and is more
+    /// than rounding: the residual is above this, too.
+    fn moves_parameter(&self, tolerance: f64) -> bool {
+        let change = self.correction[self.correction.len() - 1].abs();
+        self.residual_norm > tolerance && change > tolerance * self.parameter().abs()
     }
 
     /// One evaluation: correction, direction, determinant at `self.point`.

@@ -76,6 +76,9 @@ pub struct Settings {
     /// Residual above which a point is corrected further as long as corrections shrink, though the one that
     /// is still due is small: where the matrix is large, that is what takes the residual away.
     pub residual_wanted: f64,
+    /// The same where the correction that is still due changes the parameter by more than this part of it, if
+    /// the residual is above this, too: lengths are measured by a range, which may be wide.
+    pub parameter_tolerance: f64,
     /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more
     /// (beside a branch point), `‖d‖ ≤ h / 100` is enough.
     pub residual_floor: f64,
@@ -107,6 +110,7 @@ impl Default for Settings {
             correction_floor: 1e-12,
             residual_tolerance: 1e-6,
             residual_wanted: 1e-6,
+            parameter_tolerance: f64::INFINITY,
             residual_floor: 1e-13,
             max_iterations: 6,
             sheet_distance: 1e-5,
@@ -142,6 +146,7 @@ impl Settings {
             residual_floor: self.residual_floor,
             residual_tolerance: self.residual_tolerance,
             residual_wanted: self.residual_wanted,
+            parameter_tolerance: self.parameter_tolerance,
             max_iterations: self.max_iterations,
             max_displacement: self.allowed_displacement(step),
             max_angle: Some(self.max_angle),
@@ -168,6 +173,7 @@ impl Settings {
             ("correction_floor", self.correction_floor),
             ("residual_tolerance", self.residual_tolerance),
             ("residual_wanted", self.residual_wanted),
+            ("parameter_tolerance", self.parameter_tolerance),
             ("residual_floor", self.residual_floor),
             ("sheet_distance", self.sheet_distance),
             ("signature_step", self.signature_step),

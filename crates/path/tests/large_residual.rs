@@ -22,3 +22,31 @@ fn a_large_residual_of_a_small_correction_does_not_shorten_steps() {
     assert!(branch.points.len() < 60, "{} points", branch.points.len());
     assert_eq!(branch.counters.rejected, 0);
 }
+
+/// `x = sin l` over a range by which lengths are so measured that the tolerance is a tenth: `l` is as good as
+/// its own tolerance asks, and the residual with it.
+#[test]
+fn over_a_wide_range_the_parameter_is_known_to_a_part_of_itself() {
+    let points = |parameter_tolerance: f64| {
+        let mut problem = DenseProblem::new(1, |z, residual, jacobian| {
+            residual[0] = z[0] - z[1].sin();
+            jacobian.copy_from_slice(&[1.0, -z[1].cos()]);
+            0
+        });
+        let settings = Settings {
+            max_step_length: 0.3,
+            correction_tolerance: 0.1,
+            sheet_distance: 0.1,
+            residual_tolerance: 1.0,
+            residual_wanted: 1.0,
+            parameter_tolerance,
+            ..Settings::default()
+        };
+        let range = ParameterRange::new(1.0, 40.0).unwrap();
+        let start = [1.0_f64.sin(), 1.0];
+        follow(&mut problem, &start, StartDirection::Increasing, range, settings).unwrap().points
+    };
+    let largest = |tolerance| points(tolerance).iter().map(|point| point.residual_norm).fold(0.0, f64::max);
+    assert!(largest(f64::INFINITY) > 1e-6, "{}", largest(f64::INFINITY));
+    assert!(largest(1e-11) <= 1e-9, "{}", largest(1e-11));
+}

@@ -50,6 +50,25 @@ fn zeros_lie_where_the_line_cuts_the_circle() {
     }
 }
 
+/// A probe that is off the path by a part of the bracket has the wrong sign where the function changes more
+/// across the path than along it: the search then closed in on that probe.
+#[test]
+fn a_function_that_is_steep_across_the_path_has_its_zero_on_it() {
+    fn steep<const ACROSS: i32>(z: &[f64]) -> TestValue {
+        signed(z[0] - 0.3 + f64::from(ACROSS) * (z[0] * z[0] + z[1] * z[1] - 1.0))
+    }
+    let functions: [fn(&[f64]) -> TestValue; 4] =
+        [steep::<-1000>, steep::<-100>, steep::<100>, steep::<1000>];
+    for (place, function) in functions.into_iter().enumerate() {
+        for step in [0.3, 0.1, 0.03] {
+            let found = zeros(&round(vec![function], step), 0);
+            assert_eq!(found.len(), 2, "function {place}, step {step}");
+            let is_there = |point: &(f64, f64)| (point.0 - 0.3).abs() < 1e-9;
+            assert!(found.iter().all(is_there), "function {place}, step {step}: {found:?}");
+        }
+    }
+}
+
 #[test]
 fn a_zero_beside_a_fold_is_told_apart_from_it_on_either_side() {
     // The folds lie at (0, ±1), the zeros within one step before and behind them.

@@ -20,6 +20,11 @@ const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
 /// are known to nothing: such solutions were called marginal, one by one between unstable ones.
 const RESIDUAL: f64 = 1e-8;
 
+/// Change of the frequency, relative to it, and residual, over the tolerance, from which on an orbit is
+/// corrected further. Over a range up to 20 kHz a correction within the tolerance moves a motion of 20 Hz by
+/// 1e-9 of a period.
+const PARAMETER: f64 = 0.1;
+
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
 /// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
 /// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
@@ -48,6 +53,7 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
         // Rounding of the residual grows with the multipliers.
         residual_floor: 100.0 * default.residual_floor,
         residual_wanted: wanted,
+        parameter_tolerance: PARAMETER * settings.tolerance,
         sheet_distance: default.sheet_distance * length,
         signature_step: default.signature_step * length,
         max_points: settings.max_solutions as u64,

@@ -22,7 +22,7 @@ pub(super) fn arrive_at_fold(attempt: &mut Attempt<'_>, locator: &mut Locator) -
     let mut bracket = Bracket::new((0.0, start), (attempt.progress(), slope.end));
     let mut place = bracket.width() * slope.root();
     for probes in 0..MOST_PROBES {
-        let probing = Probing { bracket: &bracket, reached, place, goes_on: probes > 0 };
+        let probing = Probing { bracket: &bracket, reached, place, goes_on: probes > 0, sharply: false };
         let value =
             locator.probe_toward_zero(attempt, &probing, |probe, _| Some(probe.tangent_parameter()))?;
         check_probe(attempt, locator)?;

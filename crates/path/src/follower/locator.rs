@@ -35,6 +35,8 @@ pub(super) struct Probing<'a> {
     pub place: f64,
     /// The probe before was one for the same zero; it sharpens the prediction.
     pub goes_on: bool,
+    /// No probe may be off the path.
+    pub sharply: bool,
 }
 
 impl Locator {
@@ -70,7 +72,9 @@ impl Locator {
     ) -> Result<f64, StepDoubt> {
         self.predict(attempt, probing.place, probing.goes_on);
         let sharp = attempt.probing_limits(attempt.step);
-        let loose = Limits { tolerance: sharp.tolerance.max(LOOSE * probing.bracket.width()), ..sharp };
+        let off = if probing.sharply { 0.0 } else { LOOSE * probing.bracket.width() };
+        let parameter_tolerance = if probing.sharply { sharp.parameter_tolerance } else { f64::INFINITY };
+        let loose = Limits { tolerance: sharp.tolerance.max(off), parameter_tolerance, ..sharp };
         self.correct(attempt, loose).map_err(StepDoubt::Corrector)?;
         let mut found = value(&mut self.probe, attempt.problem).ok_or(StepDoubt::NotLocated)?;
         let due = self.probe.correction_norm;
@@ -86,6 +90,11 @@ impl Locator {
         }
         self.best.node.copy_from(&self.probe.node);
         Ok(found)
+    }
+
+    /// Whether the probe is off the path by more than a sharp one.
+    pub fn probe_is_loose(&self, attempt: &Attempt<'_>) -> bool {
+        self.probe.correction_norm > attempt.probing_limits(attempt.step).tolerance
     }
 
     /// Predicts the probe at `σ` of the step by the polynomial through both ends, and through the best probe

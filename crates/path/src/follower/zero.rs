@@ -25,6 +25,9 @@ use crate::{
 const MOST_PROBES: u32 = 60;
 /// Value relative to the ends of the step at which a zero counts as reached.
 const SHARP: f64 = 1e-10;
+/// Value relative to the ends of the step above which a search that comes to an end came to a false one, if
+/// probes were off the path.
+const FALSE_END: f64 = 1e-6;
 /// If the value did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it
 /// jumps.
 const JUMP_WIDTH: f64 = 1e-3;
@@ -189,31 +192,13 @@ fn arrive_at_zero(
     index: usize,
 ) -> Result<Option<Arrival>, StepDoubt> {
     let (ends, after) = (Ends::of(attempt, index), attempt.trial.tests[index]);
-    let floor = attempt.settings().correction_floor;
-    let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
-    let (mut value, mut counted) = (ends.low, None);
-    let left_out = left_out(&attempt.trial.tests);
-    let functions = attempt.trial.tests.len();
-    let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
-        problem.tests(&left_out, &mut probe.tests);
-        problem.judge().note(&mut probe.noted);
-        probe.tests.get(index).filter(|_| probe.tests.len() == functions).map(|test| test.value)
-    };
-    for probes in 0..MOST_PROBES {
-        let place = bracket.next();
-        let probing = Probing { bracket: &bracket, reached: SHARP * ends.size, place, goes_on: probes > 0 };
-        value = locator.probe_toward_zero(attempt, &probing, ask)?;
-        bracket.narrow(place, value);
-        if bracket.width() < JUMP_WIDTH * ends.length && value.abs() > JUMP_SIZE * ends.size {
-            break;
-        }
-        if value.abs() <= SHARP * ends.size || bracket.uncertainty(value) <= floor {
-            break;
-        }
-        let outside = attempt.problem.judge().outside(PathEvents::default());
-        let outside = outside.filter(|outside| outside.least == outside.most);
-        counted = outside.map(|outside| (place, outside.least)).or(counted);
+    let mut found = narrow(attempt, locator, (&ends, index), false)?;
+    let is_false = (FALSE_END * ends.size..=JUMP_SIZE * ends.size).contains(&found.value.abs());
+    if found.is_loose && is_false {
+        // The sign of a probe off the path may have been wrong.
+        found = narrow(attempt, locator, (&ends, index), true)?;
     }
+    let Found { bracket, value, counted, .. } = found;
     let mut uncertainty = bracket.uncertainty(value);
     if let Some(behind) = ends.lies_behind(&bracket, value) {
         // The last point is as near to it as the step can end.
@@ -233,4 +218,54 @@ fn arrive_at_zero(
     let mut arrival = Arrival { uncertainty, counted, ..Arrival::default() };
     arrival.events.zeros = 1 << index;
     Ok(Some(arrival))
+}
+
+/// Where a search for a zero ended.
+struct Found {
+    bracket: Bracket,
+    /// The function at its newest probe.
+    value: f64,
+    /// Where a probe lay that tells how many multipliers are outside, and how many.
+    counted: Option<(f64, u32)>,
+    /// Whether an end of the bracket is a probe that is off the path, or was one.
+    is_loose: bool,
+}
+
+/// Narrows the bracket of a zero of one test function as far as it goes.
+///
+/// * `sharply`: whether no probe may be off the path.
+fn narrow(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    (ends, index): (&Ends, usize),
+    sharply: bool,
+) -> Result<Found, StepDoubt> {
+    let floor = attempt.settings().correction_floor;
+    let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
+    let (mut value, mut counted, mut is_loose) = (ends.low, None, false);
+    let left_out = left_out(&attempt.trial.tests);
+    let functions = attempt.trial.tests.len();
+    let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
+        problem.tests(&left_out, &mut probe.tests);
+        problem.judge().note(&mut probe.noted);
+        probe.tests.get(index).filter(|_| probe.tests.len() == functions).map(|test| test.value)
+    };
+    for probes in 0..MOST_PROBES {
+        let place = bracket.next();
+        let reached = SHARP * ends.size;
+        let probing = Probing { bracket: &bracket, reached, place, goes_on: probes > 0, sharply };
+        value = locator.probe_toward_zero(attempt, &probing, ask)?;
+        is_loose |= locator.probe_is_loose(attempt);
+        bracket.narrow(place, value);
+        if bracket.width() < JUMP_WIDTH * ends.length && value.abs() > JUMP_SIZE * ends.size {
+            break;
+        }
+        if value.abs() <= reached || bracket.uncertainty(value) <= floor {
+            break;
+        }
+        let outside = attempt.problem.judge().outside(PathEvents::default());
+        let outside = outside.filter(|outside| outside.least == outside.most);
+        counted = outside.map(|outside| (place, outside.least)).or(counted);
+    }
+    Ok(Found { bracket, value, counted, is_loose })
 }

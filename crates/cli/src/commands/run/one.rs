@@ -146,17 +146,22 @@ impl Summary {
     /// Why solutions are marginal all along branches: a bifurcation makes one or two.
     fn marginal_text(&self) -> Option<String> {
         let marginal: u64 = self.report.branches.iter().map(|branch| branch.summary.marginal).sum();
-        let open = self.report.undamped_modes.iter().map(ToString::to_string);
-        let in_contact = self.report.undamped_in_contact.iter().map(ToString::to_string);
-        let mut modes = open.chain(in_contact);
-        let first = modes.next().filter(|_| marginal > 0)?;
-        let others = match modes.count() {
+        let RunReport { undamped_modes: open, undamped_in_contact: in_contact, .. } = &self.report;
+        // Stops may be open all the time, or closed.
+        let first = open.first().map(ToString::to_string);
+        let named: Vec<String> =
+            first.into_iter().chain(in_contact.first().map(ToString::to_string)).collect();
+        if named.is_empty() || marginal == 0 {
+            return None;
+        }
+        let others = match open.len() + in_contact.len() - named.len() {
             0 => String::new(),
             1 => " (nor has another one)".to_owned(),
             others => format!(" (nor have {others} others)"),
         };
+        let named = named.join("; ");
         Some(format!(
-            "\n{first}{others}: of {}, those at bifurcations included, \
+            "\n{named}{others}: of {}, those at bifurcations included, \
              multipliers lie on the unit circle as well as these are known; \
              {UNDAMPED_ADVICE}",
             counted(marginal, "solution")
