@@ -19,7 +19,7 @@
 //! * contacts: as many differ as contacts graze, are touched with `v' <= sqrt(2 W tau G L_r)` if one grazes,
 //!   or are touched within `tau G L_r` of a node, at most.
 //! * events: fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle, or, if the event was
-//!   bracketed only, of where its multiplier was said to lie; grazing: `; s; <= 1e-5 L_r`.
+//!   bracketed only, of where its multiplier was said to lie, up to 1e-2 off; grazing: `; s; <= 1e-5 L_r`.
 //!
 //! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and
 //! elements by `L_r` with the velocity `V_r`; `W` bounds the acceleration with which they approach, by state,

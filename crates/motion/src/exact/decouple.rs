@@ -26,9 +26,9 @@ const CONDITION: f64 = 1e7;
 /// The damping of a group of modes has no block form: more than two eigenvalues merge into one vector.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "the damped modes cannot be told apart to ten digits (condition {condition:.1e}, at most {CONDITION:.0e} is \
-     allowed): more than two nearly coincide, or a damper is far stronger than what it damps; make it weaker, \
-     or join what it connects"
+    "the damped modes cannot be told apart to ten digits (condition {condition:.1e}, at most \
+     {CONDITION:.0e} is allowed): more than two nearly coincide, or a damper is far stronger than what it \
+     damps; make it weaker, or join what it connects"
 )]
 pub struct MergedModes {
     /// Condition number of the eigenvectors.

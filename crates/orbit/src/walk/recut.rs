@@ -34,8 +34,8 @@ use crate::{
 /// Most segments of an orbit whose ends keep clear of impacts.
 const MOST_CUT: usize = 16;
 
-/// An orbit on which a disturbance becomes so many times as large in a period is cut once, and not again: just
-/// behind a corner of several stops, rounding of slow impacts would go into all new nodes.
+/// An orbit on which a disturbance becomes so many times as large in a period is cut once, and not again:
+/// just behind a corner of several stops, rounding of slow impacts would go into all new nodes.
 const LOST: f64 = 1e12;
 
 /// Whether the orbits of a path may have to start at another phase.
