@@ -5,10 +5,10 @@ use hammerbeam_orbit::{BranchEventKind, PeriodicSolution};
 use hammerbeam_results::row::Row;
 
 use super::{
+    claims::Claims,
     quantity::VerifiedQuantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
-    stored::Claims,
     unknown::{Unknown, behind_hard_contacts, touches_at_nodes},
 };
 

@@ -58,10 +58,12 @@
 //! |---|---|
 //! | `settings.rs`, `quantity.rs` | what is asked for, what is compared |
 //! | `stored.rs`, `sample.rs` | all stored rows, each with its system and what it claims; which of them |
+//! | `claims.rs` | where the events of a row put a multiplier |
 //! | `recompute.rs`, `spectrum.rs` | the motion over the orbit; multipliers and their conditions |
 //! | `compare.rs`, `unknown.rs` | the table above, and what cannot be distinguished from nothing |
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
+mod claims;
 mod compare;
 mod document;
 mod quantity;
