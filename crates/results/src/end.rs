@@ -62,6 +62,12 @@ impl BranchEnd {
         matches!(self, Self::Walk(StopReason::Unbounded { .. } | StopReason::FreeVibration { .. }))
     }
 
+    /// Whether the branch goes to infinity there.
+    #[must_use]
+    pub fn is_unbounded(&self) -> bool {
+        matches!(self, Self::Walk(StopReason::Unbounded { .. }))
+    }
+
     /// Whether more budget lets the walk go on.
     #[must_use]
     pub fn is_budget(&self) -> bool {

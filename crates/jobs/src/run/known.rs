@@ -39,7 +39,7 @@ const SAME_STATE: f64 = 5e-3;
 const OVERHANG: f64 = 1e-3;
 
 /// What is left of a branch whose amplitude may be any, in parts of the way over which that doubled last:
-/// with `a = c/|f* - f|^p` it is `1/(2^(1/p) - 1)`, and p at most two.
+/// with `a = c/|f* - f|^p` it is `1/(2^(1/p) - 1)`, and p at most two, as far as was seen.
 const LEFT: f64 = 3.0;
 
 /// A row of a branch: where it is stored, and its sketch.
@@ -62,19 +62,26 @@ pub(super) fn lies_on(
 
 /// Whether the branch of a start goes on to the solution beyond an end at which its amplitude may be any.
 pub(super) fn goes_on_to(start: &Start, solution: &PeriodicSolution) -> bool {
+    let at = (solution.frequency_hz, solution.maxima.displacement);
+    start.period_multiple == solution.period_multiple && goes_on_at(start, at)
+}
+
+fn goes_on_at(start: &Start, (frequency_hz, displacement): (f64, f64)) -> bool {
     let goes_on = |side: Side| {
         let walk = start.walk(side);
-        let last = walk.rows.last().filter(|_| walk.end.as_ref().is_some_and(BranchEnd::has_any_amplitude));
-        let half =
-            |last: &Sketch| walk.rows.iter().rev().find(|row| row.displacement <= 0.5 * last.displacement);
-        last.zip(last.and_then(half)).is_some_and(|(last, half)| {
-            let left = LEFT * (last.frequency_hz - half.frequency_hz).abs();
-            let way = (solution.frequency_hz - last.frequency_hz).abs();
-            solution.maxima.displacement >= last.displacement
-                && way <= left.max(SAME_FREQUENCY * last.frequency_hz)
-        })
+        let end = walk.end.as_ref().filter(|end| end.has_any_amplitude());
+        let Some((end, last)) = end.zip(walk.rows.last()) else { return false };
+        let way = frequency_hz - last.frequency_hz;
+        let same = SAME_FREQUENCY * last.frequency_hz;
+        // Towards infinity the frequency goes on as it went; free vibrations all have the same one.
+        let half = walk.rows.iter().rev().chain(start.up.rows.first());
+        let mut half = half.filter(|_| end.is_unbounded());
+        let half = half.find(|row| row.displacement <= 0.5 * last.displacement);
+        let left = half.map_or(0.0, |half| LEFT * (last.frequency_hz - half.frequency_hz));
+        let is_ahead = way.abs() <= same || way * left > 0.0 && way.abs() <= left.abs();
+        displacement >= last.displacement && is_ahead
     };
-    start.period_multiple == solution.period_multiple && [Side::Up, Side::Down].into_iter().any(goes_on)
+    [Side::Up, Side::Down].into_iter().any(goes_on)
 }
 
 /// Behind which of these neighbouring rows a stored solution lies first, if it lies between any of them; of
@@ -213,4 +220,30 @@ fn is_between(
     let pairs = first.nodes[0].iter().zip(&second.nodes[0]);
     let guess: Vec<f64> = pairs.map(|(a, b)| a + share * (b - a)).collect();
     Ok(matcher.is_near((first.phase, &guess)))
+}
+
+#[cfg(test)]
+mod tests {
+    use hammerbeam_orbit::StopReason;
+
+    use super::*;
+    use crate::run::agenda::examples;
+
+    /// `a = 1/(3 - f)` up to 2.99 Hz.
+    #[test]
+    fn a_branch_goes_on_to_larger_amplitudes_ahead_of_its_end_at_infinity_and_to_no_others() {
+        let row = |frequency_hz: f64| Sketch {
+            displacement: 1.0 / (3.0 - frequency_hz),
+            ..examples::row(frequency_hz)
+        };
+        let mut start = examples::start(0, Some(1), [2.0, 2.9, 2.95, 2.98, 2.99].map(row).to_vec());
+        let goes_on = |start: &Start| {
+            [(2.995, 200.0), (2.995, 50.0), (2.98, 200.0), (3.1, 200.0)].map(|at| goes_on_at(start, at))
+        };
+        assert_eq!(goes_on(&start), [false; 4], "it has not ended");
+        start.up.end = Some(StopReason::Unbounded { frequency_hz: 2.99, mode: None }.into());
+        assert_eq!(goes_on(&start), [true, false, false, false]);
+        start.up.end = Some(StopReason::RangeEnd { frequency_hz: 2.99 }.into());
+        assert_eq!(goes_on(&start), [false; 4]);
+    }
 }

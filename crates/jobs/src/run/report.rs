@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use hammerbeam_orbit::{BranchEventKind, Side, Stability};
 use hammerbeam_results::{
     end_text::{BranchOver, NOT_FINISHED, sentence},
-    store::{JobOutcome, JobRecord, PieceRecord, WalkRecord},
+    store::{JobKind, JobOutcome, JobRecord, PieceRecord, WalkRecord},
     summary::{BranchSummary, Peak, PieceSummary},
 };
 use hammerbeam_study::{UndampedInContact, UndampedMode};
@@ -74,7 +74,8 @@ impl RunReport {
             ends.filter(|end| end.is_shorter_period()).filter_map(|end| end.place()).collect();
         let is_met = move |search: &JobRecord| {
             let apart = |at: &f64| (at - search.frequency_hz).abs() <= SAME_FREQUENCY * search.frequency_hz;
-            search.outcome == Some(JobOutcome::Nothing) && search.source.is_some() && met.iter().any(apart)
+            let is_doubling = search.kind == JobKind::Doubling;
+            search.outcome == Some(JobOutcome::Nothing) && is_doubling && met.iter().any(apart)
         };
         let ended = self.searches.iter().filter(move |search| search.outcome.is_some() && !is_met(search));
         ended.filter_map(|search| Some((search, search.message.as_deref()?)))

@@ -21,7 +21,7 @@
 //!   along which the frequency is stationary: there `1 - m` goes with the frequency twice as quickly. Twice
 //!   it is for both.
 //! * At a fold a real multiplier reaches +1, too. With the same product g it is `s` that is no less than
-//!   `d |dg/dm| c/|g_1|`. The frequency is stationary there; it moves with the motion besides, by `10 t`
+//!   `d |dg/dm| c/|g_1|`, but at a corner, where it jumps. The frequency is stationary there; it moves with the motion besides, by `10 t`
 //!   times the response of the frequency to a closure error.
 //!
 //! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
@@ -63,7 +63,9 @@ pub(super) fn of_place(
             along = along.max(of_multiplier(problem, approach, (events.zeros, multiplier)));
         }
         if events.fold && !events.branch_point && !events.signature_change {
-            along = along.max(of_unit_multiplier(problem, place, approach, approach.chord));
+            if !events.corner {
+                along = along.max(of_unit_multiplier(problem, place, approach, approach.chord));
+            }
             let [tolerance, _] = approach.errors;
             let moved = response_to_closure(problem, place);
             itself = moved.map_or(approach.chord, |moved| MOTION * tolerance * moved.parameter);

@@ -52,7 +52,8 @@ pub(super) fn join_at_contacts(path: &mut OrbitPath) -> bool {
 
 /// By how much later the present orbit would have to begin for the ends of so many segments to be clear of
 /// impacts [cycles]; zero if they are. None where it has a single impact, for which more than one segment is
-/// of no use, or cannot be followed.
+/// of no use, where impacts leave next to no time for the ends of more than two, or where it cannot be
+/// followed.
 pub(super) fn offset_to_clear_ends(path: &mut OrbitPath, segments: usize) -> Option<f64> {
     let OrbitPath { problem, follower, .. } = path;
     let point = &follower.current().point;
@@ -73,6 +74,9 @@ pub(super) fn offset_to_clear_ends(path: &mut OrbitPath, segments: usize) -> Opt
     }
     let length = cycles / segments as f64;
     let (gap, nearest) = longest_of_orbit(&folded(&closed, length), length, false)?;
+    if segments > 2 && gap.is_short() {
+        return None;
+    }
     Some(if gap.asks_to_move(nearest) { gap.middle(phase).rem_euclid(length) } else { 0.0 })
 }
 

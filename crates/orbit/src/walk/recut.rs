@@ -14,13 +14,14 @@
 //!
 //! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
 //! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
-//! All segments of an orbit that is cut (`halves.rs`) begin later by the same time, or are made one again
-//! first; where the study gives the number of segments the phase does not move.
+//! All segments of an orbit that is cut (`halves.rs`) begin later by the same time, or are joined first;
+//! where the study gives the number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
+    end::largest_multiplier,
     halves::{cut_in_halves, join_at_contacts, offset_to_clear_ends, origin_now},
     orbit_path::OrbitPath,
     refine::refine,
@@ -131,12 +132,12 @@ fn begin_journal_anew(path: &mut OrbitPath) {
 
 /// Goes on with orbits of twice the segments, which begin elsewhere where an impact is near an end of one.
 /// False if the walk stays as it was.
-///
-/// * `largest`: modulus of its multipliers.
-pub(super) fn halve(path: &mut OrbitPath, largest: f64) -> bool {
+pub(super) fn halve(path: &mut OrbitPath) -> bool {
     let segments = 2 * path.problem.segments();
-    let is_lost = segments > 2 && largest > LOST;
-    if is_lost || segments > MOST_CUT || !path.problem.system().has_rigid_stops() {
+    if segments > MOST_CUT || !path.problem.system().has_rigid_stops() {
+        return false;
+    }
+    if segments > 2 && largest_multiplier(path) > LOST {
         return false;
     }
     match offset_to_clear_ends(path, segments) {

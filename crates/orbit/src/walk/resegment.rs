@@ -17,13 +17,11 @@ const MOST: usize = 64;
 
 /// Goes on from the present point with more segments; false if there are enough already, or if neither
 /// point is found with more.
-///
-/// * `largest`: modulus of its multipliers.
-pub(super) fn resegment(path: &mut OrbitPath, largest: f64) -> Result<bool, OrbitError> {
+pub(super) fn resegment(path: &mut OrbitPath) -> Result<bool, OrbitError> {
     let OrbitPath { problem, follower, .. } = path;
     let segments = problem.segments();
     if begins_with_care(problem.system()) {
-        return Ok(halve(path, largest));
+        return Ok(halve(path));
     }
     if segments * FACTOR > MOST {
         return Ok(false);
@@ -71,7 +69,7 @@ mod tests {
                 return (rows, reason, walk.path.problem.segments());
             }
             if cuts.contains(&step) {
-                assert!(super::resegment(&mut walk.path, 1.0).unwrap());
+                assert!(super::resegment(&mut walk.path).unwrap());
             }
             if step == stored {
                 journal.extend(walk.take_journal());

@@ -26,7 +26,7 @@ const RESIDUAL: f64 = 1e-8;
 const PARAMETER: f64 = 0.1;
 
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
-/// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
+/// cut as one likes. Towards the border at which a contact splits, whose law remembers its impact,
 /// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
 /// and not to the border.
 const SHORT_BESIDE_IMPACTS: f64 = 10.0;

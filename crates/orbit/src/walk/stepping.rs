@@ -4,7 +4,7 @@ use hammerbeam_path::{ContinuationPoint, PathStop, StepOutcome};
 
 use super::{
     BranchWalk, Walked,
-    end::{end_of_path, largest_multiplier, stop_reason},
+    end::{end_of_path, stop_reason},
     half_orbit::end_in_flip,
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
@@ -140,8 +140,7 @@ impl BranchWalk {
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
                     if path.settings.segments == Segments::Automatic =>
                 {
-                    let largest = largest_multiplier(path);
-                    let goes_on = resegment(path, largest);
+                    let goes_on = resegment(path);
                     self.renew_record();
                     match goes_on {
                         Ok(true) => {}
@@ -197,7 +196,7 @@ impl BranchWalk {
         {
             return Ok(());
         }
-        let cut = resegment(path, largest);
+        let cut = resegment(path);
         self.renew_record();
         match cut {
             Ok(_) | Err(OrbitError::Motion(_)) => Ok(()),

@@ -53,6 +53,11 @@ impl Bracket {
         self.known[self.known.len() - 1].0
     }
 
+    /// Place and value of the end that is not the newest probe; the value may have been halved.
+    pub fn far_end(&self) -> (f64, f64) {
+        if self.low.0 == self.newest() { self.high } else { self.low }
+    }
+
     pub fn next(&self) -> f64 {
         let inverse = at_zero(&self.known);
         if self.known.len() > 2 && !self.disappointed && self.low.0 < inverse && inverse < self.high.0 {

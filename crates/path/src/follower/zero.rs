@@ -193,10 +193,15 @@ fn arrive_at_zero(
 ) -> Result<Option<Arrival>, StepDoubt> {
     let (ends, after) = (Ends::of(attempt, index), attempt.trial.tests[index]);
     let mut found = narrow(attempt, locator, (&ends, index), false)?;
-    let is_false = (FALSE_END * ends.size..=JUMP_SIZE * ends.size).contains(&found.value.abs());
-    if found.is_loose && is_false {
-        // The sign of a probe off the path may have been wrong.
-        found = narrow(attempt, locator, (&ends, index), true)?;
+    if is_false(attempt, locator, (&ends, index), &found).unwrap_or(false) {
+        let first = locator.probe.clone();
+        match narrow(attempt, locator, (&ends, index), true) {
+            Ok(again) => found = again,
+            Err(_) => {
+                locator.probe = first;
+                attempt.evaluate(&locator.probe.point)?;
+            }
+        }
     }
     let Found { bracket, value, counted, .. } = found;
     let mut uncertainty = bracket.uncertainty(value);
@@ -218,6 +223,42 @@ fn arrive_at_zero(
     let mut arrival = Arrival { uncertainty, counted, ..Arrival::default() };
     arrival.events.zeros = 1 << index;
     Ok(Some(arrival))
+}
+
+/// Whether the sign of a probe off the path was wrong, as far as the end of a search tells: the value there is
+/// not small. Where the function seems to jump, which it often does, the other end of the bracket is probed
+/// once more, on the path.
+fn is_false(
+    attempt: &mut Attempt<'_>,
+    locator: &mut Locator,
+    (ends, index): (&Ends, usize),
+    found: &Found,
+) -> Result<bool, StepDoubt> {
+    let size = found.value.abs() / ends.size;
+    let lies_behind = ends.lies_behind(&found.bracket, found.value).is_some();
+    if !found.is_loose || size <= FALSE_END || lies_behind {
+        return Ok(false);
+    }
+    if size <= JUMP_SIZE {
+        return Ok(true);
+    }
+    let (place, _) = found.bracket.far_end();
+    let probing = Probing { bracket: &found.bracket, reached: 0.0, place, goes_on: true, sharply: true };
+    let value = locator.probe_toward_zero(attempt, &probing, asked(attempt, index))?;
+    Ok(value * found.value > 0.0)
+}
+
+/// The value of one test function at a probe, and what the judge notes with it; `None` if it has none there.
+fn asked(
+    attempt: &Attempt<'_>,
+    index: usize,
+) -> impl Fn(&mut Candidate, &mut dyn PathProblem) -> Option<f64> + use<> {
+    let (left_out, functions) = (left_out(&attempt.trial.tests), attempt.trial.tests.len());
+    move |probe, problem| {
+        problem.tests(&left_out, &mut probe.tests);
+        problem.judge().note(&mut probe.noted);
+        probe.tests.get(index).filter(|_| probe.tests.len() == functions).map(|test| test.value)
+    }
 }
 
 /// Where a search for a zero ended.
@@ -243,18 +284,12 @@ fn narrow(
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
     let (mut value, mut counted, mut is_loose) = (ends.low, None, false);
-    let left_out = left_out(&attempt.trial.tests);
-    let functions = attempt.trial.tests.len();
-    let ask = |probe: &mut Candidate, problem: &mut dyn PathProblem| {
-        problem.tests(&left_out, &mut probe.tests);
-        problem.judge().note(&mut probe.noted);
-        probe.tests.get(index).filter(|_| probe.tests.len() == functions).map(|test| test.value)
-    };
+    let ask = asked(attempt, index);
     for probes in 0..MOST_PROBES {
         let place = bracket.next();
         let reached = SHARP * ends.size;
         let probing = Probing { bracket: &bracket, reached, place, goes_on: probes > 0, sharply };
-        value = locator.probe_toward_zero(attempt, &probing, ask)?;
+        value = locator.probe_toward_zero(attempt, &probing, &ask)?;
         is_loose |= locator.probe_is_loose(attempt);
         bracket.narrow(place, value);
         if bracket.width() < JUMP_WIDTH * ends.length && value.abs() > JUMP_SIZE * ends.size {
