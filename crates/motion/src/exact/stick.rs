@@ -92,9 +92,9 @@ impl ExactIntegrator {
     }
 
     /// Whether an element that moves off its stop without speed is pressed on again at once. What presses
-    /// says so, to all digits: with `r'' = -a + j t`, behind an impact, it comes back after `3 a/j`; with `r''
-    /// = -b t + c t^2/2`, where it was let go, after `4 b/c`, two thirds of that. When it does so is known less
-    /// well, since it comes slowly.
+    /// says so, to all digits: with `r'' = -a + j t`, behind an impact, it comes back after `3 a/j`; with
+    /// `r'' = -b t + c t^2/2`, where it was let go, after `4 b/c`, two thirds of that. When it does so is
+    /// known less well, since it comes slowly.
     fn hops_briefly(&self, run: &Run, element: usize) -> bool {
         self.press_after(run, element, BRIEF_HOP / (3.0 * self.stretch.frequency_hz)) > 0.0
     }

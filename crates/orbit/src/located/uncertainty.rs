@@ -21,8 +21,8 @@
 //!   along which the frequency is stationary: there `1 - m` goes with the frequency twice as quickly. Twice
 //!   it is for both.
 //! * At a fold a real multiplier reaches +1, too. With the same product g it is `s` that is no less than
-//!   `d |dg/dm| c/|g_1|`, but at a corner, where it jumps. The frequency is stationary there; it moves with the motion besides, by `10 t`
-//!   times the response of the frequency to a closure error.
+//!   `d |dg/dm| c/|g_1|`, but at a corner, where the multiplier jumps. The frequency is stationary there; it
+//!   moves with the motion besides, by `10 t` times the response of the frequency to a closure error.
 //!
 //! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
 

@@ -225,9 +225,9 @@ fn arrive_at_zero(
     Ok(Some(arrival))
 }
 
-/// Whether the sign of a probe off the path was wrong, as far as the end of a search tells: the value there is
-/// not small. Where the function seems to jump, which it often does, the other end of the bracket is probed
-/// once more, on the path.
+/// Whether the sign of a probe off the path was wrong, as far as the end of a search tells: the value there
+/// is not small. Where the function seems to jump, which it often does, the other end of the bracket is
+/// probed once more, on the path.
 fn is_false(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
