@@ -74,9 +74,8 @@ fn goes_on_at(start: &Start, (frequency_hz, displacement): (f64, f64)) -> bool {
         let way = frequency_hz - last.frequency_hz;
         let same = SAME_FREQUENCY * last.frequency_hz;
         // Towards infinity the frequency goes on as it went; free vibrations all have the same one.
-        let half = walk.rows.iter().rev().chain(start.up.rows.first());
-        let mut half = half.filter(|_| end.is_unbounded());
-        let half = half.find(|row| row.displacement <= 0.5 * last.displacement);
+        let is_half = |row: &&Sketch| end.is_unbounded() && row.displacement <= 0.5 * last.displacement;
+        let half = walk.rows.iter().rev().chain(start.up.rows.first()).find(is_half);
         let left = half.map_or(0.0, |half| LEFT * (last.frequency_hz - half.frequency_hz));
         let is_ahead = way.abs() <= same || way * left > 0.0 && way.abs() <= left.abs();
         displacement >= last.displacement && is_ahead

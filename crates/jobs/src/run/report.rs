@@ -73,9 +73,10 @@ impl RunReport {
         let met: Vec<f64> =
             ends.filter(|end| end.is_shorter_period()).filter_map(|end| end.place()).collect();
         let is_met = move |search: &JobRecord| {
-            let apart = |at: &f64| (at - search.frequency_hz).abs() <= SAME_FREQUENCY * search.frequency_hz;
+            let is_there =
+                |at: &f64| (at - search.frequency_hz).abs() <= SAME_FREQUENCY * search.frequency_hz;
             let is_doubling = search.kind == JobKind::Doubling;
-            search.outcome == Some(JobOutcome::Nothing) && is_doubling && met.iter().any(apart)
+            search.outcome == Some(JobOutcome::Nothing) && is_doubling && met.iter().any(is_there)
         };
         let ended = self.searches.iter().filter(move |search| search.outcome.is_some() && !is_met(search));
         ended.filter_map(|search| Some((search, search.message.as_deref()?)))

@@ -34,13 +34,9 @@ pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     go_on_with(path, segments, &current, start.as_ref())
 }
 
-/// Joins each two segments of an orbit where an impact comes near their ends, or the start of the walk is to
-/// be found again; false if the walk stays as it was.
-pub(super) fn join_at_contacts(path: &mut OrbitPath) -> bool {
+/// Joins each two segments of an orbit; false if the walk stays as it was.
+pub(super) fn join_segments(path: &mut OrbitPath) -> bool {
     let segments = path.problem.segments();
-    if offset_to_clear_ends(path, segments) == Some(0.0) && !path.is_near_lost_start() {
-        return false;
-    }
     let size = path.problem.node_size();
     // All are made one where their number is odd.
     let joined = if segments.is_multiple_of(2) { 2 } else { segments };

@@ -22,7 +22,7 @@ use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
     end::largest_multiplier,
-    halves::{cut_in_halves, join_at_contacts, offset_to_clear_ends, origin_now},
+    halves::{cut_in_halves, join_segments, offset_to_clear_ends, origin_now},
     orbit_path::OrbitPath,
     refine::refine,
 };
@@ -49,7 +49,7 @@ pub(super) fn keep_phase_clear(path: &mut OrbitPath) {
     if path.follower.stop_reason().is_some() {
         return;
     }
-    while is_cut(path) && !begin_later(path) && join_at_contacts(path) {}
+    while is_cut(path) && !ends_are_clear(path) && join_segments(path) {}
     if !moves_phase(path) {
         return;
     }
@@ -147,15 +147,16 @@ pub(super) fn halve(path: &mut OrbitPath) -> bool {
     }
 }
 
-/// Lets all segments of an orbit that is cut begin so much later that their ends are clear of impacts: over
-/// one segment a disturbance may grow so fast that the orbit is lost. False if the walk stays as it was.
-fn begin_later(path: &mut OrbitPath) -> bool {
+/// Whether the ends of all segments of an orbit that is cut are clear of impacts, now that they begin later if
+/// need be: over one segment a disturbance may grow so fast that the orbit is lost. Not if the start of the
+/// walk is to be found again, for which they are joined.
+fn ends_are_clear(path: &mut OrbitPath) -> bool {
     let segments = path.problem.segments();
     if path.is_near_lost_start() {
         return false;
     }
-    let offset = offset_to_clear_ends(path, segments).filter(|offset| *offset > 0.0);
-    offset.is_some_and(|offset| cut_elsewhere(path, offset, 1))
+    let offset = offset_to_clear_ends(path, segments);
+    offset.is_some_and(|offset| offset == 0.0 || cut_elsewhere(path, offset, 1))
 }
 
 /// Lets the present orbit begin this much later, and cuts each of its segments into `factor`: behind a corner

@@ -53,9 +53,9 @@ impl Bracket {
         self.known[self.known.len() - 1].0
     }
 
-    /// Place and value of the end that is not the newest probe; the value may have been halved.
-    pub fn far_end(&self) -> (f64, f64) {
-        if self.low.0 == self.newest() { self.high } else { self.low }
+    /// Place of the end that is not the newest probe.
+    pub fn far_end(&self) -> f64 {
+        if self.low.0 == self.newest() { self.high.0 } else { self.low.0 }
     }
 
     pub fn next(&self) -> f64 {

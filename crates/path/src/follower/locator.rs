@@ -72,10 +72,10 @@ impl Locator {
     ) -> Result<f64, StepDoubt> {
         self.predict(attempt, probing.place, probing.goes_on);
         let sharp = attempt.probing_limits(attempt.step);
-        let off = if probing.sharply { 0.0 } else { LOOSE * probing.bracket.width() };
-        let parameter_tolerance = if probing.sharply { sharp.parameter_tolerance } else { f64::INFINITY };
-        let loose = Limits { tolerance: sharp.tolerance.max(off), parameter_tolerance, ..sharp };
-        self.correct(attempt, loose).map_err(StepDoubt::Corrector)?;
+        let tolerance = sharp.tolerance.max(LOOSE * probing.bracket.width());
+        let loose = Limits { tolerance, parameter_tolerance: f64::INFINITY, ..sharp };
+        let limits = if probing.sharply { sharp } else { loose };
+        self.correct(attempt, limits).map_err(StepDoubt::Corrector)?;
         let mut found = value(&mut self.probe, attempt.problem).ok_or(StepDoubt::NotLocated)?;
         let due = self.probe.correction_norm;
         let floor = attempt.settings().correction_floor;

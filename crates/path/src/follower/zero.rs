@@ -242,7 +242,7 @@ fn is_false(
     if size <= JUMP_SIZE {
         return Ok(true);
     }
-    let (place, _) = found.bracket.far_end();
+    let place = found.bracket.far_end();
     let probing = Probing { bracket: &found.bracket, reached: 0.0, place, goes_on: true, sharply: true };
     let value = locator.probe_toward_zero(attempt, &probing, asked(attempt, index))?;
     Ok(value * found.value > 0.0)
