@@ -147,9 +147,9 @@ pub(super) fn halve(path: &mut OrbitPath) -> bool {
     }
 }
 
-/// Whether the ends of all segments of an orbit that is cut are clear of impacts, now that they begin later if
-/// need be: over one segment a disturbance may grow so fast that the orbit is lost. Not if the start of the
-/// walk is to be found again, for which they are joined.
+/// Whether the ends of all segments of an orbit that is cut are clear of impacts, now that they begin later
+/// if need be: over one segment a disturbance may grow so fast that the orbit is lost. Not if the start of
+/// the walk is to be found again, for which they are joined.
 fn ends_are_clear(path: &mut OrbitPath) -> bool {
     let segments = path.problem.segments();
     if path.is_near_lost_start() {
