@@ -16,15 +16,18 @@
 //! divides by determinants of `-I` only, so the determinant of the condensed matrix orients the path, and the
 //! orientation does not depend on m.
 //!
-//! # Limits
+//! # Whole equations
 //! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in
-//! corrections and tangents, however many the segments. Newton's method mends its own corrections: orbits
-//! with `|mu_1|` up to 1e12 are found, their largest multiplier to 1e-8. A tangent is not mended: up to
-//! `|mu_1|` of 1e6 to 1e7 its error is below the tolerances of the path, beyond 1e9 folds are no longer
-//! located to theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination
-//! by orthogonal transformations over the segments would keep the tangent, at several times the cost, and is
-//! not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the
-//! end there.
+//! corrections and tangents, however many the segments. Where an entry of `A_m` is larger than 1e9, all
+//! equations and the border row are factorised as they stand, with partial pivoting: then the error is that
+//! of one segment, and orbits beside several slow impacts are followed on which a disturbance becomes 1e30
+//! times as large in a period. That is some 3 m times the work of condensing. The determinant
+//! is the same.
+//!
+//! # Limits
+//! Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`, the largest one to 1e-8 at
+//! 1e12. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end
+//! there.
 //!
 //! # Fast excitation
 //! Where the period is short beside those of the modes, `A_m - I` is small and rounding of `Z_k - z_{k+1}` is
@@ -90,7 +93,9 @@ pub(crate) struct ShootingProblem {
     /// `g_k` and `a_k`.
     by_parameter: Vec<Vec<f64>>,
     parameter_sums: Vec<Vec<f64>>,
-    condensed: Vec<f64>,
+    /// What is factorised: the equations with the border, condensed to the first node or whole.
+    matrix: Vec<f64>,
+    is_condensed: bool,
     border: Vec<f64>,
     lu: DenseLu,
     touches: Vec<u32>,
@@ -139,7 +144,8 @@ impl ShootingProblem {
             products: Vec::new(),
             by_parameter: Vec::new(),
             parameter_sums: Vec::new(),
-            condensed: Vec::new(),
+            matrix: Vec::new(),
+            is_condensed: true,
             border: Vec::new(),
             lu: DenseLu::new(),
             touches: vec![0; contacts],
@@ -236,7 +242,6 @@ impl ShootingProblem {
         self.products = vec![identity; segments + 1];
         self.by_parameter = vec![vec![0.0; size]; segments];
         self.parameter_sums = vec![vec![0.0; size]; segments + 1];
-        self.condensed = vec![0.0; (size + 1) * (size + 1)];
     }
 
     /// Measures states in units these many times as large; the problem must be evaluated again.

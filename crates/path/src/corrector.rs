@@ -80,6 +80,9 @@ pub(crate) struct Candidate {
     pub displacement: f64,
     pub residual_norm: f64,
     pub iterations: u32,
+    /// Evaluations until the correction was small: those that follow take the residual away, and are no fewer
+    /// where steps are shorter.
+    pub effort: u32,
     /// Sign of `det [R_x R_λ; r]`.
     pub sign: f64,
     /// `ln |det [R_x R_λ; (W w)ᵀ/‖w‖]|`.
@@ -132,7 +135,7 @@ impl Candidate {
         counters: &mut Counters,
     ) -> Result<(), CorrectorError> {
         self.displacement = 0.0;
-        self.iterations = 0;
+        (self.iterations, self.effort) = (0, 1);
         let mut last = f64::INFINITY;
         loop {
             self.linearise(problem, weights, row, counters)?;
@@ -142,6 +145,7 @@ impl Candidate {
             let at_floor = self.residual_norm <= limits.residual_floor;
             let loose = if at_floor { limits.singular_tolerance } else { limits.loose_tolerance };
             let has_converged = size <= limits.tolerance || (stagnant && size <= loose);
+            self.effort += u32::from(!has_converged);
             // Where the matrix is large, a correction that might stay unapplied may still leave a residual
             // that it takes away.
             let wanted = limits.residual_wanted.min(limits.residual_tolerance);

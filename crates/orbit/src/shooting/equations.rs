@@ -6,44 +6,25 @@ use hammerbeam_path::{Determinant, EvaluationError, Judge, PathProblem, Singular
 use super::ShootingProblem;
 use crate::stability;
 
-impl PathProblem for ShootingProblem {
-    fn unknowns(&self) -> usize {
-        self.residual.len()
-    }
+/// Largest entry of the monodromy matrix up to which the equations are condensed to the first node. Behind it
+/// what rounding leaves of corrections and tangents is more than the path allows.
+const MOST_CONDENSED: f64 = 1e9;
 
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.evaluate_flows(point)?;
-        if self.jumps_at_cut {
-            let spectrum = self.spectrum_cut_elsewhere(point);
-            self.evaluate_flows(point)?;
-            self.spectrum = Some(spectrum);
-        }
-        self.accumulate();
-        Ok(())
-    }
-
-    fn residual(&self) -> &[f64] {
-        &self.residual
-    }
-
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+/// The matrix of the equations and the border; what puts it together returns its width.
+impl ShootingProblem {
+    /// Condensed to the first node.
+    fn put_condensed(&mut self, row: &[f64]) -> usize {
         let size = self.node_size();
         let width = size + 1;
-        self.border.clear();
-        self.border.extend_from_slice(row);
-        self.condensed.fill(0.0);
+        self.matrix.resize(width * width, 0.0);
         let monodromy = &self.products[self.segments];
         for i in 0..size {
-            let target = &mut self.condensed[i * width..(i + 1) * width];
+            let target = &mut self.matrix[i * width..(i + 1) * width];
             target[..size].copy_from_slice(&monodromy[i * size..(i + 1) * size]);
             target[i] -= 1.0;
             target[size] = self.parameter_sums[self.segments][i];
         }
-        let target = &mut self.condensed[size * width..];
+        let target = &mut self.matrix[size * width..];
         target[size] = row[self.segments * size];
         for k in 0..self.segments {
             for i in 0..size {
@@ -53,10 +34,28 @@ impl PathProblem for ShootingProblem {
                 target[size] += border * self.parameter_sums[k][i];
             }
         }
-        self.lu.factorise(width, &self.condensed)
+        width
     }
 
-    fn solve(&self, right_hand_side: &mut [f64]) {
+    /// All of them: `G_k d_k - d_{k+1} + g_k df`. The determinant is that of the condensed ones.
+    fn put_whole(&mut self, row: &[f64]) -> usize {
+        let (size, m) = (self.node_size(), self.segments);
+        let width = m * size + 1;
+        self.matrix.resize(width * width, 0.0);
+        for k in 0..m {
+            let (here, next) = (k * size, (k + 1) % m * size);
+            for i in 0..size {
+                let target = &mut self.matrix[(here + i) * width..(here + i + 1) * width];
+                target[here..here + size].copy_from_slice(&self.segment_matrices[k][i * size..(i + 1) * size]);
+                target[next + i] = -1.0;
+                target[m * size] = self.by_parameter[k][i];
+            }
+        }
+        self.matrix[m * size * width..].copy_from_slice(row);
+        width
+    }
+
+    fn solve_condensed(&self, right_hand_side: &mut [f64]) {
         let (size, m) = (self.node_size(), self.segments);
         // `s_k`, for k = 1..=m in place of the right-hand sides.
         for k in 1..m {
@@ -84,6 +83,48 @@ impl PathProblem for ShootingProblem {
         }
         right_hand_side[..size].copy_from_slice(&condensed[..size]);
         right_hand_side[m * size] = change;
+    }
+}
+
+fn largest(entries: &[f64]) -> f64 {
+    entries.iter().fold(0.0, |largest, entry| entry.abs().max(largest))
+}
+
+impl PathProblem for ShootingProblem {
+    fn unknowns(&self) -> usize {
+        self.residual.len()
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.evaluate_flows(point)?;
+        if self.jumps_at_cut {
+            let spectrum = self.spectrum_cut_elsewhere(point);
+            self.evaluate_flows(point)?;
+            self.spectrum = Some(spectrum);
+        }
+        self.accumulate();
+        Ok(())
+    }
+
+    fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+        self.border.clear();
+        self.border.extend_from_slice(row);
+        self.matrix.clear();
+        self.is_condensed = self.segments == 1 || largest(self.monodromy()) <= MOST_CONDENSED;
+        let width = if self.is_condensed { self.put_condensed(row) } else { self.put_whole(row) };
+        self.lu.factorise(width, &self.matrix)
+    }
+
+    fn solve(&self, right_hand_side: &mut [f64]) {
+        if self.is_condensed { self.solve_condensed(right_hand_side) } else { self.lu.solve(right_hand_side) }
     }
 
     /// Flips, Neimark-Sacker points, and then how near contacts come to a change, as often for each of three

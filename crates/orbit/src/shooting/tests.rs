@@ -1,13 +1,17 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
+use std::f64::consts::TAU;
+
+use faer::c64;
 use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
+use hammerbeam_path::PathProblem;
 
 use super::*;
 use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct, test_oscillator::oscillator};
 
 /// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l
 /// t)`, `l^2 + 0.1 l - 2 = 0`.
-fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitError> {
+fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<(ShootingProblem, Vec<f64>), OrbitError> {
     let (system, _) = oscillator(0.1, 1e-6, Law::Power(PowerSpring::cubic(-0.1).unwrap()));
     let hill = vec![10.0_f64.sqrt(), 0.0];
     let scale = StateScale::new(&[1.0], 1.0, hill[0]);
@@ -15,7 +19,7 @@ fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitErro
     let mut problem = ShootingProblem::new(integrator, (1, segments), scale, 1.0);
     let mut point = problem.point(&vec![hill; segments], frequency_hz);
     correct(&mut problem, &mut point, &OrbitSettings::default())?;
-    Ok(eigenvalues(2, problem.monodromy())?[0])
+    Ok((problem, point))
 }
 
 /// The orbit stays within 1e-6 m of the top, so its larger multiplier is `exp(l/f)` to some 1e-12.
@@ -25,8 +29,37 @@ fn multipliers_of_1e4_to_1e12_are_those_of_the_hill() {
     for segments in [4, 16, 64] {
         for power in [4, 6, 8, 10, 12] {
             let expected = 10.0_f64.powi(power);
-            let [found, _] = on_the_hill(growth / expected.ln(), segments).unwrap();
+            let (problem, _) = on_the_hill(growth / expected.ln(), segments).unwrap();
+            let [found, _] = eigenvalues(2, problem.monodromy()).unwrap()[0];
             assert!((found / expected - 1.0).abs() < 1e-8, "{found:e} with {segments} segments");
+        }
+    }
+}
+
+/// The orbit is `x = sqrt(10) + Re[a exp(2 pi i f t)]`, `a = 1e-6/(-2 - w^2 + 0.1 i w)`, but for 1e-12 m. A
+/// tangent from the condensed equations would be off by as many of its sizes as the multiplier has digits
+/// more than a number.
+#[test]
+fn tangents_beside_multipliers_of_1e6_to_1e24_are_those_of_the_hill() {
+    let growth = -0.05 + (0.0025_f64 + 2.0).sqrt();
+    for (power, is_condensed) in [(6, true), (12, false), (18, false), (24, false)] {
+        let frequency_hz = growth / (10.0_f64.powi(power)).ln();
+        let (mut problem, point) = on_the_hill(frequency_hz, 16).unwrap();
+        problem.evaluate(&point).unwrap();
+        let mut tangent = vec![0.0; point.len()];
+        *tangent.last_mut().unwrap() = 1.0;
+        let row = tangent.clone();
+        problem.factorise(&row).unwrap();
+        assert_eq!(problem.is_condensed, is_condensed);
+        problem.solve(&mut tangent);
+        let w = TAU * frequency_hz;
+        let stiffness = c64::new(-2.0 - w * w, 0.1 * w);
+        let slope = c64::new(2.0 * w, -0.1) * 1e-6 / (stiffness * stiffness) * TAU;
+        for (node, found) in tangent.chunks_exact(2).enumerate() {
+            let phase = TAU * node as f64 / 16.0;
+            let expected = (slope * c64::new(phase.cos(), phase.sin())).re / problem.scale().values()[0];
+            // What the error of the motion leaves; the tangent is 1e-7 large.
+            assert!((found[0] - expected).abs() < 1e-10, "1e{power}: {} {expected}", found[0]);
         }
     }
 }

@@ -21,7 +21,6 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{
-    end::largest_multiplier,
     halves::{cut_in_halves, join_segments, offset_to_clear_ends, origin_now},
     orbit_path::OrbitPath,
     refine::refine,
@@ -34,10 +33,6 @@ use crate::{
 
 /// Most segments of an orbit whose ends keep clear of impacts.
 const MOST_CUT: usize = 16;
-
-/// An orbit on which a disturbance becomes so many times as large in a period is cut once, and not again:
-/// just behind a corner of several stops, rounding of slow impacts would go into all new nodes.
-const LOST: f64 = 1e12;
 
 /// Whether the orbits of a path may have to start at another phase.
 pub(super) fn moves_phase(path: &OrbitPath) -> bool {
@@ -135,9 +130,6 @@ fn begin_journal_anew(path: &mut OrbitPath) {
 pub(super) fn halve(path: &mut OrbitPath) -> bool {
     let segments = 2 * path.problem.segments();
     if segments > MOST_CUT || !path.problem.system().has_rigid_stops() {
-        return false;
-    }
-    if segments > 2 && largest_multiplier(path) > LOST {
         return false;
     }
     match offset_to_clear_ends(path, segments) {

@@ -38,10 +38,18 @@ pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
         let current = path.follower.current();
         (current.events, current.parameter())
     };
-    let flips = events.branch_point && is_near_shorter_period(path)
-        || tends_to_shorter_period(path) && !flips_elsewhere(path, FARTHEST);
-    let grazes = !flips && events.signature_change && is_one_of_shorter_period(path);
-    (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
+    let flips = events.branch_point && is_near_shorter_period(path);
+    let tends = !flips && tends_to_shorter_period(path) && !flips_elsewhere(path, FARTHEST);
+    let grazes =
+        tends && grazes_if_it_tends(path) || events.signature_change && is_one_of_shorter_period(path);
+    (flips || tends || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes: grazes && !flips })
+}
+
+/// Whether a branch that tends to an orbit of shorter period does so since a rigid stop is left: of the orbits
+/// of half its period it may be a flip, of others it is nothing else.
+fn grazes_if_it_tends(path: &OrbitPath) -> bool {
+    let halves = path.problem.period_multiple().is_multiple_of(2);
+    !halves && path.problem.system().has_rigid_stops()
 }
 
 /// Whether the last steps have led towards an orbit of shorter period, nearer than [`NO_PROGRESS_NEAR`] of

@@ -25,6 +25,9 @@ const REACHES: [f64; 5] = [2.0, 8.0, 32.0, 128.0, 512.0];
 /// they gain little distance from the corner.
 const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 
+/// Least cosine between the tangents of two points behind a corner.
+const ALIGNED: f64 = 0.9;
+
 /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also
 /// returns the length over which it was turned.
 ///
@@ -73,7 +76,7 @@ pub(super) fn correct_behind_corner(
 ) -> Result<(), StepDoubt> {
     attempt.correct(limits)?;
     attempt.trial.orient(attempt.state.orientation);
-    let agrees = product(&attempt.frame.weights, &attempt.trial.node.tangent, direction) > 0.9;
+    let agrees = product(&attempt.frame.weights, &attempt.trial.node.tangent, direction) > ALIGNED;
     if agrees { Ok(()) } else { Err(StepDoubt::NotLocated) }
 }
 
@@ -102,17 +105,49 @@ fn limits(settings: &Settings, length: f64) -> Limits {
 
 /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead, the
 /// trial itself, behind the turn, is the next point.
+///
+/// Where both pieces bend so much that no point of the path is near the place where their tangents meet, the
+/// trial is moved back towards the corner, by half of the way that is left each time; at last it is the next
+/// point, and how far behind the corner it lies is the uncertainty of that.
 fn arrive_at_corner(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
-    length: f64,
+    mut length: f64,
 ) -> Result<Arrival, StepDoubt> {
-    let base = attempt.state.base();
-    let met = meeting(&attempt.frame.weights, base, &attempt.trial.node, length);
-    if let Some(back) = met.filter(|_| turns(attempt)) {
-        evaluate_corner(attempt, locator, back, length)?;
+    let mut uncertainty = 0.0;
+    while turns(attempt) {
+        let base = attempt.state.base();
+        let Some(back) = meeting(&attempt.frame.weights, base, &attempt.trial.node, length) else { break };
+        uncertainty = back.abs();
+        if evaluate_corner(attempt, locator, back, length).is_ok() {
+            uncertainty = 0.0;
+            break;
+        }
+        if back < attempt.settings().min_step {
+            // The problem holds the point that is accepted.
+            attempt.return_to_trial()?;
+            break;
+        }
+        length = 0.5 * back;
+        approach_corner(attempt, locator, length)?;
     }
-    arrive_behind_corner(attempt)
+    Ok(Arrival { uncertainty, ..arrive_behind_corner(attempt)? })
+}
+
+/// Moves the trial back towards the corner.
+fn approach_corner(attempt: &mut Attempt<'_>, locator: &mut Locator, way: f64) -> Result<(), StepDoubt> {
+    let direction = attempt.trial.node.tangent.clone();
+    attempt.border_across(&direction);
+    locator.probe.point.copy_from_slice(&attempt.trial.node.point);
+    add_scaled(&mut locator.probe.point, -way, &direction);
+    let limits = Limits { max_angle: None, max_displacement: way, ..attempt.settings().limits(way) };
+    locator.correct(attempt, limits).map_err(StepDoubt::Corrector)?;
+    locator.probe.orient(attempt.state.orientation);
+    if product(&attempt.frame.weights, &locator.probe.node.tangent, &direction) < ALIGNED {
+        return Err(StepDoubt::NotLocated);
+    }
+    locator.arrive(attempt);
+    Ok(())
 }
 
 /// The trial, with the tangent behind the corner, is the next point.
@@ -143,7 +178,7 @@ fn evaluate_corner(
     locator.probe.point.copy_from_slice(&attempt.trial.node.point);
     add_scaled(&mut locator.probe.point, -back, &attempt.trial.node.tangent);
     border_both_sides(attempt);
-    let limits = Limits { max_angle: None, ..limits(attempt.settings(), length) };
+    let limits = Limits { max_angle: None, max_displacement: length, ..attempt.settings().limits(length) };
     locator.correct(attempt, limits).map_err(StepDoubt::Corrector)?;
     locator.arrive(attempt);
     let behind = &locator.probe;

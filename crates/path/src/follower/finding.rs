@@ -103,9 +103,13 @@ fn check_hidden_folds(attempt: &Attempt<'_>) -> Result<(), StepDoubt> {
     }
     let slope = parameter_slope(attempt);
     let same_sign = slope.start * slope.end > 0.0;
-    // The slope is a difference of parameters over the step: what rounding leaves of it means nothing.
-    let rounding = 64.0 * f64::EPSILON * attempt.trial.parameter().abs() / attempt.step;
-    let hidden = slope.inner_roots() == 2 || (slope.least() > rounding && slope.dips());
+    // The slope is a difference of parameters over the step: what errors of points and rounding leave of it
+    // means nothing.
+    let error = attempt.trial.correction_norm.max(attempt.state.current.correction_norm);
+    let digits = f64::EPSILON * attempt.trial.parameter().abs();
+    let rounding = (64.0 * digits).max(4.0 * error) / attempt.step;
+    let turns_twice = slope.most() > rounding && slope.inner_roots() == 2;
+    let hidden = turns_twice || (slope.least() > rounding && slope.dips());
     if same_sign && hidden { Err(StepDoubt::HiddenFolds) } else { Ok(()) }
 }
 
@@ -145,6 +149,11 @@ impl ParameterSlope {
         }
         let pivot = -0.5 * (b + discriminant.sqrt().copysign(b));
         [pivot / a, self.start / pivot].iter().filter(|u| (EDGE..=1.0 - EDGE).contains(*u)).count()
+    }
+
+    /// The largest of what it is made of, in magnitude.
+    fn most(self) -> f64 {
+        self.start.abs().max(self.end.abs()).max(self.chord.abs())
     }
 
     /// The smaller end value, in magnitude.

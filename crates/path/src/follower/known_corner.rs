@@ -28,6 +28,8 @@ const NEXT_LOOK: f64 = 1e-2;
 const WITHIN: f64 = 2.0;
 /// and off the tangent by no more than this share of the way to it.
 const OFF_TANGENT: f64 = 0.1;
+/// Straight ahead: off the tangent by no more than this share.
+const OFF_STRAIGHT: f64 = 1e-4;
 /// Least cosine between the direction behind the corner and the tangent there.
 const ALIGNED: f64 = 0.5;
 /// Farthest from the corner that a point behind it is taken, in distances of sheets.
@@ -76,18 +78,33 @@ pub(super) struct Turned {
     pub corner: PassedCorner,
 }
 
-/// Turns the corner ahead.
+/// Turns the corner that lies straight ahead, as far away as the first look for one reaches: rounding may be
+/// what holds up short steps long before it, where speeds vanish.
 ///
 /// # Errors
-/// The judge knows of none within the step.
+/// The judge knows of none.
+pub(super) fn turn_far_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
+    let within = FIRST_LOOK * attempt.settings().sheet_distance;
+    turn_corner_within(attempt, Cone { within, known: 0.0, off: OFF_STRAIGHT })
+}
+
+/// Turns the corner ahead, within about the step that failed.
+///
+/// # Errors
+/// The judge knows of none.
 pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
+    let known = 10.0 * attempt.settings().correction_tolerance;
+    turn_corner_within(attempt, Cone { within: WITHIN * attempt.step, known, off: OFF_TANGENT })
+}
+
+fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, StepDoubt> {
     if !attempt.problem.judge().has_root_corners() {
         return Err(StepDoubt::NotLocated);
     }
-    let (frame, state, step) = (attempt.frame, attempt.state, attempt.step);
-    let tolerance = frame.settings.correction_tolerance;
-    let ahead = |corner: &[f64]| lies_ahead(&frame.weights, state.base(), corner, (WITHIN * step, tolerance));
-    let found = attempt.problem.judge().root_corner(&state.base().point, step, &ahead);
+    let (frame, state) = (attempt.frame, attempt.state);
+    let ahead = |corner: &[f64]| cone.contains(&frame.weights, state.base(), corner);
+    let reach = cone.within / WITHIN;
+    let found = attempt.problem.judge().root_corner(&state.base().point, reach, &ahead);
     let corner = found.ok_or(StepDoubt::NotLocated)?;
     attempt.counters.evaluations += corner.evaluations;
     for behind in &corner.behind {
@@ -101,16 +118,25 @@ pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, Ste
     Err(StepDoubt::NotLocated)
 }
 
-/// Whether a corner lies ahead on the arc from `base`, within this length, where points are known to the
-/// tolerance.
-fn lies_ahead(weights: &[f64], base: &Node, corner: &[f64], (within, tolerance): (f64, f64)) -> bool {
-    let mut way = corner.to_vec();
-    add_scaled(&mut way, -1.0, &base.point);
-    let ahead = product(weights, &base.tangent, &way);
-    add_scaled(&mut way, -ahead, &base.tangent);
-    let known = 10.0 * tolerance;
-    let allowed = OFF_TANGENT * ahead.abs() + known;
-    (-known..=within + known).contains(&ahead) && norm(weights, &way) <= allowed
+/// Where a corner lies ahead on the arc.
+struct Cone {
+    /// Along the tangent.
+    within: f64,
+    /// What points are known to.
+    known: f64,
+    /// Off the tangent, as a share of the way.
+    off: f64,
+}
+
+impl Cone {
+    fn contains(&self, weights: &[f64], base: &Node, corner: &[f64]) -> bool {
+        let mut way = corner.to_vec();
+        add_scaled(&mut way, -1.0, &base.point);
+        let ahead = product(weights, &base.tangent, &way);
+        add_scaled(&mut way, -ahead, &base.tangent);
+        let allowed = self.off * ahead.abs() + self.known;
+        (-self.known..=self.within + self.known).contains(&ahead) && norm(weights, &way) <= allowed
+    }
 }
 
 fn arrive_behind(

@@ -81,11 +81,11 @@ impl Locator {
         let floor = attempt.settings().correction_floor;
         let in_doubt = probing.bracket.slope() * (BEYOND_DOUBT * due).max(floor);
         if due > sharp.tolerance && found.abs() <= in_doubt.max(probing.reached) {
-            let (moved, iterations) = (self.probe.displacement + due, self.probe.iterations);
+            let (moved, effort) = (self.probe.displacement + due, self.probe.effort);
             self.probe.point.copy_from_slice(&self.probe.node.point);
             self.correct(attempt, sharp).map_err(StepDoubt::Corrector)?;
             self.probe.displacement += moved;
-            self.probe.iterations += iterations;
+            self.probe.effort += effort;
             found = value(&mut self.probe, attempt.problem).ok_or(StepDoubt::NotLocated)?;
         }
         self.best.node.copy_from(&self.probe.node);

@@ -65,7 +65,7 @@ use closing::arrive_at_start;
 use corner::turn_corner;
 use finding::Finding;
 use fold::arrive_at_fold;
-use known_corner::{Looks, turn_known_corner};
+use known_corner::{Looks, Turned, turn_far_corner, turn_known_corner};
 use leap::leap;
 use locator::Locator;
 use outside::check_outside;
@@ -351,13 +351,23 @@ impl Follower {
     fn pass_by_force(&mut self, problem: &mut dyn PathProblem, step: f64) -> Option<(Arrival, f64)> {
         let (mut attempt, locator) = self.attempt(problem, step);
         let attempt = &mut attempt;
-        let (arrival, length) = turn_root_corner(attempt, locator)
+        let mut passed = None;
+        let (arrival, length) = turn_far_corner(attempt)
+            .map(|Turned { arrival, length, corner }| {
+                passed = Some(corner);
+                (arrival, length)
+            })
+            .or_else(|_| turn_root_corner(attempt, locator))
             .or_else(|_| turn_corner(attempt, locator))
             .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
-            .or_else(|_| pass_recut(attempt))
-            .or_else(|_| leap(attempt))
+            .or_else(|_| {
+                passed = None;
+                pass_recut(attempt).or_else(|_| leap(attempt))
+            })
             .ok()?;
-        Some((zeros_at_once(attempt, arrival), length))
+        let arrival = zeros_at_once(attempt, arrival);
+        self.passed = passed;
+        Some((arrival, length))
     }
 
     fn too_short(&self, step: f64, doubt: StepDoubt) -> PathStop {

@@ -48,8 +48,10 @@ const FITS: f64 = 0.1;
 const MOST_FITS: u32 = 60;
 /// Growth of displacements that are looked for.
 const STRIDE: f64 = 4.0;
-/// Ways sideways, and behind the corner, in failed steps.
-const SIDEWAYS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
+/// Ways sideways, in failed steps: the path comes tangentially, so a place within a step of the surface is
+/// nearer to it sideways. What lies farther aside is no surface that the path comes to.
+const SIDEWAYS: [f64; 2] = [0.1, 1.0];
+/// Ways behind the corner, in failed steps.
 const OFF: [f64; 3] = [8.0, 64.0, 512.0];
 
 /// What is known of the root behind the corner ahead.

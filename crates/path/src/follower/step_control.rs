@@ -17,7 +17,8 @@ const MOST_GROWTH: f64 = 2.0;
 /// So many last corrections of the displacement are put down to rounding: steps do not shrink on account of
 /// it.
 const NOISE: f64 = 4.0;
-const EFFORTLESS_ITERATIONS: u32 = 3;
+/// Evaluations until corrections are small, up to which steps may grow.
+const MOST_EFFORT: u32 = 3;
 
 /// So many halvings of a step that meets an old stretch are enough to know that the jump was made earlier.
 const MOST_RETRACED: u32 = 8;
@@ -132,7 +133,7 @@ pub(super) fn next_step(frame: &Frame, state: &PathState, accepted: &Accepted<'_
     let aim = 0.25 * frame.allowed_displacement(&state.current, step);
     let displacement = trial.displacement - NOISE * trial.correction_norm;
     let by_displacement = (aim / displacement.max(1e-300)).powf(1.0 / order(earlier));
-    let effort = if trial.iterations > EFFORTLESS_ITERATIONS { 0.7 } else { MOST_GROWTH };
+    let effort = if trial.effort > MOST_EFFORT { 0.7 } else { MOST_GROWTH };
     let hold = if rejected > 0 { 1.0 } else { MOST_GROWTH };
     let factor = by_angle.min(by_displacement).min(effort).min(hold).max(0.3);
     (step * factor).max(frame.settings.min_step)
