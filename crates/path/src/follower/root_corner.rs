@@ -49,8 +49,10 @@ const MOST_FITS: u32 = 60;
 /// Growth of displacements that are looked for.
 const STRIDE: f64 = 4.0;
 /// Ways sideways, in failed steps: the path comes tangentially, so a place within a step of the surface is
-/// nearer to it sideways. What lies farther aside is no surface that the path comes to.
+/// nearer to it sideways. What lies farther aside is no surface that the path comes to,
 const SIDEWAYS: [f64; 2] = [0.1, 1.0];
+/// unless points are known no better: ways in tolerances of a point, where they are longer.
+const UNKNOWN: [f64; 2] = [10.0, 100.0];
 /// Ways behind the corner, in failed steps.
 const OFF: [f64; 3] = [8.0, 64.0, 512.0];
 
@@ -242,7 +244,9 @@ fn go_off_root(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     let unit = 1.0 / norm(weights, &aside);
     scale(&mut aside, unit);
     let step = attempt.step;
-    for way in SIDEWAYS.map(|way| way * step) {
+    let tolerance = attempt.settings().correction_tolerance;
+    let unknown = UNKNOWN.map(|way| way * tolerance).into_iter().filter(|way| *way > step);
+    for way in SIDEWAYS.map(|way| way * step).into_iter().chain(unknown) {
         for sideways in [way, -way] {
             if look_aside(attempt, &aside, sideways).is_err() {
                 continue;
