@@ -29,10 +29,10 @@ const DIP: f64 = 0.5;
 const MATRIX_NOISE: f64 = 1000.0;
 /// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors
 /// of points.
-const BESIDE: f64 = 1000.0;
+pub(super) const BESIDE: f64 = 1000.0;
 /// Part of the parameter by which it has to go back: less is rounding, as among free vibrations of an
 /// undamped mode, which all have one frequency.
-const ROUNDED: f64 = 1e-12;
+pub(super) const ROUNDED: f64 = 1e-12;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in
 /// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;

@@ -6,7 +6,10 @@
 //! parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old
 //! sign comes back, and then it was none.
 
-use super::{Follower, StepOutcome};
+use super::{
+    Follower, StepOutcome,
+    finding::{BESIDE, ROUNDED},
+};
 use crate::{corrector::CorrectorError, error::StepDoubt, problem::PathProblem, settings::Settings};
 
 /// Points after which a change of sign is still not beyond doubt that is none.
@@ -31,6 +34,18 @@ impl Follower {
         let evaluated = problem.evaluate(&self.trial.point);
         evaluated.map_err(|error| StepDoubt::Corrector(CorrectorError::Evaluation(error)))?;
         Ok(turns)
+    }
+
+    /// Whether the parameter has gone with its sign at all. On a path that has just left a branch point the
+    /// sign with which it begins may be rounding: then there is no fold, and the sign is the other one.
+    pub(super) fn has_gone_its_way(&self) -> bool {
+        let (state, settings) = (&self.state, &self.frame.settings);
+        let (here, start) = (&state.current, &state.start);
+        if !state.has_start() || here.arc_length > BESIDE * settings.sheet_distance {
+            return true;
+        }
+        let way = (here.parameter() - start.parameter()) * state.parameter_sign;
+        way > ROUNDED * here.parameter().abs()
     }
 
     /// Whether the path turns beyond doubt before its slope has the old sign again.

@@ -309,11 +309,14 @@ impl Follower {
             return arrive_at_end(&mut attempt, attempts.most_earlier);
         }
         let mut finding = finding::find(&mut attempt, locator)?;
-        if finding == Finding::Regular && self.turns_for_good(problem)? {
+        let turns = finding == Finding::Regular && self.turns_for_good(problem)?;
+        let has_gone = turns && self.has_gone_its_way();
+        if has_gone {
             finding = Finding::Fold;
         }
+        let parameter_sign = (turns && !has_gone).then(|| -self.state.parameter_sign);
         let (mut attempt, locator) = self.attempt(problem, attempts.step);
-        match finding {
+        let arrival = match finding {
             Finding::Regular if attempt.changes_signature() => {
                 arrive_at_change(&mut attempt, locator, earlier)
             }
@@ -321,7 +324,8 @@ impl Follower {
             Finding::Closing(image) => arrive_at_start(&mut attempt, locator, image),
             Finding::Fold => arrive_at_fold(&mut attempt, locator),
             Finding::Reversed => arrive_at_branch_point(&mut attempt, locator),
-        }
+        }?;
+        Ok(Arrival { parameter_sign: arrival.parameter_sign.or(parameter_sign), ..arrival })
     }
 
     /// Gives up an attempt; length of the next one.
