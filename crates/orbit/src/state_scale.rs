@@ -11,6 +11,9 @@ use hammerbeam_motion::System;
 /// Least size of a motion, relative to its state.
 const LEAST_MOTION: f64 = 1e-3;
 
+/// A motion smaller than this part of the state of rest is rounding.
+const ROUNDED: f64 = 1e-12;
+
 /// Scales of a state: displacements `V/max(w_i, 2 pi f)`, velocities `V`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateScale {
@@ -80,9 +83,12 @@ impl StateScale {
         square.sqrt() < bound
     }
 
-    /// Multiplies the scales by the size of a motion, if it has one; returns the size.
+    /// Multiplies the scales by the size of a motion, if it has one; returns the size. Of a structure that its
+    /// stops hold throughout, where the model has its zero, it is that of the state of rest without stops.
     pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) -> f64 {
-        let size = self.size_of_motion(states);
+        let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt();
+        let moved = self.size_of_motion(states);
+        let size = if moved <= ROUNDED * rest { rest } else { moved };
         if size > 0.0 {
             self.multiply(size);
         }
@@ -185,6 +191,16 @@ mod tests {
             assert_eq!(scale.are_within(&a, &b, bound), is_within, "{bound}");
         }
         assert!(!scale.are_within(&a, &[f64::NAN; 3], 9.0));
+    }
+
+    #[test]
+    fn what_stops_hold_at_zero_is_measured_by_the_load_that_presses() {
+        for state in [[0.0, 0.0], [0.0, -1.2e-20], [3e-19, 0.0]] {
+            let mut held = scale(40.0);
+            assert_eq!(held.fit_to(&[state]), 80.0);
+            assert_eq!(held.values(), [40.0, 80.0]);
+        }
+        assert_eq!(scale(40.0).fit_to(&[[3e-10, 0.0]]), 6e-10, "a motion");
     }
 
     #[test]

@@ -36,8 +36,9 @@ impl Follower {
         Ok(turns)
     }
 
-    /// Whether the parameter has gone with its sign at all. On a path that has just left a branch point the
-    /// sign with which it begins may be rounding: then there is no fold, and the sign is the other one.
+    /// Whether the parameter has gone with its sign. On a path that has just left a branch point the sign with
+    /// which it begins may be rounding: where the parameter has gone the other way from there on, there is no
+    /// fold, and the sign is the other one.
     pub(super) fn has_gone_its_way(&self) -> bool {
         let (state, settings) = (&self.state, &self.frame.settings);
         let (here, start) = (&state.current, &state.start);
@@ -45,7 +46,7 @@ impl Follower {
             return true;
         }
         let way = (here.parameter() - start.parameter()) * state.parameter_sign;
-        way > ROUNDED * here.parameter().abs()
+        way >= -ROUNDED * here.parameter().abs()
     }
 
     /// Whether the path turns beyond doubt before its slope has the old sign again.
