@@ -31,6 +31,9 @@ const MOST_CELLS: f64 = 16.0;
 const LARGER: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
+/// Up to so many times the largest defect behind a corner nothing is met: in a corner where several paths meet
+/// the one on which the path goes on is as near to the one on which it came.
+const BESIDE_CORNER: f64 = 100.0;
 
 type Sketch = [f64; SKETCH];
 /// Size, as a power, and place of a cell.
@@ -54,6 +57,8 @@ pub(crate) struct PathMemory {
     tolerance: f64,
     largest_defect: f64,
     vertices: Vec<Vertex>,
+    /// Arc length of the last corner.
+    corner: f64,
     heads: HashMap<Cell, u32>,
     /// Sizes of cells that are in use.
     sizes: i32,
@@ -72,6 +77,7 @@ impl PathMemory {
             tolerance: 10.0 * settings.correction_tolerance,
             largest_defect: settings.sheet_distance,
             vertices: Vec::new(),
+            corner: f64::NEG_INFINITY,
             heads: HashMap::new(),
             sizes: 1,
             links: Vec::new(),
@@ -90,6 +96,9 @@ impl PathMemory {
             log_determinant: self.log_determinant(point.log_determinant, &tangent),
             signature: point.signature,
         };
+        if point.events.corner {
+            self.corner = point.arc_length;
+        }
         self.vertices.push(vertex);
         if self.vertices.len() > 1 {
             self.enter_cells(self.vertices.len() - 1);
@@ -99,6 +108,7 @@ impl PathMemory {
     /// Forgets all points.
     pub fn clear(&mut self) {
         self.vertices.clear();
+        self.corner = f64::NEG_INFINITY;
         self.heads.clear();
         self.sizes = 1;
         self.links.clear();
@@ -106,6 +116,9 @@ impl PathMemory {
 
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
     pub fn meets(&self, candidate: &Candidate, orientation: f64, units: &[f64]) -> Option<f64> {
+        if self.is_beside_corner() {
+            return None;
+        }
         let tangent = in_units(&candidate.node.tangent, units);
         let probe = Vertex {
             place: self.sketch(&in_units(&candidate.node.point, units)),
@@ -123,6 +136,11 @@ impl PathMemory {
                 .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
                 .find_map(|cell| self.meets_in(cell, &probe, point_tolerance))
         })
+    }
+
+    fn is_beside_corner(&self) -> bool {
+        let near = BESIDE_CORNER * self.largest_defect;
+        self.vertices.last().is_some_and(|last| last.arc_length - self.corner < near)
     }
 
     fn meets_in(&self, cell: Cell, probe: &Vertex, point_tolerance: f64) -> Option<f64> {

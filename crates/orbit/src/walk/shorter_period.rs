@@ -34,15 +34,16 @@ const LITTLE: f64 = 0.02;
 /// changed and left an orbit of shorter period, as where the impacts of an orbit that touches a rigid
 /// stop in every second period vanish.
 pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
-    let (events, frequency_hz) = {
-        let current = path.follower.current();
-        (current.events, current.parameter())
-    };
-    let flips = events.branch_point && is_near_shorter_period(path);
+    let frequency_hz = path.parameter();
+    let flips = path.follower.current().events.branch_point && is_near_shorter_period(path);
     let tends = !flips && tends_to_shorter_period(path) && !flips_elsewhere(path, FARTHEST);
-    let grazes =
-        tends && grazes_if_it_tends(path) || events.signature_change && is_one_of_shorter_period(path);
-    (flips || tends || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes: grazes && !flips })
+    let grazes = !flips && (tends && grazes_if_it_tends(path) || grazes_shorter_period(path));
+    (flips || tends || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
+}
+
+/// Whether the contacts have just changed and left an orbit of shorter period.
+pub(super) fn grazes_shorter_period(path: &mut OrbitPath) -> bool {
+    path.follower.current().events.signature_change && is_one_of_shorter_period(path)
 }
 
 /// Whether a branch that tends to an orbit of shorter period does so since a rigid stop is left: of the orbits

@@ -8,7 +8,7 @@ use super::{
     half_orbit::end_in_flip,
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
-    shorter_period::meets_shorter_period,
+    shorter_period::{grazes_shorter_period, meets_shorter_period},
     splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
 };
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
@@ -67,6 +67,11 @@ impl BranchWalk {
         let largest = row.solution.largest_multiplier();
         if let Some(splits) = is_lost_at_splitting(path, &departure, largest)? {
             return Ok(Some(splits));
+        }
+        if let Some(at_corner) = at_corner.as_ref().filter(|_| grazes_shorter_period(path)) {
+            let frequency_hz = at_corner.parameter.unwrap_or(at_corner.solution.frequency_hz);
+            rows.push(at_corner.clone());
+            return Ok(Some(StopReason::ShorterPeriod { frequency_hz, grazes: true }));
         }
         path.note_in_journal();
         match at_corner {
