@@ -2,7 +2,7 @@
 
 use hammerbeam_path::{Judge, Node};
 
-use super::{half_orbit::flips_elsewhere, orbit_path::OrbitPath};
+use super::{end::largest_multiplier, half_orbit::flips_elsewhere, orbit_path::OrbitPath};
 use crate::StopReason;
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of
@@ -26,6 +26,12 @@ const FARTHEST: f64 = 10.0 * STILL;
 /// The same two where no orbit has half the period: nothing else finds the place then.
 const NO_PROGRESS_AT: f64 = 1e-4;
 const STILL_AT: f64 = 2e-9;
+/// Nearer than this, and ever nearer, a branch has arrived, however long its steps: what is left of its slow
+/// impacts at rigid stops is rounding.
+const ARRIVED: f64 = 1e-6;
+/// A disturbance of an orbit becomes less than so many times as large in a period beside a flip, and more
+/// beside a grazing.
+const GROWN: f64 = 1e4;
 /// Far shorter: this part of the distance.
 const LITTLE: f64 = 0.02;
 
@@ -48,13 +54,13 @@ pub(super) fn grazes_shorter_period(path: &mut OrbitPath) -> bool {
 
 /// Whether a branch that tends to an orbit of shorter period does so since a rigid stop is left: of the orbits
 /// of half its period it may be a flip, of others it is nothing else.
-fn grazes_if_it_tends(path: &OrbitPath) -> bool {
+fn grazes_if_it_tends(path: &mut OrbitPath) -> bool {
     let halves = path.problem.period_multiple().is_multiple_of(2);
-    !halves && path.problem.system().has_rigid_stops()
+    path.problem.system().has_rigid_stops() && (!halves || largest_multiplier(path) > GROWN)
 }
 
 /// Whether the last steps have led towards an orbit of shorter period, nearer than [`NO_PROGRESS_NEAR`] of
-/// the orbit, in a small part of the way that is left each.
+/// the orbit, in a small part of the way that is left each, or have [`ARRIVED`].
 fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
     let doubles = path.problem.period_multiple().is_multiple_of(2);
     let (near, still) = if doubles { (NO_PROGRESS_NEAR, STILL) } else { (NO_PROGRESS_AT, STILL_AT) };
@@ -66,6 +72,10 @@ fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
         return false;
     }
     let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_simpler(&node.point)).collect();
+    let approaches = left.len() > 2 && left.windows(2).all(|pair| pair[0] < pair[1]);
+    if problem.has_root_corners() && approaches && left[0] < ARRIVED * problem.hertz_per_norm() {
+        return true;
+    }
     let is_still = |(node, left): (&Node, &f64)| {
         let slope = node.tangent[node.tangent.len() - 1].abs();
         slope * left < still * problem.parameter_size(&node.point)
