@@ -9,6 +9,7 @@ mod growth;
 mod half_orbit;
 mod halves;
 mod last_rows;
+mod lost_start;
 mod orbit_path;
 mod recut;
 mod refine;

@@ -6,6 +6,7 @@ use super::{
     BranchWalk, Walked,
     end::{end_of_path, stop_reason},
     half_orbit::end_in_flip,
+    lost_start::passed_lost_start,
     recut::{flee_phase, keep_phase_clear},
     resegment::resegment,
     shorter_period::{grazes_shorter_period, meets_shorter_period},
@@ -55,6 +56,10 @@ impl BranchWalk {
         if let Some((last, splits)) = comes_to_splitting(path, record, &departure, &from)? {
             record.append_last(path, [&from, &last], rows)?;
             return Ok(Some(splits));
+        }
+        if let Some(start) = passed_lost_start(path, &from) {
+            record.append_last(path, [&from, &start], rows)?;
+            return Ok(Some(StopReason::Closed));
         }
         let (at_corner, row) = match record.rows_here(path) {
             Ok(rows) => rows,
