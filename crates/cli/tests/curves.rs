@@ -378,7 +378,8 @@ fn a_resonant_grazing_at_which_a_curve_ends_is_named() {
         assert!(message.contains(&format!("a resonant grazing ({name})")), "{message}");
         let damped_hz = (1.0_f64 - 0.02 * 0.02).sqrt() / std::f64::consts::TAU;
         let [found, gap] = [frequency_hz, gap].map(|text| text.parse::<f64>().unwrap());
-        assert!((found / (part * damped_hz) - 1.0).abs() < 2e-5, "{of}: {found}, not {part} of {damped_hz}");
+        // The curve ends where the speed of the impact is one that its points no longer tell.
+        assert!((found / (part * damped_hz) - 1.0).abs() < 3e-5, "{of}: {found}, not {part} of {damped_hz}");
         let w = std::f64::consts::TAU * found;
         let amplitude = 0.4 / (1.0 - w * w).hypot(0.04 * w);
         assert!((gap / amplitude - 1.0).abs() < 1e-6, "{of}: {gap}, not {amplitude}");

@@ -18,11 +18,11 @@
 //!
 //! # Whole equations
 //! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in
-//! corrections and tangents, however many the segments. Where an entry of `A_m` is larger than 1e9, all
-//! equations and the border row are factorised as they stand, with partial pivoting: then the error is that
-//! of one segment, and orbits beside several slow impacts are followed on which a disturbance becomes 1e30
-//! times as large in a period. That is some 3 m times the work of condensing. The determinant
-//! is the same.
+//! corrections and tangents, however many the segments. Up to 1e7 that is below the tolerances of the path.
+//! Where an entry of `A_m` is larger, all equations and the border row are factorised as they stand, with
+//! partial pivoting: then the error is that of one segment, and orbits beside several slow impacts are
+//! followed on which a disturbance becomes 1e30 times as large in a period. That is some 3 m times the work
+//! of condensing. The determinant is the same.
 //!
 //! # Limits
 //! Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`, the largest one to 1e-8 at

@@ -11,7 +11,7 @@ use hammerbeam_motion::System;
 /// Least size of a motion, relative to its state.
 const LEAST_MOTION: f64 = 1e-3;
 
-/// A motion smaller than this part of the state of rest is rounding.
+/// A motion smaller than this part of the state of rest is rounding of what is pressed.
 const ROUNDED: f64 = 1e-12;
 
 /// Scales of a state: displacements `V/max(w_i, 2 pi f)`, velocities `V`.
@@ -83,8 +83,8 @@ impl StateScale {
         square.sqrt() < bound
     }
 
-    /// Multiplies the scales by the size of a motion, if it has one; returns the size. Of a structure that its
-    /// stops hold throughout, where the model has its zero, it is that of the state of rest without stops.
+    /// Multiplies the scales by the size of a motion, if it has one; returns the size. Of a structure that
+    /// its stops hold throughout, where the model has its zero, it is that of the state of rest without stops.
     pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) -> f64 {
         let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt();
         let moved = self.size_of_motion(states);

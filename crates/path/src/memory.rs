@@ -13,7 +13,7 @@
 //! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the
 //! segment's length), runs parallel to it, has its signature, and its determinant. A stretch walked with the
 //! same orientation must be met in the same direction: the returning sheet of a narrow fold, which runs the
-//! other way, is not a retrace.
+//! other way, is not a retrace. Close behind a corner nothing is met that lies close before it.
 
 use std::collections::HashMap;
 
@@ -31,9 +31,9 @@ const MOST_CELLS: f64 = 16.0;
 const LARGER: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
-/// Up to so many times the largest defect behind a corner nothing is met: in a corner where several paths meet
-/// the one on which the path goes on is as near to the one on which it came.
-const BESIDE_CORNER: f64 = 100.0;
+/// Up to so many times the largest defect behind a corner nothing is met that lies as near before it: where
+/// several paths meet, the one on which the path goes on is as near to the one on which it came.
+const BESIDE_CORNER: f64 = 10.0;
 
 type Sketch = [f64; SKETCH];
 /// Size, as a power, and place of a cell.
@@ -116,9 +116,6 @@ impl PathMemory {
 
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
     pub fn meets(&self, candidate: &Candidate, orientation: f64, units: &[f64]) -> Option<f64> {
-        if self.is_beside_corner() {
-            return None;
-        }
         let tangent = in_units(&candidate.node.tangent, units);
         let probe = Vertex {
             place: self.sketch(&in_units(&candidate.node.point, units)),
@@ -130,25 +127,35 @@ impl PathMemory {
         };
         // Points are as accurate as their units are large; the largest bounds all.
         let point_tolerance = units.iter().fold(1.0, |most: f64, &unit| most.max(unit)) * self.tolerance;
+        let beside_corner = self.beside_corner(&probe);
         (0..self.sizes).find_map(|size| {
             let (_, i, j) = self.cell_of(size, &probe.place);
             (-1..=1)
                 .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
-                .find_map(|cell| self.meets_in(cell, &probe, point_tolerance))
+                .find_map(|cell| self.meets_in(cell, &probe, (point_tolerance, beside_corner)))
         })
     }
 
-    fn is_beside_corner(&self) -> bool {
+    /// Arc length from which on stretches are not met by a step to here, which does not lead away from the
+    /// last corner.
+    fn beside_corner(&self, probe: &Vertex) -> f64 {
         let near = BESIDE_CORNER * self.largest_defect;
-        self.vertices.last().is_some_and(|last| last.arc_length - self.corner < near)
+        let ends = self.vertices.last().map_or(0.0, |last| last.arc_length + length(last, probe));
+        if ends - self.corner < near { self.corner - near } else { f64::INFINITY }
     }
 
-    fn meets_in(&self, cell: Cell, probe: &Vertex, point_tolerance: f64) -> Option<f64> {
+    fn meets_in(
+        &self,
+        cell: Cell,
+        probe: &Vertex,
+        (point_tolerance, beside_corner): (f64, f64),
+    ) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
             let segment = segment as usize;
-            if segment + RECENT < self.vertices.len() {
+            let is_beside = self.vertices[segment].arc_length > beside_corner;
+            if segment + RECENT < self.vertices.len() && !is_beside {
                 let found = {
                     let ends = (&self.vertices[segment - 1], &self.vertices[segment]);
                     self.meets_segment(ends, probe, point_tolerance)

@@ -148,8 +148,8 @@ impl Search {
                 let last = corner[corner.len() - 1];
                 let mut equations = TouchEquations::new(problem, &impacts, last).ok()?;
                 let guess = Unknowns::of_touches(&impacts, last);
-                // Where all others graze, too, the way there is none for Newton's method, but the touches
-                // are known well enough.
+                // Newton's method may fail, since other stops graze at once. Then the touches are known well
+                // enough as they are beside the corner.
                 let unknowns = equations.solve(&guess, grazing, self.farthest).unwrap_or(guess);
                 self.with_impacts(&mut equations, &unknowns, &corner)?
             }

@@ -8,7 +8,7 @@ use crate::stability;
 
 /// Largest entry of the monodromy matrix up to which the equations are condensed to the first node. Behind it
 /// what rounding leaves of corrections and tangents is more than the path allows.
-const MOST_CONDENSED: f64 = 1e9;
+const MOST_CONDENSED: f64 = 1e7;
 
 /// The matrix of the equations and the border; what puts it together returns its width.
 impl ShootingProblem {
@@ -16,6 +16,7 @@ impl ShootingProblem {
     fn put_condensed(&mut self, row: &[f64]) -> usize {
         let size = self.node_size();
         let width = size + 1;
+        self.matrix.clear();
         self.matrix.resize(width * width, 0.0);
         let monodromy = &self.products[self.segments];
         for i in 0..size {
@@ -38,15 +39,17 @@ impl ShootingProblem {
     }
 
     /// All of them: `G_k d_k - d_{k+1} + g_k df`. The determinant is that of the condensed ones.
-    fn put_whole(&mut self, row: &[f64]) -> usize {
+    pub(super) fn put_whole(&mut self, row: &[f64]) -> usize {
         let (size, m) = (self.node_size(), self.segments);
         let width = m * size + 1;
+        self.matrix.clear();
         self.matrix.resize(width * width, 0.0);
         for k in 0..m {
             let (here, next) = (k * size, (k + 1) % m * size);
             for i in 0..size {
                 let target = &mut self.matrix[(here + i) * width..(here + i + 1) * width];
-                target[here..here + size].copy_from_slice(&self.segment_matrices[k][i * size..(i + 1) * size]);
+                let segment = &self.segment_matrices[k][i * size..(i + 1) * size];
+                target[here..here + size].copy_from_slice(segment);
                 target[next + i] = -1.0;
                 target[m * size] = self.by_parameter[k][i];
             }
@@ -86,10 +89,6 @@ impl ShootingProblem {
     }
 }
 
-fn largest(entries: &[f64]) -> f64 {
-    entries.iter().fold(0.0, |largest, entry| entry.abs().max(largest))
-}
-
 impl PathProblem for ShootingProblem {
     fn unknowns(&self) -> usize {
         self.residual.len()
@@ -117,8 +116,8 @@ impl PathProblem for ShootingProblem {
     fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
         self.border.clear();
         self.border.extend_from_slice(row);
-        self.matrix.clear();
-        self.is_condensed = self.segments == 1 || largest(self.monodromy()) <= MOST_CONDENSED;
+        let is_small = |entry: &f64| entry.abs() <= MOST_CONDENSED;
+        self.is_condensed = self.segments == 1 || self.monodromy().iter().all(is_small);
         let width = if self.is_condensed { self.put_condensed(row) } else { self.put_whole(row) };
         self.lu.factorise(width, &self.matrix)
     }

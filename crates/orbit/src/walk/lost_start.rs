@@ -8,42 +8,57 @@
 //! at that phase or whole excitation periods later.
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{ContinuationPoint, PathEvents};
+use hammerbeam_path::{ContinuationPoint, PathEvents, PathProblem, distance};
 
 use super::orbit_path::OrbitPath;
-use crate::solve::{correct, evaluate};
+use crate::{
+    OrbitError,
+    solve::{correct, evaluate},
+};
 
 /// Distance of states, relative to the orbit, below which the orbit is the start: the motion has come some
 /// part of a period from where it is known.
-const SAME: f64 = 1e-5;
+const SAME: f64 = 1e-6;
 
 /// The start of a walk whose orbits were cut anew, if the last step, from this point to the present one, has
 /// passed it unseen.
-pub(super) fn passed_lost_start(path: &mut OrbitPath, from: &ContinuationPoint) -> Option<ContinuationPoint> {
-    if from.arc_length == 0.0 {
-        return None;
-    }
-    let start = path.follower.state().in_present_units(&path.origin.as_ref()?.point);
+///
+/// # Errors
+/// See [`OrbitError`]: the present point cannot be evaluated again.
+pub(super) fn passed_lost_start(
+    path: &mut OrbitPath,
+    from: &ContinuationPoint,
+) -> Result<Option<ContinuationPoint>, OrbitError> {
+    let Some(origin) = path.origin.as_ref().filter(|_| from.arc_length > 0.0) else { return Ok(None) };
+    let start = path.follower.state().in_present_units(&origin.point);
     // Behind a corner the path may go any way.
     let corner = path.follower.passed_corner().and_then(|corner| corner.beside.last().copied());
     let (here, at) = (path.current().point.clone(), start.parameter());
     let way = corner.unwrap_or(path.parameter()) - from.parameter();
     let share = (at - from.parameter()) / way;
     if !(0.0..=1.0).contains(&share) || way * start.tangent_parameter() <= 0.0 {
-        return None;
+        return Ok(None);
     }
-    let there = orbit_at(path, from, at).filter(|there| is_start(path, &start.point, there));
+    let there = orbit_at(path, (from, &here), at).filter(|there| is_start(path, &start.point, there));
     // The motion at the present point is asked for next.
-    evaluate(&mut path.problem, &here).ok().and(there)
+    evaluate(&mut path.problem, &here)?;
+    Ok(there)
 }
 
-/// The orbit at this parameter, ahead of a point.
-fn orbit_at(path: &mut OrbitPath, from: &ContinuationPoint, at: f64) -> Option<ContinuationPoint> {
+/// The orbit at this parameter, ahead of a point and no farther than another one.
+fn orbit_at(
+    path: &mut OrbitPath,
+    (from, to): (&ContinuationPoint, &[f64]),
+    at: f64,
+) -> Option<ContinuationPoint> {
     let length = (at - from.parameter()) / from.tangent_parameter();
+    if !(0.0..=2.0 * distance(path.problem.weights(), &from.point, to)).contains(&length) {
+        return None;
+    }
     let mut there = from.clone();
     there.point.iter_mut().zip(&from.tangent).for_each(|(x, t)| *x += length * t);
     *there.point.last_mut()? = at;
-    there.arc_length += length.abs();
+    there.arc_length += length;
     there.events = PathEvents::default();
     there.correction_norm = correct(&mut path.problem, &mut there.point, &path.settings).ok()?;
     Some(there)

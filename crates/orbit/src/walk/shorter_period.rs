@@ -52,11 +52,11 @@ pub(super) fn grazes_shorter_period(path: &mut OrbitPath) -> bool {
     path.follower.current().events.signature_change && is_one_of_shorter_period(path)
 }
 
-/// Whether a branch that tends to an orbit of shorter period does so since a rigid stop is left: of the orbits
-/// of half its period it may be a flip, of others it is nothing else.
+/// Whether a branch that tends to an orbit of shorter period does so since a rigid stop is left: of orbits of
+/// half its period it may be a flip, of others it is nothing else.
 fn grazes_if_it_tends(path: &mut OrbitPath) -> bool {
-    let halves = path.problem.period_multiple().is_multiple_of(2);
-    path.problem.system().has_rigid_stops() && (!halves || largest_multiplier(path) > GROWN)
+    let doubles = path.problem.period_multiple().is_multiple_of(2);
+    path.problem.system().has_rigid_stops() && (!doubles || largest_multiplier(path) > GROWN)
 }
 
 /// Whether the last steps have led towards an orbit of shorter period, nearer than [`NO_PROGRESS_NEAR`] of

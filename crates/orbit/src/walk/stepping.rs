@@ -57,10 +57,21 @@ impl BranchWalk {
             record.append_last(path, [&from, &last], rows)?;
             return Ok(Some(splits));
         }
-        if let Some(start) = passed_lost_start(path, &from) {
+        if let Some(start) = passed_lost_start(path, &from)? {
             record.append_last(path, [&from, &start], rows)?;
             return Ok(Some(StopReason::Closed));
         }
+        self.append_here((&departure, &from), rows)
+    }
+
+    /// Appends the row of the present point, after those that belong between it and the row before; or says
+    /// why the walk ends there.
+    fn append_here(
+        &mut self,
+        (departure, from): (&Departure, &ContinuationPoint),
+        rows: &mut Vec<BranchRow>,
+    ) -> Result<Option<StopReason>, OrbitError> {
+        let Self { path, record, .. } = self;
         let (at_corner, row) = match record.rows_here(path) {
             Ok(rows) => rows,
             Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
@@ -70,7 +81,7 @@ impl BranchWalk {
             Err(error) => return Err(error),
         };
         let largest = row.solution.largest_multiplier();
-        if let Some(splits) = is_lost_at_splitting(path, &departure, largest)? {
+        if let Some(splits) = is_lost_at_splitting(path, departure, largest)? {
             return Ok(Some(splits));
         }
         if let Some(at_corner) = at_corner.as_ref().filter(|_| grazes_shorter_period(path)) {
@@ -83,7 +94,7 @@ impl BranchWalk {
             Some(at_corner) => record.append_behind_corner(path, at_corner, row, rows),
             None => {
                 let to = path.current().clone();
-                record.append_densely(path, [&from, &to], row, rows)?;
+                record.append_densely(path, [from, &to], row, rows)?;
             }
         }
         self.keep_segments_short(largest)?;
@@ -106,6 +117,9 @@ impl BranchWalk {
         let Self { path, record, .. } = self;
         if let Some((_, splits)) = comes_to_splitting(path, record, &departure, &from)? {
             return Ok(Some(splits));
+        }
+        if passed_lost_start(path, &from)?.is_some() {
+            return Ok(Some(StopReason::Closed));
         }
         record.note_touches(path);
         let nodes = path.problem.nodes(&path.current().point);

@@ -6,7 +6,8 @@
 //! both sides. So the determinant gives the direction behind a corner whatever the angle; but the plane
 //! normal to the old tangent may not meet the path there. The probe is therefore put behind the corner on the
 //! old tangent, linearised, moved onto the new piece and along its tangent, and corrected in the plane normal
-//! to the new tangent. The corner is where both straight lines meet.
+//! to the new tangent. The corner is where both straight lines meet, or where the probe comes to when it is
+//! moved back towards there.
 
 use super::{arrival::Arrival, attempt::Attempt, finding::turned, locator::Locator};
 use crate::{
@@ -27,6 +28,9 @@ const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 
 /// Least cosine between the tangents of two points behind a corner.
 const ALIGNED: f64 = 0.9;
+
+/// Share of the way back to a corner that is left at most when half of it was gone.
+const NEARER: f64 = 0.75;
 
 /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also
 /// returns the length over which it was turned.
@@ -108,27 +112,31 @@ fn limits(settings: &Settings, length: f64) -> Limits {
 ///
 /// Where both pieces bend so much that no point of the path is near the place where their tangents meet, the
 /// trial is moved back towards the corner, by half of the way that is left each time; at last it is the next
-/// point, and how far behind the corner it lies is the uncertainty of that.
+/// point, and how far behind the corner it lies is the uncertainty of that. Where it comes no nearer there is
+/// no corner.
 fn arrive_at_corner(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     mut length: f64,
 ) -> Result<Arrival, StepDoubt> {
-    let mut uncertainty = 0.0;
+    let (mut uncertainty, mut last) = (0.0, f64::INFINITY);
     while turns(attempt) {
         let base = attempt.state.base();
         let Some(back) = meeting(&attempt.frame.weights, base, &attempt.trial.node, length) else { break };
-        uncertainty = back.abs();
         if evaluate_corner(attempt, locator, back, length).is_ok() {
             uncertainty = 0.0;
             break;
         }
-        if back < attempt.settings().min_step {
+        uncertainty = back.abs();
+        if uncertainty < attempt.settings().min_step {
             // The problem holds the point that is accepted.
             attempt.return_to_trial()?;
             break;
         }
-        length = 0.5 * back;
+        if !(0.0..NEARER * last).contains(&back) {
+            return Err(StepDoubt::NotLocated);
+        }
+        (last, length) = (back, 0.5 * back);
         approach_corner(attempt, locator, length)?;
     }
     Ok(Arrival { uncertainty, ..arrive_behind_corner(attempt)? })

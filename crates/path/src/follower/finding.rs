@@ -106,6 +106,7 @@ fn check_hidden_folds(attempt: &Attempt<'_>) -> Result<(), StepDoubt> {
     // The slope is a difference of parameters over the step: what errors of points and rounding leave of it
     // means nothing.
     let error = attempt.trial.correction_norm.max(attempt.state.current.correction_norm);
+    let error = error / attempt.frame.weights[attempt.frame.weights.len() - 1].sqrt();
     let digits = f64::EPSILON * attempt.trial.parameter().abs();
     let rounding = (64.0 * digits).max(4.0 * error) / attempt.step;
     let turns_twice = slope.most() > rounding && slope.inner_roots() == 2;

@@ -4,7 +4,7 @@
 //! longer can be, some points later, the fold is passed. So a step at whose end the sign is another one
 //! but not beyond doubt is decided by what comes: the path is followed on, without its memory, until the
 //! parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old
-//! sign comes back, and then it was none.
+//! sign comes back, and then it was none. Nor was it one if the old sign was rounding, too.
 
 use super::{
     Follower, StepOutcome,
@@ -36,9 +36,9 @@ impl Follower {
         Ok(turns)
     }
 
-    /// Whether the parameter has gone with its sign. On a path that has just left a branch point the sign with
-    /// which it begins may be rounding: where the parameter has gone the other way from there on, there is no
-    /// fold, and the sign is the other one.
+    /// Whether the parameter has gone with its sign. On a path that has just left a branch point the sign
+    /// with which it begins may be rounding: where the parameter has gone the other way from there on, there
+    /// is no fold, and the sign is the other one.
     pub(super) fn has_gone_its_way(&self) -> bool {
         let (state, settings) = (&self.state, &self.frame.settings);
         let (here, start) = (&state.current, &state.start);

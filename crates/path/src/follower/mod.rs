@@ -355,22 +355,20 @@ impl Follower {
     fn pass_by_force(&mut self, problem: &mut dyn PathProblem, step: f64) -> Option<(Arrival, f64)> {
         let (mut attempt, locator) = self.attempt(problem, step);
         let attempt = &mut attempt;
-        let mut passed = None;
-        let (arrival, length) = turn_far_corner(attempt)
-            .map(|Turned { arrival, length, corner }| {
-                passed = Some(corner);
-                (arrival, length)
-            })
-            .or_else(|_| turn_root_corner(attempt, locator))
-            .or_else(|_| turn_corner(attempt, locator))
-            .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
-            .or_else(|_| {
-                passed = None;
-                pass_recut(attempt).or_else(|_| leap(attempt))
-            })
-            .ok()?;
+        let far = turn_far_corner(attempt).and_then(|Turned { arrival, length, corner }| {
+            Ok((check_simpler(attempt, arrival)?, length, Some(corner)))
+        });
+        let passed = far.or_else(|_| {
+            turn_root_corner(attempt, locator)
+                .or_else(|_| turn_corner(attempt, locator))
+                .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
+                .or_else(|_| pass_recut(attempt))
+                .or_else(|_| leap(attempt))
+                .map(|(arrival, length)| (arrival, length, None))
+        });
+        let (arrival, length, corner) = passed.ok()?;
         let arrival = zeros_at_once(attempt, arrival);
-        self.passed = passed;
+        self.passed = corner;
         Some((arrival, length))
     }
 

@@ -127,6 +127,9 @@ fn stop_at_zero(
     let not_comparable = leave_undecided_out(attempt, Some(index))?;
     let near = attempt.tests.stay_behind_zeros(&mut attempt.trial.tests, Some(index));
     arrival.zeros_near |= found.zeros_near | near;
+    if !found.events.fold {
+        arrival.parameter_sign = found.parameter_sign;
+    }
     let apart = at - attempt.progress();
     if apart <= found.uncertainty + arrival.uncertainty + attempt.settings().correction_floor {
         arrival.events.zeros |= found.events.zeros;
