@@ -84,7 +84,8 @@ impl StateScale {
     }
 
     /// Multiplies the scales by the size of a motion, if it has one; returns the size. Of a structure that
-    /// its stops hold throughout, where the model has its zero, it is that of the state of rest without stops.
+    /// its stops hold throughout, where the model has its zero, it is that of the state of rest without
+    /// stops.
     pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) -> f64 {
         let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt();
         let moved = self.size_of_motion(states);
