@@ -6,11 +6,11 @@ use super::{
     chatter::chatters,
     growth::{end_at_mode, free_mode, has_no_losses, is_far_beyond_gaps},
     orbit_path::OrbitPath,
-    row::row_at,
+    row::largest_multiplier,
     shorter_period::is_near_shorter_period,
     splits::splits_here,
 };
-use crate::{StopReason, solve::evaluate};
+use crate::StopReason;
 
 /// Largest multiplier from which an orbit may part from its guess within a period, and be lost.
 const HARDLY_FOLLOWED: f64 = 1e5;
@@ -79,11 +79,4 @@ fn doubt_in_unstable(path: &mut OrbitPath, doubt: String) -> String {
         return doubt;
     }
     format!("{doubt}; in a period of the motion a disturbance of it becomes {largest:.1e} times as large")
-}
-
-/// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
-pub(super) fn largest_multiplier(path: &mut OrbitPath) -> f64 {
-    let point = path.current().clone();
-    let row = evaluate(&mut path.problem, &point.point).and_then(|()| row_at(path, &point));
-    row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
 }

@@ -125,3 +125,10 @@ fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<
     Ok(is_smooth && stability::pair_turns_real(&multipliers)
         || point.events.branch_point && stability::pair_is_nearest_to_one(&multipliers))
 }
+
+/// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
+pub(super) fn largest_multiplier(path: &mut OrbitPath) -> f64 {
+    let point = path.current().clone();
+    let row = evaluate(&mut path.problem, &point.point).and_then(|()| row_at(path, &point));
+    row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
+}

@@ -2,7 +2,7 @@
 
 use hammerbeam_path::{Judge, Node};
 
-use super::{end::largest_multiplier, half_orbit::flips_elsewhere, orbit_path::OrbitPath};
+use super::{half_orbit::flips_elsewhere, orbit_path::OrbitPath, row::largest_multiplier};
 use crate::StopReason;
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of
