@@ -301,19 +301,31 @@ fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
 fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
     let workshop = Workshop::exported(LIGHTLY_BETWEEN_STOPS);
     assert_whole(&workshop, (4.2, 5.5), WHOLE);
-    // The linear response of `k - m W^2 + i c W` reaches the gap.
-    let distance = |frequency_hz: f64| {
-        let w = TAU * frequency_hz;
-        let stiffness = (130.0 - 0.45 * w * w).hypot(2.0 * 0.012 * (130.0_f64 * 0.45).sqrt() * w);
-        0.9 / stiffness / 4.0e-3 - 1.0
-    };
-    let off: Vec<f64> = grazings(&workshop).into_iter().map(distance).collect();
+    let off = grazings(&workshop).into_iter().map(|hz| from_gap([0.45, 130.0, 0.012, 0.9, 4.0e-3], hz));
+    let off: Vec<f64> = off.collect();
     assert!(off.len() == 1 && off[0].abs() < 1e-8, "{off:?}");
 }
 
 /// One mass between two rigid stops, with that damping ratio.
 fn between_stops(ratio: f64, range_hz: [f64; 2]) -> String {
     one_mass([0.3, 120.0, ratio, 0.5], range_hz, "restitution = 0.88\nside = \"both\"\ngap_m = 0.009")
+}
+
+/// Its orbits of three periods, lightly damped.
+fn between_stops_in_three_periods(range_hz: [f64; 2], longest_step: f64) -> Workshop {
+    let study = between_stops(0.012, range_hz);
+    Workshop::exported(&format!(
+        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = {longest_step}\n"
+    ))
+}
+
+/// How far the linear response of `k - m W^2 + i c W` is from the gap, relative to it.
+///
+/// * `[mass, stiffness, ratio, force, gap]`: in SI units, of the damping the ratio.
+fn from_gap([mass, stiffness, ratio, force, gap]: [f64; 5], frequency_hz: f64) -> f64 {
+    let w = TAU * frequency_hz;
+    let dynamic = (stiffness - mass * w * w).hypot(2.0 * ratio * (stiffness * mass).sqrt() * w);
+    force / dynamic / gap - 1.0
 }
 
 /// A mass on a spring with a rigid stop.
@@ -344,10 +356,7 @@ fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
 /// 10 000 solutions brought the branch no further.
 #[test]
 fn an_orbit_of_many_slow_impacts_is_cut_more_than_once() {
-    let study = between_stops(0.012, [2.336, 2.75]);
-    let workshop = Workshop::exported(&format!(
-        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 2e-3\n"
-    ));
+    let workshop = between_stops_in_three_periods([2.336, 2.75], 2e-3);
     // Near the harmonic orbit, which all branches come to, they lie too close together for `assert_whole`.
     let ends = workshop.table("results/export/ends.csv");
     assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
@@ -360,19 +369,12 @@ fn an_orbit_of_many_slow_impacts_is_cut_more_than_once() {
 /// nothing left of that, and 5000 solutions brought the branch no further.
 #[test]
 fn a_branch_is_followed_into_the_grazing_of_many_slow_impacts() {
-    let study = between_stops(0.012, [2.33, 2.6]);
-    let workshop = Workshop::exported(&format!(
-        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 5e-3\n"
-    ));
+    let workshop = between_stops_in_three_periods([2.33, 2.6], 5e-3);
     let ends = workshop.table("results/export/ends.csv");
     assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
-    let distance = |frequency_hz: f64| {
-        let w = TAU * frequency_hz;
-        let stiffness = (120.0 - 0.3 * w * w).hypot(2.0 * 0.012 * (120.0_f64 * 0.3).sqrt() * w);
-        0.5 / stiffness / 0.009 - 1.0
-    };
     let met = ends.iter().filter(|end| end["end"] == "shorter-period");
-    let off: Vec<f64> = met.map(|end| distance(number(end, "frequency_hz"))).collect();
+    let off = met.map(|end| from_gap([0.3, 120.0, 0.012, 0.5, 0.009], number(end, "frequency_hz")));
+    let off: Vec<f64> = off.collect();
     // Half of the relative change of the frequency would be one of 1e-7.
     assert!(!off.is_empty() && off.iter().all(|off| off.abs() < 1e-6), "{off:?}");
     let rows = workshop.table("results/export/branches.csv").len();
@@ -385,10 +387,7 @@ fn a_branch_is_followed_into_the_grazing_of_many_slow_impacts() {
 /// stored twice.
 #[test]
 fn an_asymmetric_arm_goes_on_to_where_the_symmetric_orbit_grazes_both_stops() {
-    let study = between_stops(0.012, [3.78, 3.96]);
-    let workshop = Workshop::exported(&format!(
-        "{study}[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 1e-3\n"
-    ));
+    let workshop = between_stops_in_three_periods([3.78, 3.96], 1e-3);
     let ends = workshop.table("results/export/ends.csv");
     let may_end = |end: &str| end == "joins" || WHOLE.contains(&end);
     assert!(ends.iter().all(|end| may_end(&end["end"])), "{ends:?}");

@@ -10,7 +10,7 @@
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, PathEvents, PathProblem, distance};
 
-use super::orbit_path::OrbitPath;
+use super::{orbit_path::OrbitPath, splits::along_tangent};
 use crate::{
     OrbitError,
     solve::{correct, evaluate},
@@ -55,10 +55,8 @@ fn orbit_at(
     if !(0.0..=2.0 * distance(path.problem.weights(), &from.point, to)).contains(&length) {
         return None;
     }
-    let mut there = from.clone();
-    there.point.iter_mut().zip(&from.tangent).for_each(|(x, t)| *x += length * t);
+    let mut there = along_tangent(from, length);
     *there.point.last_mut()? = at;
-    there.arc_length += length;
     there.events = PathEvents::default();
     there.correction_norm = correct(&mut path.problem, &mut there.point, &path.settings).ok()?;
     Some(there)

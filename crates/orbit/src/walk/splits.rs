@@ -121,7 +121,7 @@ fn is_told(path: &mut OrbitPath) -> bool {
 }
 
 /// The point at a length ahead on the tangent of another one.
-fn along_tangent(from: &ContinuationPoint, length: f64) -> ContinuationPoint {
+pub(super) fn along_tangent(from: &ContinuationPoint, length: f64) -> ContinuationPoint {
     let point = from.point.iter().zip(&from.tangent).map(|(x, t)| x + length * t).collect();
     ContinuationPoint { point, arc_length: from.arc_length + length, ..from.clone() }
 }
