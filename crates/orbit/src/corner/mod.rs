@@ -55,7 +55,7 @@ const NEAR: f64 = 1e-5;
 /// tolerance after a period.
 const AT_ONCE_FASTER: f64 = 30.0;
 /// Speeds of points with the impact that are tried, in the first one.
-const FASTER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
+const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// So many touches are tried, those nearest to grazing first.
 const MOST_TOUCHES: usize = 2;
 /// Speeds that differ by less, relatively, belong to touches that graze at once.
@@ -84,6 +84,7 @@ pub(crate) fn grazing_near(
         slow: SLOW,
         evaluations: 0,
     };
+    let impacts: Vec<Touch> = touches.iter().filter(|touch| touch.side == Side::Impact).cloned().collect();
     for (place, first) in touches.iter().enumerate().take(MOST_TOUCHES) {
         let at_once = |other: &&Touch| {
             other.side == first.side && (other.speed - first.speed).abs() <= AT_ONCE * first.speed
@@ -95,7 +96,7 @@ pub(crate) fn grazing_near(
         let alone = std::slice::from_ref(first);
         let tries = if together.len() > 1 { vec![together.as_slice(), alone] } else { vec![alone] };
         for touches in tries {
-            if let Some(corner) = search.corner_of(problem, touches, lies_ahead) {
+            if let Some(corner) = search.corner_of(problem, (touches, &impacts), lies_ahead) {
                 return Some(corner);
             }
         }
@@ -116,11 +117,13 @@ struct Search {
 }
 
 impl Search {
-    /// The corner where these touches graze.
+    /// The corner where some touches graze.
+    ///
+    /// * `impacts`: the slow ones of the orbit that the search begins at.
     fn corner_of(
         &mut self,
         problem: &mut ShootingProblem,
-        touches: &[Touch],
+        (touches, impacts): (&[Touch], &[Touch]),
         lies_ahead: &dyn Fn(&[f64]) -> bool,
     ) -> Option<RootCorner> {
         let mut equations = TouchEquations::new(problem, touches, self.last).ok()?;
@@ -137,7 +140,7 @@ impl Search {
         let uncertainty = uncertainty?? + (beside[beside.len() - 1] - corner[corner.len() - 1]).abs();
         let all = touch::at_grazing(problem, &beside)?;
         let cycles = f64::from(problem.period_multiple());
-        let behind = match impacts_behind(touches, &all, cycles) {
+        let behind = match impacts_behind(impacts, &all, cycles) {
             impacts if impacts.is_empty() => vec![[beside.clone(), farther?]],
             // The same touches: they are solved for.
             impacts if touches[0].side == Side::Turn && impacts.len() == touches.len() => {
@@ -198,14 +201,11 @@ fn without_impact(equations: &mut TouchEquations<'_>, corner: &Unknowns) -> [Opt
 
 /// Which of all touches that graze in a corner are impacts behind it, see the head of the file.
 ///
-/// * `touches`: those that were followed to it, of an orbit of so many cycles.
-fn impacts_behind(touches: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
-    if touches[0].side == Side::Turn {
-        return all.to_vec();
-    }
-    let is_another = |other: &&Touch| touches.iter().all(|touch| !touch.is_same(other, cycles));
+/// * `impacts`: the slow ones of the orbit that was followed to it, of so many cycles.
+fn impacts_behind(impacts: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
+    let is_another = |other: &&Touch| impacts.iter().all(|impact| !impact.is_same(other, cycles));
     let others: Vec<Touch> = all.iter().filter(is_another).cloned().collect();
-    let repeats = others.iter().any(|other| touches.iter().any(|touch| touch.repeats(other)));
+    let repeats = others.iter().any(|other| impacts.iter().any(|impact| impact.repeats(other)));
     if repeats { Vec::new() } else { others }
 }
 
@@ -236,7 +236,7 @@ mod tests {
         let above = [touch(0, Side::Impact, 0.25)];
         let below = [touch(1, Side::Impact, 0.75)];
         let both = [above[0].clone(), below[0].clone()];
-        assert_eq!(phases(&impacts_behind(&all, &all, 1.0)), [0.25, 0.75]);
+        assert_eq!(phases(&impacts_behind(&[], &all, 1.0)), [0.25, 0.75]);
         assert_eq!(phases(&impacts_behind(&both, &all, 1.0)), []);
         assert_eq!(phases(&impacts_behind(&above, &all, 1.0)), [0.75]);
         assert_eq!(phases(&impacts_behind(&below, &all, 1.0)), [0.25]);

@@ -78,23 +78,16 @@ pub(super) struct Turned {
     pub corner: PassedCorner,
 }
 
-/// Turns the corner that lies straight ahead, as far away as the first look for one reaches: rounding may be
-/// what holds up short steps long before it, where speeds vanish.
-///
-/// # Errors
-/// The judge knows of none.
-pub(super) fn turn_far_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
-    let within = FIRST_LOOK * attempt.settings().sheet_distance;
-    turn_corner_within(attempt, Cone { within, known: 0.0, off: OFF_STRAIGHT })
-}
-
-/// Turns the corner ahead, within about the step that failed.
+/// Turns the corner ahead: within about the step that failed, or straight ahead, as far away as the first look
+/// for one reaches. Rounding may be what holds up short steps long before it, where speeds vanish.
 ///
 /// # Errors
 /// The judge knows of none.
 pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
     let known = 10.0 * attempt.settings().correction_tolerance;
+    let within = FIRST_LOOK * attempt.settings().sheet_distance;
     turn_corner_within(attempt, Cone { within: WITHIN * attempt.step, known, off: OFF_TANGENT })
+        .or_else(|_| turn_corner_within(attempt, Cone { within, known: 0.0, off: OFF_STRAIGHT }))
 }
 
 fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, StepDoubt> {

@@ -65,7 +65,7 @@ use closing::arrive_at_start;
 use corner::turn_corner;
 use finding::Finding;
 use fold::arrive_at_fold;
-use known_corner::{Looks, Turned, turn_far_corner, turn_known_corner};
+use known_corner::{Looks, turn_known_corner};
 use leap::leap;
 use locator::Locator;
 use outside::check_outside;
@@ -249,7 +249,8 @@ impl Follower {
                 Err(doubt) => doubt,
             };
             let shorter = self.reject(doubt, &mut attempts);
-            if looks.is_due(shorter)
+            let is_too_short = shorter < self.frame.settings.min_step;
+            if (looks.is_due(shorter) || is_too_short)
                 && let Ok((arrival, length)) = self.pass_known_corner(problem, attempts.step)
             {
                 self.accept(arrival, length, attempts.rejected);
@@ -258,7 +259,7 @@ impl Follower {
             if let Some(end) = attempts.retraces(&self.frame, &self.state, doubt, shorter) {
                 return Err(end);
             }
-            if shorter < self.frame.settings.min_step {
+            if is_too_short {
                 let passed = self.pass_by_force(problem, attempts.step);
                 let (arrival, length) = passed.ok_or_else(|| self.too_short(attempts.step, doubt))?;
                 self.accept(arrival, length, attempts.rejected);
@@ -355,21 +356,13 @@ impl Follower {
     fn pass_by_force(&mut self, problem: &mut dyn PathProblem, step: f64) -> Option<(Arrival, f64)> {
         let (mut attempt, locator) = self.attempt(problem, step);
         let attempt = &mut attempt;
-        let far = turn_far_corner(attempt).and_then(|Turned { arrival, length, corner }| {
-            Ok((check_simpler(attempt, arrival)?, length, Some(corner)))
-        });
-        let passed = far.or_else(|_| {
-            turn_root_corner(attempt, locator)
-                .or_else(|_| turn_corner(attempt, locator))
-                .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
-                .or_else(|_| pass_recut(attempt))
-                .or_else(|_| leap(attempt))
-                .map(|(arrival, length)| (arrival, length, None))
-        });
-        let (arrival, length, corner) = passed.ok()?;
-        let arrival = zeros_at_once(attempt, arrival);
-        self.passed = corner;
-        Some((arrival, length))
+        let (arrival, length) = turn_root_corner(attempt, locator)
+            .or_else(|_| turn_corner(attempt, locator))
+            .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
+            .or_else(|_| pass_recut(attempt))
+            .or_else(|_| leap(attempt))
+            .ok()?;
+        Some((zeros_at_once(attempt, arrival), length))
     }
 
     fn too_short(&self, step: f64, doubt: StepDoubt) -> PathStop {
