@@ -138,7 +138,7 @@ impl Search {
         let [beside, farther] = clear?;
         let beside = beside?;
         let uncertainty = uncertainty?? + (beside[beside.len() - 1] - corner[corner.len() - 1]).abs();
-        let all = touch::at_grazing(problem, &beside)?;
+        let all = touch::at_grazing(problem, &beside, &touches[0])?;
         let cycles = f64::from(problem.period_multiple());
         let behind = match impacts_behind(impacts, &all, cycles) {
             impacts if impacts.is_empty() => vec![[beside.clone(), farther?]],

@@ -36,9 +36,9 @@ pub(super) struct Touch {
     pub speed: f64,
 }
 
-/// Speed, relative to the orbit, up to which touches beside a corner belong to it: some times that of the
-/// clearance at which it is looked at.
-const AT_CORNER: f64 = 3e-4;
+/// Touches that graze in one corner do so because they are alike: another stop in a symmetric orbit, or the
+/// same one a period later. Beside it their speeds are equal, but for this factor.
+const ALIKE: f64 = 1.5;
 /// Phases that differ by less are the same [cycles].
 const SAME_PHASE: f64 = 1e-3;
 
@@ -108,11 +108,16 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
     Some(touches)
 }
 
-/// The touches that graze in a corner, by the point beside it.
-pub(super) fn at_grazing(problem: &mut ShootingProblem, beside: &[f64]) -> Option<Vec<Touch>> {
+/// The touches that graze in a corner together with `one`, and that, by the point beside it without impacts:
+/// they are turns there.
+pub(super) fn at_grazing(problem: &mut ShootingProblem, beside: &[f64], one: &Touch) -> Option<Vec<Touch>> {
     problem.move_to(beside).ok()?;
+    let cycles = f64::from(problem.period_multiple());
     let mut touches = near_grazing(problem, beside, f64::INFINITY)?;
-    touches.retain(|touch| touch.speed <= AT_CORNER);
+    touches.retain(|touch| touch.side == Side::Turn);
+    let same = touches.iter().filter(|touch| one.is_same(touch, cycles)).map(|touch| touch.speed);
+    let speed = same.reduce(f64::min)?;
+    touches.retain(|touch| touch.speed <= ALIKE * speed);
     Some(touches)
 }
 
