@@ -383,18 +383,25 @@ fn a_branch_is_followed_into_the_grazing_of_many_slow_impacts() {
 
 /// Where an orbit of three periods grazes both stops at once, its asymmetric arms, with the one impact, go on
 /// as their mirror images, with the other. 1.5e-6 Hz before that the impact is slower than 1e-7 of the orbit:
-/// by rounding alone an arm may come over to the symmetric branch there, and a stretch of the other one is
-/// stored twice.
+/// the corner has to be seen from farther away. From there a turn beside the other stop may be taken for what
+/// grazes; taken for all that did, it led to the symmetric branch.
 #[test]
 fn an_asymmetric_arm_goes_on_to_where_the_symmetric_orbit_grazes_both_stops() {
     let workshop = between_stops_in_three_periods([3.78, 3.96], 1e-3);
-    let ends = workshop.table("results/export/ends.csv");
-    let may_end = |end: &str| end == "joins" || WHOLE.contains(&end);
-    assert!(ends.iter().all(|end| may_end(&end["end"])), "{ends:?}");
-    let joining = ends.iter().filter(|end| end["end"] == "joins").map(|end| number(end, "frequency_hz"));
-    let corner = grazings(&workshop).into_iter().fold(0.0, f64::max);
-    let off: Vec<f64> = joining.map(|hz| (hz / corner - 1.0).abs()).collect();
-    assert!(off.iter().all(|off| *off < 1e-6), "{off:?}");
+    assert_whole(&workshop, (3.78, 3.96), WHOLE);
+}
+
+/// Just below the resonance of a mode with 0.2 % of damping the steady response is some hundred times the
+/// motion between the stops. What rounding left of their difference was enlarged by slow impacts, and steps
+/// hung in it: 5000 solutions brought the branch no further.
+#[test]
+fn a_lightly_damped_orbit_goes_on_beside_a_grazing_near_the_resonance() {
+    let stop = "restitution = 0.9312\nside = \"both\"\ngap_m = 0.00032714";
+    let study = one_mass([0.138531, 7009.63, 0.002, 1.1286], [35.7, 35.85], stop);
+    let workshop = Workshop::exported(&format!(
+        "{study}[response]\nperiod_multiples = [1, 2]\n[continuation]\nmax_step_hz = 0.01\n"
+    ));
+    assert_whole(&workshop, (35.7, 35.85), WHOLE);
 }
 
 #[test]
