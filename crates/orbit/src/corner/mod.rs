@@ -30,7 +30,7 @@ mod equations;
 mod flow;
 mod touch;
 
-use hammerbeam_path::RootCorner;
+use hammerbeam_path::{PathProblem, RootCorner};
 
 use crate::shooting::ShootingProblem;
 use equations::{Beside, TouchEquations, Unknowns};
@@ -139,13 +139,15 @@ impl Search {
         let beside = beside?;
         let uncertainty = uncertainty?? + (beside[beside.len() - 1] - corner[corner.len() - 1]).abs();
         let all = touch::at_grazing(problem, &beside, &touches[0])?;
+        problem.evaluate(&beside).ok()?;
+        let without = problem.touches().to_vec();
         let cycles = f64::from(problem.period_multiple());
         let behind = match impacts_behind(impacts, &all, cycles) {
             impacts if impacts.is_empty() => vec![[beside.clone(), farther?]],
             // The same touches: they are solved for.
             impacts if touches[0].side == Side::Turn && impacts.len() == touches.len() => {
                 let mut equations = TouchEquations::new(problem, touches, self.last).ok()?;
-                self.with_impacts(&mut equations, &unknowns, &corner)?
+                self.with_impacts(&mut equations, &unknowns, (&corner, &without))?
             }
             impacts => {
                 let last = corner[corner.len() - 1];
@@ -154,7 +156,7 @@ impl Search {
                 // Newton's method may fail, since other stops graze at once. Then the touches are known well
                 // enough as they are beside the corner.
                 let unknowns = equations.solve(&guess, grazing, self.farthest).unwrap_or(guess);
-                self.with_impacts(&mut equations, &unknowns, &corner)?
+                self.with_impacts(&mut equations, &unknowns, (&corner, &without))?
             }
         };
         let is_multiple = all.len() > 1;
@@ -163,11 +165,13 @@ impl Search {
     }
 
     /// Orbits beside a corner of which the touches are impacts, the nearest first.
+    ///
+    /// * `without`: numbers of touches of the orbits without these impacts.
     fn with_impacts(
         &mut self,
         equations: &mut TouchEquations<'_>,
         unknowns: &Unknowns,
-        corner: &[f64],
+        (corner, without): (&[f64], &[u32]),
     ) -> Option<Vec<[Vec<f64>; 2]>> {
         let faster = if equations.elements.len() > 1 { AT_ONCE_FASTER } else { 1.0 };
         let (slow, near) = (faster * self.slow, faster * NEAR);
@@ -182,9 +186,16 @@ impl Search {
         let (speed, first) = SLOWER.into_iter().map(slower).find_map(|speed| Some((speed, point(speed)?)))?;
         let far = relative_distance(&first, corner, hertz_per_norm);
         let slow = (speed * (near / far).min(1.0)).max(SLOWEST);
-        let points = FASTER.map(|factor| point(factor * slow));
+        let mut points: Vec<Vec<f64>> =
+            FASTER.into_iter().filter_map(|factor| point(factor * slow)).collect();
         self.evaluations += equations.evaluations();
-        Some(points.into_iter().flatten().map(|point| [point.clone(), point]).collect())
+        let mut expected = without.to_vec();
+        equations.elements.iter().for_each(|&element| expected[element] += 1);
+        // Over a period rounding may be more than the impacts that follow.
+        points.retain(|point| {
+            equations.problem.evaluate(point).is_ok() && equations.problem.touches() == expected
+        });
+        Some(points.into_iter().map(|point| [point.clone(), point]).collect())
     }
 }
 

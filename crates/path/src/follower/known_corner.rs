@@ -146,10 +146,16 @@ fn arrive_behind(
     add_scaled(&mut direction, -1.0, &corner.corner);
     let scaled = 1.0 / norm(weights, &direction);
     scale(&mut direction, scaled);
+    attempt.evaluate(behind)?;
+    let signature = attempt.problem.judge().signature();
     attempt.border_across(&direction);
     attempt.trial.point.copy_from_slice(behind);
     let limits = Limits { max_displacement: 0.5 * length, max_angle: None, ..attempt.limits(length) };
     attempt.correct(limits)?;
+    // Another arc meets this one in the corner, and is closer than what the corrector takes away.
+    if attempt.trial.signature != signature {
+        return Err(StepDoubt::Signature);
+    }
     attempt.trial.orient(attempt.state.orientation);
     let along = product(weights, &attempt.trial.node.tangent, &direction);
     let turns_round = along < 0.0 && corner.is_multiple;
