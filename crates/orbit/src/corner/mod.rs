@@ -54,6 +54,7 @@ const NEAR: f64 = 1e-5;
 /// what is between two motions by one over its speed. From 1e8 or so rounding of a state is more than the
 /// tolerance after a period.
 const AT_ONCE_FASTER: f64 = 30.0;
+const AT_ONCE_FARTHER: f64 = 300.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// So many touches are tried, those nearest to grazing first.
@@ -173,8 +174,9 @@ impl Search {
         unknowns: &Unknowns,
         (corner, without): (&[f64], &[u32]),
     ) -> Option<Vec<[Vec<f64>; 2]>> {
-        let faster = if equations.elements.len() > 1 { AT_ONCE_FASTER } else { 1.0 };
-        let (slow, near) = (faster * self.slow, faster * NEAR);
+        let (faster, farther) =
+            if equations.elements.len() > 1 { (AT_ONCE_FASTER, AT_ONCE_FARTHER) } else { (1.0, 1.0) };
+        let (slow, near) = (faster * self.slow, farther * NEAR);
         let hertz_per_norm = equations.hertz_per_norm();
         let mut point = |speed: f64| {
             let beside = Beside::WithImpact { speed };
