@@ -80,7 +80,7 @@ pub struct Settings {
     /// the residual is above this, too: lengths are measured by a range, which may be wide.
     pub parameter_tolerance: f64,
     /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more
-    /// (beside a branch point), `‖d‖ ≤ h / 100` is enough.
+    /// (beside a branch point), `‖d‖ ≤ h / 20` is enough.
     pub residual_floor: f64,
     /// Most evaluations of one correction.
     pub max_iterations: u32,
@@ -142,7 +142,7 @@ impl Settings {
         Limits {
             tolerance: self.tolerance_at(step),
             loose_tolerance: self.loose_tolerance_at(step),
-            singular_tolerance: self.loose_tolerance_at(step).max(0.01 * step),
+            singular_tolerance: self.loose_tolerance_at(step).max(0.05 * step),
             residual_floor: self.residual_floor,
             residual_tolerance: self.residual_tolerance,
             residual_wanted: self.residual_wanted,
