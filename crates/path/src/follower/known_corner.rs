@@ -32,8 +32,11 @@ const OFF_TANGENT: f64 = 0.1;
 const OFF_STRAIGHT: f64 = 1e-4;
 /// Least cosine between the direction behind the corner and the tangent there.
 const ALIGNED: f64 = 0.5;
+/// Residuals of points behind the corner, over the tolerance: the nearest one that is known well is taken, or
+/// the nearest one.
+const SHARES: [f64; 2] = [1e-2, 1.0];
 /// Farthest from the corner that a point behind it is taken, in distances of sheets.
-const FARTHEST: f64 = 1000.0;
+const FARTHEST: f64 = 3000.0;
 
 /// A corner that was passed and that the judge computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,8 +103,10 @@ fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, S
     let found = attempt.problem.judge().root_corner(&state.base().point, reach, &ahead);
     let corner = found.ok_or(StepDoubt::NotLocated)?;
     attempt.counters.evaluations += corner.evaluations;
-    for behind in &corner.behind {
-        if let Ok((arrival, length)) = arrive_behind(attempt, &corner, behind) {
+    for (behind, share) in
+        SHARES.iter().flat_map(|share| corner.behind.iter().map(move |behind| (behind, share)))
+    {
+        if let Ok((arrival, length)) = arrive_behind(attempt, &corner, behind, *share) {
             let is_accepted = behind[0] == corner.beside;
             let RootCorner { beside, uncertainty, .. } = corner;
             let corner = PassedCorner { beside, uncertainty, is_accepted };
@@ -136,6 +141,7 @@ fn arrive_behind(
     attempt: &mut Attempt<'_>,
     corner: &RootCorner,
     [behind, farther]: &[Vec<f64>; 2],
+    share: f64,
 ) -> Result<(Arrival, f64), StepDoubt> {
     let weights = &attempt.frame.weights;
     let length = distance(weights, behind, &corner.corner);
@@ -151,7 +157,8 @@ fn arrive_behind(
     attempt.border_across(&direction);
     attempt.trial.point.copy_from_slice(behind);
     let limits = Limits { max_displacement: 0.5 * length, max_angle: None, ..attempt.limits(length) };
-    attempt.correct(limits)?;
+    let residual_tolerance = share * limits.residual_tolerance;
+    attempt.correct(Limits { residual_tolerance, ..limits })?;
     // Another arc meets this one in the corner, and is closer than what the corrector takes away.
     if attempt.trial.signature != signature {
         return Err(StepDoubt::Signature);
