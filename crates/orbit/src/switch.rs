@@ -24,6 +24,9 @@ use crate::{
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
 const AMPLITUDES: [f64; 6] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6, 1e-7];
 
+/// The largest of them at which a contact more or less may show. Beyond, it was another branch.
+const FARTHEST: f64 = 1e-3;
+
 /// An orbit of doubled period is at least so many amplitudes from one of the period that was doubled.
 const OWN: f64 = 0.1;
 
@@ -57,16 +60,19 @@ impl BranchWalk {
         if crossing.direction.len() != crossing.orbit.nodes[0].len() + 1 {
             return Err(none);
         }
-        let mut other = None;
+        let mut other: Option<(f64, Self)> = None;
         for amplitude in AMPLITUDES {
             let signed = if side == Side::Up { amplitude } else { -amplitude };
             match leave(system, response, crossing, signed, range_hz, settings)? {
                 Some((walk, true)) => return Ok(walk),
-                Some((walk, false)) => other = other.or(Some(walk)),
-                None => {}
+                // The nearer it is, the less else was stepped over.
+                Some((walk, false)) if other.as_ref().is_none_or(|(farther, _)| amplitude < *farther) => {
+                    other = Some((amplitude, walk));
+                }
+                _ => {}
             }
         }
-        other.ok_or(none)
+        other.filter(|(amplitude, _)| *amplitude <= FARTHEST).map(|(_, walk)| walk).ok_or(none)
     }
 
     /// The solution at the present point.
