@@ -391,7 +391,7 @@ fn an_asymmetric_arm_goes_on_to_where_the_symmetric_orbit_grazes_both_stops() {
     assert_whole(&workshop, (3.78, 3.96), WHOLE);
 }
 
-/// Just below the resonance of a mode with 0.2 % of damping the steady response is some hundred times the
+/// Around the resonance of a mode with 0.2 % of damping the steady response is some hundred times the
 /// motion between the stops. What rounding left of their difference was enlarged by slow impacts, and steps
 /// hung in it: 5000 solutions brought the branch no further.
 #[test]

@@ -8,7 +8,7 @@
 //! number of segments; over the second half of a doubled orbit it comes with the other sign by itself. From
 //! `z_0 + a v` the orbit found differs by `O(a^2)` in its states and in its frequency; if either differs by
 //! more than `a`, relatively, another amplitude is tried. So it is where a contact more or less shows that a
-//! grazing lies between the crossing and the orbit found.
+//! grazing lies between the crossing and the orbit found; if it does at all amplitudes, the smallest counts.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 use hammerbeam_path::{Follower, Judge, ParameterRange, PathProblem, StartDirection, norm};
@@ -24,8 +24,8 @@ use crate::{
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
 const AMPLITUDES: [f64; 6] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6, 1e-7];
 
-/// The largest of them at which a contact more or less may show. Beyond, it was another branch.
-const FARTHEST: f64 = 1e-3;
+/// Those at which a contact more or less may show: beyond, it was another branch, and nearer, rounding.
+const BESIDE_GRAZING: std::ops::RangeInclusive<f64> = 1e-5..=1e-3;
 
 /// An orbit of doubled period is at least so many amplitudes from one of the period that was doubled.
 const OWN: f64 = 0.1;
@@ -66,13 +66,16 @@ impl BranchWalk {
             match leave(system, response, crossing, signed, range_hz, settings)? {
                 Some((walk, true)) => return Ok(walk),
                 // The nearer it is, the less else was stepped over.
-                Some((walk, false)) if other.as_ref().is_none_or(|(farther, _)| amplitude < *farther) => {
+                Some((walk, false))
+                    if BESIDE_GRAZING.contains(&amplitude)
+                        && other.as_ref().is_none_or(|(farther, _)| amplitude < *farther) =>
+                {
                     other = Some((amplitude, walk));
                 }
                 _ => {}
             }
         }
-        other.filter(|(amplitude, _)| *amplitude <= FARTHEST).map(|(_, walk)| walk).ok_or(none)
+        other.map(|(_, walk)| walk).ok_or(none)
     }
 
     /// The solution at the present point.

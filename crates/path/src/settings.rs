@@ -121,6 +121,11 @@ impl Default for Settings {
     }
 }
 
+/// Share of the step that a correction may be which does not shrink any more beside a branch point. Half of
+/// what a correction may move a prediction: where the path turns sharply there, as a pitchfork over a narrow
+/// range, no shorter step is known better.
+const SINGULAR: f64 = 0.05;
+
 impl Settings {
     /// How far the corrector may move a prediction of a step of length `h`.
     pub(crate) fn allowed_displacement(&self, step: f64) -> f64 {
@@ -142,7 +147,7 @@ impl Settings {
         Limits {
             tolerance: self.tolerance_at(step),
             loose_tolerance: self.loose_tolerance_at(step),
-            singular_tolerance: self.loose_tolerance_at(step).max(0.05 * step),
+            singular_tolerance: self.loose_tolerance_at(step).max(SINGULAR * step),
             residual_floor: self.residual_floor,
             residual_tolerance: self.residual_tolerance,
             residual_wanted: self.residual_wanted,

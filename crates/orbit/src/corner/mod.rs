@@ -50,10 +50,12 @@ const SLOWEST: f64 = 3e-7;
 const SLOWER: [f64; 3] = [1.0, 0.1, 0.03];
 /// Distance from the corner at which that point lies if it can, relative to the orbit.
 const NEAR: f64 = 1e-5;
-/// How many times faster and farther that is where several touches become impacts at once: each multiplies
+/// How many times faster that is where several touches become impacts at once: each multiplies
 /// what is between two motions by one over its speed. From 1e8 or so rounding of a state is more than the
 /// tolerance after a period.
 const AT_ONCE_FASTER: f64 = 30.0;
+/// So much farther it may lie to have that speed: distances are measured by the range, and where that is narrow
+/// the frequency makes most of them.
 const AT_ONCE_FARTHER: f64 = 300.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
@@ -85,7 +87,7 @@ pub(crate) fn grazing_near(
         slow: SLOW,
         evaluations: 0,
     };
-    let impacts: Vec<Touch> = touches.iter().filter(|touch| touch.side == Side::Impact).cloned().collect();
+    let slow: Vec<Touch> = touches.iter().filter(|touch| touch.side == Side::Impact).cloned().collect();
     for (place, first) in touches.iter().enumerate().take(MOST_TOUCHES) {
         let at_once = |other: &&Touch| {
             other.side == first.side && (other.speed - first.speed).abs() <= AT_ONCE * first.speed
@@ -97,7 +99,7 @@ pub(crate) fn grazing_near(
         let alone = std::slice::from_ref(first);
         let tries = if together.len() > 1 { vec![together.as_slice(), alone] } else { vec![alone] };
         for touches in tries {
-            if let Some(corner) = search.corner_of(problem, (touches, &impacts), lies_ahead) {
+            if let Some(corner) = search.corner_of(problem, (touches, &slow), lies_ahead) {
                 return Some(corner);
             }
         }
@@ -120,11 +122,11 @@ struct Search {
 impl Search {
     /// The corner where some touches graze.
     ///
-    /// * `impacts`: the slow ones of the orbit that the search begins at.
+    /// * `slow`: all slow impacts of the orbit that the search begins at.
     fn corner_of(
         &mut self,
         problem: &mut ShootingProblem,
-        (touches, impacts): (&[Touch], &[Touch]),
+        (touches, slow): (&[Touch], &[Touch]),
         lies_ahead: &dyn Fn(&[f64]) -> bool,
     ) -> Option<RootCorner> {
         let mut equations = TouchEquations::new(problem, touches, self.last).ok()?;
@@ -136,14 +138,15 @@ impl Search {
         let clear = solved.as_ref().map(|(_, unknowns)| without_impact(&mut equations, unknowns));
         self.evaluations += equations.evaluations();
         let (corner, unknowns) = solved.filter(|(corner, _)| lies_ahead(corner))?;
+        let one = (equations.elements[0], unknowns.phase(0, equations.problem.node_size()));
         let [beside, farther] = clear?;
         let beside = beside?;
         let uncertainty = uncertainty?? + (beside[beside.len() - 1] - corner[corner.len() - 1]).abs();
-        let all = touch::at_grazing(problem, &beside, &touches[0])?;
+        let all = touch::at_grazing(problem, &beside, one)?;
         problem.evaluate(&beside).ok()?;
         let without = problem.touches().to_vec();
         let cycles = f64::from(problem.period_multiple());
-        let behind = match impacts_behind(impacts, &all, cycles) {
+        let behind = match impacts_behind(slow, &all, cycles) {
             impacts if impacts.is_empty() => vec![[beside.clone(), farther?]],
             // The same touches: they are solved for.
             impacts if touches[0].side == Side::Turn && impacts.len() == touches.len() => {
@@ -160,6 +163,9 @@ impl Search {
                 self.with_impacts(&mut equations, &unknowns, (&corner, &without))?
             }
         };
+        if behind.is_empty() {
+            return None;
+        }
         let is_multiple = all.len() > 1;
         let evaluations = self.evaluations;
         Some(RootCorner { corner, beside, uncertainty, behind, is_multiple, evaluations })
@@ -214,12 +220,13 @@ fn without_impact(equations: &mut TouchEquations<'_>, corner: &Unknowns) -> [Opt
 
 /// Which of all touches that graze in a corner are impacts behind it, see the head of the file.
 ///
-/// * `impacts`: the slow ones of the orbit that was followed to it, of so many cycles.
-fn impacts_behind(impacts: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
-    let is_another = |other: &&Touch| impacts.iter().all(|impact| !impact.is_same(other, cycles));
-    let others: Vec<Touch> = all.iter().filter(is_another).cloned().collect();
-    let repeats = others.iter().any(|other| impacts.iter().any(|impact| impact.repeats(other)));
-    if repeats { Vec::new() } else { others }
+/// * `slow`: the slow impacts of the orbit that was followed to it, of so many cycles. Those that do not graze
+///   there stay what they are.
+fn impacts_behind(slow: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
+    let was_impact = |touch: &&Touch| slow.iter().any(|impact| impact.is_same(touch, cycles));
+    let (before, behind): (Vec<&Touch>, Vec<&Touch>) = all.iter().partition(was_impact);
+    let repeats = behind.iter().any(|other| before.iter().any(|touch| touch.repeats(other)));
+    if repeats { Vec::new() } else { behind.into_iter().cloned().collect() }
 }
 
 /// How far two points of the path with one node are apart, relative to the orbit.
@@ -253,6 +260,14 @@ mod tests {
         assert_eq!(phases(&impacts_behind(&both, &all, 1.0)), []);
         assert_eq!(phases(&impacts_behind(&above, &all, 1.0)), [0.75]);
         assert_eq!(phases(&impacts_behind(&below, &all, 1.0)), [0.25]);
+    }
+
+    /// An impact as slow as one that grazes, a period before or after it or at another time, tells nothing.
+    #[test]
+    fn a_slow_impact_that_does_not_graze_stays() {
+        let all = [touch(0, Side::Turn, 1.25)];
+        let slow = [touch(0, Side::Impact, 0.25), touch(0, Side::Impact, 0.6)];
+        assert_eq!(phases(&impacts_behind(&slow, &all, 2.0)), [1.25]);
     }
 
     /// With one touch in two periods the complement is the same orbit a period later: the way on is that

@@ -39,6 +39,8 @@ pub(super) struct Touch {
 /// Touches that graze in one corner do so because they are alike: another stop in a symmetric orbit, or the
 /// same one a period later. Beside it their speeds are equal, but for this factor.
 const ALIKE: f64 = 1.5;
+/// Speeds of turns below this are rounding, relative to the orbit: the root of that of a displacement.
+const ROUNDED: f64 = 1e-7;
 /// Phases that differ by less are the same [cycles].
 const SAME_PHASE: f64 = 1e-3;
 
@@ -108,17 +110,24 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
     Some(touches)
 }
 
-/// The touches that graze in a corner together with `one`, and that, by the point beside it without impacts:
+/// The touches that graze in a corner together with one, and that, by the point beside it without impacts:
 /// they are turns there.
-pub(super) fn at_grazing(problem: &mut ShootingProblem, beside: &[f64], one: &Touch) -> Option<Vec<Touch>> {
+///
+/// * `(element, phase)`: of the one that was solved for.
+pub(super) fn at_grazing(
+    problem: &mut ShootingProblem,
+    beside: &[f64],
+    (element, phase): (usize, f64),
+) -> Option<Vec<Touch>> {
     problem.move_to(beside).ok()?;
     let cycles = f64::from(problem.period_multiple());
-    let mut touches = near_grazing(problem, beside, f64::INFINITY)?;
-    touches.retain(|touch| touch.side == Side::Turn);
-    let same = touches.iter().filter(|touch| one.is_same(touch, cycles)).map(|touch| touch.speed);
-    let speed = same.reduce(f64::min)?;
-    touches.retain(|touch| touch.speed <= ALIKE * speed);
-    Some(touches)
+    let mut turns = near_grazing(problem, beside, f64::INFINITY)?;
+    turns.retain(|touch| touch.side == Side::Turn);
+    let solved = Touch { element, side: Side::Turn, phase, state: Vec::new(), speed: 0.0 };
+    let same = turns.iter().filter(|touch| solved.is_same(touch, cycles)).map(|touch| touch.speed);
+    let slowest = same.reduce(f64::min)?.max(ROUNDED);
+    turns.retain(|touch| touch.speed <= ALIKE * slowest);
+    Some(turns)
 }
 
 /// Turns towards rigid stops between samples of a motion.
@@ -150,24 +159,30 @@ fn turns(
             })
             .collect();
         for k in (1..samples.len()).filter(|&k| speeds[k - 1] >= 0.0 && speeds[k] < 0.0) {
-            let [r, after, acceleration] =
+            let [_, after, acceleration] =
                 system.relative_motion(element, frequency_hz, phases[k], &samples[k]);
             if acceleration >= 0.0 || is_touched(element, phases[k - 1], phases[k]) {
                 continue;
             }
-            let depth = after * after / (-2.0 * acceleration);
-            let clearance = (level - r - depth).max(0.0);
-            let speed = (-2.0 * acceleration * clearance).sqrt() / largest_speed(problem, element);
-            let back = after / acceleration;
-            let phase = (phases[k] - back * frequency_hz).max(phases[k - 1]);
-            turns.push((k - 1, Touch { element, side: Side::Turn, phase, state: Vec::new(), speed }));
+            let at = (phases[k] - after / acceleration * frequency_hz).max(phases[k - 1]);
+            turns.push((k - 1, element, level, at));
         }
     }
-    for (sample, turn) in turns {
-        let way = Stretch { frequency_hz, start: phases[sample], end: turn.phase };
-        if let Ok(state) = problem.integrator().advance(&way, &samples[sample]) {
-            touches.push(Touch { state: scaled(&state, &scales), ..turn });
-        }
+    for (sample, element, level, at) in turns {
+        let way = Stretch { frequency_hz, start: phases[sample], end: at };
+        let Ok(state) = problem.integrator().advance(&way, &samples[sample]) else { continue };
+        // A sample near the turn tells its clearance to the cube of the time in between: the turn itself is
+        // asked.
+        let [r, after, acceleration] = problem.system().relative_motion(element, frequency_hz, at, &state);
+        let depth = after * after / (-2.0 * acceleration);
+        let speed = (-2.0 * acceleration * (level - r - depth).max(0.0)).sqrt();
+        touches.push(Touch {
+            element,
+            side: Side::Turn,
+            phase: at,
+            state: scaled(&state, &scales),
+            speed: speed / largest_speed(problem, element),
+        });
     }
 }
 

@@ -12,8 +12,8 @@ use hammerbeam_path::{ContinuationPoint, PathEvents, PathProblem, distance};
 
 use super::{orbit_path::OrbitPath, splits::along_tangent};
 use crate::{
-    OrbitError,
-    solve::{correct, evaluate, newton_update},
+    OrbitError, OrbitSettings,
+    solve::{correct, evaluate},
 };
 
 /// Distance of states, relative to the orbit, below which the orbit is the start: the motion has come some
@@ -58,13 +58,10 @@ fn orbit_at(
     let mut there = along_tangent(from, length);
     *there.point.last_mut()? = at;
     there.events = PathEvents::default();
-    correct(&mut path.problem, &mut there.point, &path.settings).ok()?;
-    // A correction that may stay unapplied leaves a residual where impacts are slow: this takes it away.
-    let mut fixed = vec![0.0; there.point.len()];
-    *fixed.last_mut()? = 1.0;
-    let (last, size) = newton_update(&mut path.problem, &there.point, &fixed).ok()?;
-    there.point.iter_mut().zip(&last).for_each(|(x, update)| *x += update);
-    there.correction_norm = size;
+    // The problem measures corrections in hertz of arc length.
+    let tolerance = path.settings.tolerance * path.problem.hertz_per_norm();
+    let settings = OrbitSettings { tolerance, ..path.settings.clone() };
+    there.correction_norm = correct(&mut path.problem, &mut there.point, &settings).ok()?;
     Some(there)
 }
 

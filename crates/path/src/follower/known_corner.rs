@@ -3,7 +3,8 @@
 //! Towards such a corner points are known less and less well, since the root of what they are known to is a
 //! part of them; short steps there walk through noise. So the corner is asked for
 //! as soon as a step fails that is short enough for it to lie near ([`Judge::root_corner`]), and is
-//! turned if it lies ahead on the smooth arc, within the step that failed. The next point
+//! turned if it lies ahead on the smooth arc, within the step that failed, or farther ahead but straight on.
+//! What lies behind it may be a simpler path: the judge says how this one goes on. The next point
 //! lies behind it, where the judge says, and the direction there is that towards a farther one.
 
 use super::{
@@ -32,10 +33,10 @@ const OFF_TANGENT: f64 = 0.1;
 const OFF_STRAIGHT: f64 = 1e-4;
 /// Least cosine between the direction behind the corner and the tangent there.
 const ALIGNED: f64 = 0.5;
-/// Residuals of points behind the corner, over the tolerance: the nearest one that is known well is taken, or
-/// the nearest one.
-const SHARES: [f64; 2] = [1e-2, 1.0];
-/// Farthest from the corner that a point behind it is taken, in distances of sheets.
+/// Residual of a point behind the corner that is known well, over the tolerance.
+const WELL_KNOWN: f64 = 1e-2;
+/// Farthest from the corner that a point behind it is taken, in distances of sheets: 3 % of the start. Nearer
+/// ones are taken if they are known well, which behind several impacts at once they may not be.
 const FARTHEST: f64 = 3000.0;
 
 /// A corner that was passed and that the judge computed.
@@ -57,7 +58,7 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// None just behind a corner.
+    /// None just behind a corner, unless steps have become too short.
     pub fn at(frame: &Frame, state: &PathState) -> Self {
         let is_corner = state.current.events.corner;
         Self { below: if is_corner { 0.0 } else { FIRST_LOOK * frame.settings.sheet_distance } }
@@ -88,9 +89,14 @@ pub(super) struct Turned {
 /// The judge knows of none.
 pub(super) fn turn_known_corner(attempt: &mut Attempt<'_>) -> Result<Turned, StepDoubt> {
     let known = 10.0 * attempt.settings().correction_tolerance;
-    let within = FIRST_LOOK * attempt.settings().sheet_distance;
-    turn_corner_within(attempt, Cone { within: WITHIN * attempt.step, known, off: OFF_TANGENT })
-        .or_else(|_| turn_corner_within(attempt, Cone { within, known: 0.0, off: OFF_STRAIGHT }))
+    let (near, far) = (WITHIN * attempt.step, FIRST_LOOK * attempt.settings().sheet_distance);
+    let turned = turn_corner_within(attempt, Cone { within: near, known, off: OFF_TANGENT });
+    match turned {
+        Err(_) if far > near => {
+            turn_corner_within(attempt, Cone { within: far, known: 0.0, off: OFF_STRAIGHT })
+        }
+        turned => turned,
+    }
 }
 
 fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, StepDoubt> {
@@ -103,17 +109,27 @@ fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, S
     let found = attempt.problem.judge().root_corner(&state.base().point, reach, &ahead);
     let corner = found.ok_or(StepDoubt::NotLocated)?;
     attempt.counters.evaluations += corner.evaluations;
-    for (behind, share) in
-        SHARES.iter().flat_map(|share| corner.behind.iter().map(move |behind| (behind, share)))
-    {
-        if let Ok((arrival, length)) = arrive_behind(attempt, &corner, behind, *share) {
-            let is_accepted = behind[0] == corner.beside;
-            let RootCorner { beside, uncertainty, .. } = corner;
-            let corner = PassedCorner { beside, uncertainty, is_accepted };
-            return Ok(Turned { arrival, length, corner });
+    // The nearest point that is known well, or else the nearest one.
+    let known_well = WELL_KNOWN * attempt.settings().residual_tolerance;
+    let mut nearest = None;
+    for behind in &corner.behind {
+        match arrive_behind(attempt, &corner, behind) {
+            Ok(arrived) if attempt.trial.residual_norm <= known_well => {
+                return Ok(turned(corner.clone(), behind, arrived));
+            }
+            Ok(_) => nearest = nearest.or(Some(behind)),
+            Err(_) => {}
         }
     }
-    Err(StepDoubt::NotLocated)
+    let behind = nearest.ok_or(StepDoubt::NotLocated)?;
+    let arrived = arrive_behind(attempt, &corner, behind)?;
+    Ok(turned(corner.clone(), behind, arrived))
+}
+
+fn turned(corner: RootCorner, behind: &[Vec<f64>; 2], (arrival, length): (Arrival, f64)) -> Turned {
+    let is_accepted = behind[0] == corner.beside;
+    let RootCorner { beside, uncertainty, .. } = corner;
+    Turned { arrival, length, corner: PassedCorner { beside, uncertainty, is_accepted } }
 }
 
 /// Where a corner lies ahead on the arc.
@@ -141,7 +157,6 @@ fn arrive_behind(
     attempt: &mut Attempt<'_>,
     corner: &RootCorner,
     [behind, farther]: &[Vec<f64>; 2],
-    share: f64,
 ) -> Result<(Arrival, f64), StepDoubt> {
     let weights = &attempt.frame.weights;
     let length = distance(weights, behind, &corner.corner);
@@ -157,8 +172,7 @@ fn arrive_behind(
     attempt.border_across(&direction);
     attempt.trial.point.copy_from_slice(behind);
     let limits = Limits { max_displacement: 0.5 * length, max_angle: None, ..attempt.limits(length) };
-    let residual_tolerance = share * limits.residual_tolerance;
-    attempt.correct(Limits { residual_tolerance, ..limits })?;
+    attempt.correct(limits)?;
     // Another arc meets this one in the corner, and is closer than what the corrector takes away.
     if attempt.trial.signature != signature {
         return Err(StepDoubt::Signature);
