@@ -80,7 +80,7 @@ pub struct Settings {
     /// the residual is above this, too: lengths are measured by a range, which may be wide.
     pub parameter_tolerance: f64,
     /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more
-    /// (beside a branch point), `‖d‖ ≤ h / 20` is enough.
+    /// (beside a branch point), `‖d‖ ≤ 0.03 h` is enough.
     pub residual_floor: f64,
     /// Most evaluations of one correction.
     pub max_iterations: u32,
@@ -121,10 +121,10 @@ impl Default for Settings {
     }
 }
 
-/// Share of the step that a correction may be which does not shrink any more beside a branch point. Half of
-/// what a correction may move a prediction: where the path turns sharply there, as a pitchfork over a narrow
-/// range, no shorter step is known better.
-const SINGULAR: f64 = 0.05;
+/// Share of the step that a correction may be which does not shrink any more beside a branch point: a third of
+/// what a correction may move a prediction. Where the path turns sharply there, as at a pitchfork over a narrow
+/// range, no shorter step is known better; with more, walks come over to the other path.
+const SINGULAR: f64 = 0.03;
 
 impl Settings {
     /// How far the corrector may move a prediction of a step of length `h`.
