@@ -60,7 +60,7 @@ fn orbit_at(
     there.events = PathEvents::default();
     // The problem measures corrections in hertz of arc length.
     let tolerance = path.settings.tolerance * path.problem.hertz_per_norm();
-    let settings = OrbitSettings { tolerance, ..path.settings.clone() };
+    let settings = OrbitSettings { tolerance, ..path.settings };
     there.correction_norm = correct(&mut path.problem, &mut there.point, &settings).ok()?;
     Some(there)
 }
