@@ -190,12 +190,13 @@ fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
 }
 
 /// A superharmonic branch of an undamped hardening oscillator climbs until the forced motion and its
-/// neighbours, which differ in a free vibration, are closer than rounding tells apart: its end says so.
+/// neighbours, which differ in a free vibration, are closer than rounding tells apart: its end says so. The range
+/// is wide, as rounding decides how far it comes: up to 0.3163 Hz it ended at 0.28 Hz, or not at all.
 #[test]
 fn a_branch_of_motions_without_losses_ends_with_that_word() {
     let law = Law::Power(PowerSpring::cubic(0.0353).unwrap());
     let subject = events::oscillator(1.0, 0.0, 1.0, law);
-    let (settings, range) = (events::step_of(5e-4), (0.0759, 0.3163));
+    let (settings, range) = (events::step_of(5e-4), (0.0759, 3.0));
     let found = find_orbits(&subject.0, &subject.1, (0.08, 1), range, &settings, &mut || false).unwrap();
     // The largest comes first.
     assert!(found.orbits[0].maxima.displacement > 5.0);
