@@ -121,9 +121,9 @@ impl Default for Settings {
     }
 }
 
-/// Share of the step that a correction may be which does not shrink any more beside a branch point: a third of
-/// what a correction may move a prediction. Where the path turns sharply there, as at a pitchfork over a narrow
-/// range, no shorter step is known better; with more, walks come over to the other path.
+/// Share of the step that a correction may be which does not shrink any more beside a branch point: a
+/// third of what a correction may move a prediction. Where the path turns sharply there, as at a pitchfork
+/// over a narrow range, no shorter step is known better; with more, walks come over to the other path.
 const SINGULAR: f64 = 0.03;
 
 impl Settings {

@@ -3,11 +3,10 @@
 //!
 //! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has
 //! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the
-//! denominator nearly vanishes - a constant load on a rigid mode, a load within 1 % of the resonance of a mode
-//! that is damped as little -
-//! the load is *secular*: the solution that starts from rest with the stretch takes its place
-//! (`secular.rs`); it stays finite. So it does for a constant load on a mode that hardly moves in a period,
-//! whose sag would be all that rounding leaves room for.
+//! denominator nearly vanishes - a constant load on a rigid mode, a load within 1 % of the resonance of a
+//! mode that is damped as little - the load is *secular*: the solution that starts from rest with the
+//! stretch takes its place (`secular.rs`); it stays finite. So it does for a constant load on a mode that
+//! hardly moves in a period, whose sag would be all that rounding leaves room for.
 
 use std::{cell::Cell, f64::consts::TAU};
 

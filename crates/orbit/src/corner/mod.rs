@@ -54,8 +54,8 @@ const NEAR: f64 = 1e-5;
 /// what is between two motions by one over its speed. From 1e8 or so rounding of a state is more than the
 /// tolerance after a period.
 const AT_ONCE_FASTER: f64 = 30.0;
-/// So much farther it may lie to have that speed: distances are measured by the range, and where that is narrow
-/// the frequency makes most of them.
+/// So much farther it may lie to have that speed: distances are measured by the range, and where that is
+/// narrow the frequency makes most of them.
 const AT_ONCE_FARTHER: f64 = 300.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
@@ -220,8 +220,8 @@ fn without_impact(equations: &mut TouchEquations<'_>, corner: &Unknowns) -> [Opt
 
 /// Which of all touches that graze in a corner are impacts behind it, see the head of the file.
 ///
-/// * `slow`: the slow impacts of the orbit that was followed to it, of so many cycles. Those that do not graze
-///   there stay what they are.
+/// * `slow`: the slow impacts of the orbit that was followed to it, of so many cycles. Those that do not
+///   graze there stay what they are.
 fn impacts_behind(slow: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
     let was_impact = |touch: &&Touch| slow.iter().any(|impact| impact.is_same(touch, cycles));
     let (before, behind): (Vec<&Touch>, Vec<&Touch>) = all.iter().partition(was_impact);

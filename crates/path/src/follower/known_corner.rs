@@ -82,8 +82,8 @@ pub(super) struct Turned {
     pub corner: PassedCorner,
 }
 
-/// Turns the corner ahead: within about the step that failed, or straight ahead, as far away as the first look
-/// for one reaches. Rounding may be what holds up short steps long before it, where speeds vanish.
+/// Turns the corner ahead: within about the step that failed, or straight ahead, as far away as the first
+/// look for one reaches. Rounding may be what holds up short steps long before it, where speeds vanish.
 ///
 /// # Errors
 /// The judge knows of none.
