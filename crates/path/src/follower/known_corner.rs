@@ -115,7 +115,7 @@ fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, S
     for behind in &corner.behind {
         match arrive_behind(attempt, &corner, behind) {
             Ok(arrived) if attempt.trial.residual_norm <= known_well => {
-                return Ok(turned(corner.clone(), behind, arrived));
+                return Ok(turned(&corner, behind, arrived));
             }
             Ok(_) => nearest = nearest.or(Some(behind)),
             Err(_) => {}
@@ -123,13 +123,16 @@ fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, S
     }
     let behind = nearest.ok_or(StepDoubt::NotLocated)?;
     let arrived = arrive_behind(attempt, &corner, behind)?;
-    Ok(turned(corner.clone(), behind, arrived))
+    Ok(turned(&corner, behind, arrived))
 }
 
-fn turned(corner: RootCorner, behind: &[Vec<f64>; 2], (arrival, length): (Arrival, f64)) -> Turned {
-    let is_accepted = behind[0] == corner.beside;
-    let RootCorner { beside, uncertainty, .. } = corner;
-    Turned { arrival, length, corner: PassedCorner { beside, uncertainty, is_accepted } }
+fn turned(corner: &RootCorner, behind: &[Vec<f64>; 2], (arrival, length): (Arrival, f64)) -> Turned {
+    let passed = PassedCorner {
+        beside: corner.beside.clone(),
+        uncertainty: corner.uncertainty,
+        is_accepted: behind[0] == corner.beside,
+    };
+    Turned { arrival, length, corner: passed }
 }
 
 /// Where a corner lies ahead on the arc.
