@@ -34,6 +34,7 @@ mod outputs;
 mod overlay;
 mod page;
 mod parameters;
+mod plastic_stops;
 mod resting;
 mod rig;
 mod run;
