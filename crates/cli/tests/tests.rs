@@ -23,6 +23,7 @@ mod figure_with;
 mod formats;
 mod formula;
 mod impact_oscillator;
+mod impacts_together;
 mod installed;
 mod interrupts;
 mod json;

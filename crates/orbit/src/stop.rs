@@ -48,6 +48,16 @@ pub enum StopReason {
         /// Impacts in a row, each slower than the one before, in the last motion.
         impacts: usize,
     },
+    /// Two rigid stops are struck at one instant, and either impact changes the speed of the other. The
+    /// motion beyond depends on which comes first, and so jumps.
+    ImpactsTogether {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Names of both local elements, with "and" between them.
+        elements: String,
+        /// Phase of the excitation at which that happens [cycles].
+        phase: f64,
+    },
     /// However short the step, the path went on along a stretch that was already walked.
     RunsBack {
         /// Where [Hz].
@@ -137,6 +147,7 @@ impl StopReason {
             | Self::ShorterPeriod { frequency_hz, .. }
             | Self::StepTooShort { frequency_hz, .. }
             | Self::Chatter { frequency_hz, .. }
+            | Self::ImpactsTogether { frequency_hz, .. }
             | Self::RunsBack { frequency_hz, .. }
             | Self::ContactReopens { frequency_hz, .. }
             | Self::NoProgress { frequency_hz, .. }

@@ -23,6 +23,11 @@ impl Display for StopReason {
                 formatter,
                 "chatter at {element} beyond {frequency_hz}: {impacts} impacts in a row, each slower"
             ),
+            Self::ImpactsTogether { frequency_hz, elements, phase } => write!(
+                formatter,
+                "beyond {frequency_hz} {elements} are struck in another order at the phase of {phase:.4} \
+                cycles"
+            ),
             Self::RunsBack { frequency_hz, met_arc_length, .. } => write!(
                 formatter,
                 "beyond {frequency_hz} every step led back to the branch (at arc length {met_arc_length:.6})"

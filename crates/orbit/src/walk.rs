@@ -8,6 +8,7 @@ mod end;
 mod growth;
 mod half_orbit;
 mod halves;
+mod last_motion;
 mod last_rows;
 mod lost_start;
 mod orbit_path;
@@ -19,6 +20,7 @@ mod settings;
 mod shorter_period;
 mod splits;
 mod stepping;
+mod together;
 
 use hammerbeam_motion::{System, exact::MotionError};
 use hammerbeam_path::{Follower, ParameterRange, StartDirection};

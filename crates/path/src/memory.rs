@@ -13,7 +13,9 @@
 //! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the
 //! segment's length), runs parallel to it, has its signature, and its determinant. A stretch walked with the
 //! same orientation must be met in the same direction: the returning sheet of a narrow fold, which runs the
-//! other way, is not a retrace. Close behind a corner nothing is met that lies close before it.
+//! other way, is not a retrace. Close behind a corner nothing is met that lies close before it, but for what
+//! is the same to rounding; the segment that ends at the corner, or behind it where the judge computed it, is
+//! not met at all.
 
 use std::collections::HashMap;
 
@@ -31,9 +33,12 @@ const MOST_CELLS: f64 = 16.0;
 const LARGER: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
-/// Up to so many times the largest defect behind a corner nothing is met that lies as near before it: where
-/// several paths meet, the one on which the path goes on is as near to the one on which it came.
+/// Up to so many times the largest defect behind a corner nothing is met that lies as near before it, unless
+/// it is the same but for rounding: where several paths meet, the one on which the path goes on is as near to
+/// the one on which it came.
 const BESIDE_CORNER: f64 = 10.0;
+/// Errors of points after the shortest steps, in what rounding leaves of a correction.
+const ROUNDED: f64 = 100.0;
 
 type Sketch = [f64; SKETCH];
 /// Size, as a power, and place of a cell.
@@ -49,12 +54,24 @@ struct Vertex {
     signature: u64,
 }
 
+/// How near a stretch is met.
+#[derive(Debug, Clone, Copy)]
+struct Nearness {
+    /// Of points.
+    tolerance: f64,
+    rounding: f64,
+    /// The step does not lead away from the last corner: of stretches beside it only what is the same to
+    /// rounding is met.
+    is_beside: bool,
+}
+
 /// All accepted points of one follower in order, indexed by place.
 #[derive(Debug, Clone)]
 pub(crate) struct PathMemory {
     roots: Vec<f64>,
     cell: f64,
     tolerance: f64,
+    rounding: f64,
     largest_defect: f64,
     vertices: Vec<Vertex>,
     /// Arc length of the last corner.
@@ -75,6 +92,7 @@ impl PathMemory {
             cell: settings.max_step_length.min(4.0 * settings.max_parameter_step * parameter_root)
                 / CELLS_A_STEP,
             tolerance: 10.0 * settings.correction_tolerance,
+            rounding: ROUNDED * settings.correction_floor,
             largest_defect: settings.sheet_distance,
             vertices: Vec::new(),
             corner: f64::NEG_INFINITY,
@@ -100,7 +118,8 @@ impl PathMemory {
             self.corner = point.arc_length;
         }
         self.vertices.push(vertex);
-        if self.vertices.len() > 1 {
+        // A segment that ends at a corner has the tangent behind it, and so no interpolant.
+        if self.vertices.len() > 1 && !point.events.corner {
             self.enter_cells(self.vertices.len() - 1);
         }
     }
@@ -126,40 +145,41 @@ impl PathMemory {
             signature: candidate.signature,
         };
         // Points are as accurate as their units are large; the largest bounds all.
-        let point_tolerance = units.iter().fold(1.0, |most: f64, &unit| most.max(unit)) * self.tolerance;
-        let beside_corner = self.beside_corner(&probe);
+        let unit = units.iter().fold(1.0, |most: f64, &unit| most.max(unit));
+        let near = Nearness {
+            tolerance: unit * self.tolerance,
+            rounding: unit * self.rounding,
+            is_beside: self.is_beside_corner(&probe),
+        };
         (0..self.sizes).find_map(|size| {
             let (_, i, j) = self.cell_of(size, &probe.place);
             (-1..=1)
                 .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
-                .find_map(|cell| self.meets_in(cell, &probe, (point_tolerance, beside_corner)))
+                .find_map(|cell| self.meets_in(cell, &probe, near))
         })
     }
 
-    /// Arc length from which on stretches are not met by a step to here, which does not lead away from the
-    /// last corner.
-    fn beside_corner(&self, probe: &Vertex) -> f64 {
-        let near = BESIDE_CORNER * self.largest_defect;
-        let ends = self.vertices.last().map_or(0.0, |last| last.arc_length + length(last, probe));
-        if ends - self.corner < near { self.corner - near } else { f64::INFINITY }
+    /// How far beside a corner is.
+    fn beside(&self) -> f64 {
+        BESIDE_CORNER * self.largest_defect
     }
 
-    fn meets_in(
-        &self,
-        cell: Cell,
-        probe: &Vertex,
-        (point_tolerance, beside_corner): (f64, f64),
-    ) -> Option<f64> {
+    /// Whether a step to here does not lead away from the last corner.
+    fn is_beside_corner(&self, probe: &Vertex) -> bool {
+        let step = |last: &Vertex| norm(&subtract(&probe.place, &last.place));
+        let ends = self.vertices.last().map_or(0.0, |last| last.arc_length + step(last));
+        ends - self.corner < self.beside()
+    }
+
+    fn meets_in(&self, cell: Cell, probe: &Vertex, near: Nearness) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
             let segment = segment as usize;
-            let is_beside = self.vertices[segment].arc_length > beside_corner;
-            if segment + RECENT < self.vertices.len() && !is_beside {
-                let found = {
-                    let ends = (&self.vertices[segment - 1], &self.vertices[segment]);
-                    self.meets_segment(ends, probe, point_tolerance)
-                };
+            let is_recent = segment + RECENT >= self.vertices.len();
+            // What lies before a corner belongs to no step behind it.
+            if !is_recent || near.is_beside && self.vertices[segment].arc_length <= self.corner {
+                let found = self.meets_segment(segment, probe, near);
                 if found.is_some() {
                     return found;
                 }
@@ -169,17 +189,22 @@ impl PathMemory {
         None
     }
 
-    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, point_tolerance: f64) -> Option<f64> {
-        let margin = point_tolerance + self.largest_defect;
+    fn meets_segment(&self, segment: usize, probe: &Vertex, near: Nearness) -> Option<f64> {
+        let (a, b) = (&self.vertices[segment - 1], &self.vertices[segment]);
+        let margin = near.tolerance + self.largest_defect;
         let (low, high) = (a.place[0].min(b.place[0]), a.place[0].max(b.place[0]));
-        let near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;
-        if !near || !same_kind(a, b, probe) {
+        let is_near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;
+        if !is_near || !same_kind(a, b, probe) {
             return None;
         }
         let (share, distance, cosine) = nearest(a, b, probe)?;
         let wanted = if a.orientation == probe.orientation { cosine } else { -cosine };
-        let tolerance =
-            (point_tolerance + 0.25 * defect(a, b).min(self.largest_defect)).min(0.1 * length(a, b));
+        let allowed = if near.is_beside && b.arc_length > self.corner - self.beside() {
+            near.rounding
+        } else {
+            near.tolerance + 0.25 * defect(a, b).min(self.largest_defect)
+        };
+        let tolerance = allowed.min(0.1 * length(a, b));
         let met = distance <= tolerance && wanted > 0.99;
         met.then_some(a.arc_length + share * (b.arc_length - a.arc_length))
     }
@@ -268,7 +293,7 @@ fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
     let cosine =
         dot(&slope, &probe.tangent) / (dot(&slope, &slope) * dot(&probe.tangent, &probe.tangent)).sqrt();
     let inside = (0.0..=1.0).contains(&share);
-    inside.then(|| (share, dot(&offset, &offset).sqrt(), cosine))
+    inside.then(|| (share, norm(&offset), cosine))
 }
 
 /// Offset of `place` from the cubic Hermite interpolant at this share, and the slope of the interpolant by
@@ -290,14 +315,16 @@ fn interpolant(a: &Vertex, b: &Vertex, length: f64, share: f64, place: &Sketch) 
 /// more.
 fn defect(a: &Vertex, b: &Vertex) -> f64 {
     let (chord, length) = (subtract(&b.place, &a.place), length(a, b));
-    let square: f64 =
-        (0..SKETCH).map(|i| (chord[i] - 0.5 * length * (a.tangent[i] + b.tangent[i])).powi(2)).sum();
-    square.sqrt()
+    norm(&std::array::from_fn(|i| chord[i] - 0.5 * length * (a.tangent[i] + b.tangent[i])))
 }
 
 /// Length of the segment in full space, to which the sketched tangents belong.
 fn length(a: &Vertex, b: &Vertex) -> f64 {
     b.arc_length - a.arc_length
+}
+
+fn norm(a: &Sketch) -> f64 {
+    dot(a, a).sqrt()
 }
 
 fn subtract(a: &Sketch, b: &Sketch) -> Sketch {
@@ -317,121 +344,4 @@ fn mix(number: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::predictor::Node;
-    use std::f64::consts::FRAC_PI_2;
-
-    /// A helix in twelve unknowns with unit speed: a long smooth path whose sketch is a projection.
-    fn on_helix(s: f64) -> ContinuationPoint {
-        let mut point = ContinuationPoint::empty(13);
-        let rate = 1.0 / 7.0_f64.sqrt();
-        for k in 0..12 {
-            let frequency = 1.0 + (k / 2) as f64;
-            let (phase, amplitude) = (frequency * s + FRAC_PI_2 * (k % 2) as f64, 1.0 / frequency);
-            point.point[k] = amplitude * phase.sin() * rate;
-            point.tangent[k] = phase.cos() * rate;
-        }
-        point.point[12] = s * rate;
-        point.tangent[12] = rate;
-        point.arc_length = s;
-        point
-    }
-
-    fn candidate(point: &ContinuationPoint) -> Candidate {
-        let mut candidate = Candidate::new(point.point.len());
-        candidate.node = Node { point: point.point.clone(), tangent: point.tangent.clone() };
-        candidate
-    }
-
-    fn helix_memory(step: f64) -> PathMemory {
-        let settings = Settings { max_step_length: step, ..Settings::default() };
-        let mut memory = PathMemory::new(&[1.0; 13], &settings);
-        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k)), &[1.0]));
-        memory
-    }
-
-    #[test]
-    fn a_point_between_stored_ones_is_met_at_its_arc_length() {
-        let memory = helix_memory(0.02);
-        for s in [0.011, 3.337, 12.345] {
-            let met = memory.meets(&candidate(&on_helix(s)), 1.0, &[1.0]).unwrap();
-            assert!((met - s).abs() < 1e-3, "{met} for {s}");
-        }
-    }
-
-    #[test]
-    fn a_sheet_beside_or_one_that_runs_back_is_not_met() {
-        let memory = helix_memory(0.02);
-        let mut beside = on_helix(3.337);
-        beside.point[3] += 1e-5;
-        assert_eq!(memory.meets(&candidate(&beside), 1.0, &[1.0]), None);
-        let mut back = on_helix(3.337);
-        back.tangent.iter_mut().for_each(|t| *t = -*t);
-        assert_eq!(memory.meets(&candidate(&back), 1.0, &[1.0]), None);
-        assert!(
-            memory.meets(&candidate(&back), -1.0, &[1.0]).is_some(),
-            "with the other orientation it is a retrace"
-        );
-    }
-
-    #[test]
-    fn a_point_with_more_unknowns_is_met_by_the_part_that_is_remembered() {
-        let memory = helix_memory(0.02);
-        let mut longer = on_helix(3.337);
-        for values in [&mut longer.point, &mut longer.tangent] {
-            let parameter = values.pop().unwrap();
-            values.extend([7.0, -3.0, parameter]);
-        }
-        let met = memory.meets(&candidate(&longer), 1.0, &[1.0]).unwrap();
-        assert!((met - 3.337).abs() < 1e-3, "{met}");
-    }
-
-    #[test]
-    fn the_end_of_the_stored_path_is_not_met() {
-        let memory = helix_memory(0.02);
-        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0, &[1.0]), None);
-        assert_eq!(
-            memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0, &[1.0]),
-            None,
-            "nor is the step before"
-        );
-    }
-
-    #[test]
-    fn a_path_that_outgrows_its_first_units_is_met_and_takes_no_more_memory() {
-        // In units that double every ten points a path has steps of one length.
-        let settings = Settings { max_step_length: 0.02, ..Settings::default() };
-        let mut memory = PathMemory::new(&[1.0; 13], &settings);
-        let mut at = vec![0.0];
-        for k in 0..400 {
-            at.push(at[k] + 0.02 * 2f64.powf(0.1 * k as f64));
-        }
-        let straight = |s: f64| {
-            let mut point = on_helix(0.0);
-            point.tangent = vec![0.0; 13];
-            (point.tangent[0], point.tangent[12]) = (0.8, 0.6);
-            (point.point[0], point.point[12], point.arc_length) = (0.8 * s, 0.6 * s, s);
-            point
-        };
-        at.iter().for_each(|s| memory.remember(&straight(*s), &[1.0]));
-        for k in [20, 150, 300, 390] {
-            let s = at[k] + 0.4 * (at[k + 1] - at[k]);
-            let met = memory.meets(&candidate(&straight(s)), 1.0, &[1.0]);
-            assert!(met.is_some_and(|met| (met - s).abs() < 1e-6 * s), "{met:?} for {s}");
-        }
-        assert!(memory.links.len() < 40 * at.len(), "{} links", memory.links.len());
-    }
-
-    #[test]
-    fn a_vertex_takes_no_more_than_200_bytes() {
-        assert!(size_of::<Vertex>() <= 160);
-        let memory = helix_memory(0.02);
-        let links = memory.links.len() * size_of::<(u32, u32)>();
-        assert!(
-            links <= 40 * memory.vertices.len(),
-            "{links} bytes of links for {} points",
-            memory.vertices.len()
-        );
-    }
-}
+mod tests;

@@ -18,10 +18,10 @@ pub enum BranchEnd {
         /// Where [Hz].
         frequency_hz: f64,
     },
-    /// The side comes upon another branch where that one was lost.
+    /// The side comes upon another branch, or the upper side of its own, where that one was lost.
     Joins {
-        /// Number of the other branch.
-        branch: u32,
+        /// Number of the other branch; `None` for the upper side.
+        branch: Option<u32>,
         /// Where that one ended [Hz].
         frequency_hz: f64,
     },
@@ -131,9 +131,8 @@ impl BranchEnd {
             Self::Walk(reason) => of_walk(reason),
             Self::Curve(end) => of_curve(end),
             Self::Crossing { frequency_hz } => StoredEnd::at("crossing", *frequency_hz),
-            Self::Joins { branch, frequency_hz } => {
-                StoredEnd::at("joins", *frequency_hz).with([f64::from(*branch)])
-            }
+            Self::Joins { branch, frequency_hz } => StoredEnd::at("joins", *frequency_hz)
+                .with(branch.map_or_else(Vec::new, |b| vec![f64::from(b)])),
             Self::NotStarted { message } => StoredEnd::plain("not-started").saying(message),
             Self::Failed { message } => StoredEnd::plain("failed").saying(message),
         }
@@ -144,7 +143,10 @@ impl BranchEnd {
         let text = || stored.text.map(str::to_owned);
         let end = match (stored.kind, stored.place, stored.numbers.as_slice()) {
             ("crossing", Some(frequency_hz), []) => Self::Crossing { frequency_hz },
-            ("joins", Some(frequency_hz), [branch]) => Self::Joins { branch: *branch as u32, frequency_hz },
+            ("joins", Some(frequency_hz), []) => Self::Joins { branch: None, frequency_hz },
+            ("joins", Some(frequency_hz), [branch]) => {
+                Self::Joins { branch: Some(*branch as u32), frequency_hz }
+            }
             ("not-started", None, []) => Self::NotStarted { message: text()? },
             ("failed", None, []) => Self::Failed { message: text()? },
             _ => return walk_of(stored).map(Self::Walk).or_else(|| curve_of(stored).map(Self::Curve)),
@@ -167,6 +169,9 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         }
         StopReason::Chatter { frequency_hz, element, impacts } => {
             StoredEnd::at("chatter", *frequency_hz).with([*impacts as f64]).saying(element)
+        }
+        StopReason::ImpactsTogether { frequency_hz, elements, phase } => {
+            StoredEnd::at("impacts-together", *frequency_hz).with([*phase]).saying(elements)
         }
         StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => {
             let numbers = [*met_arc_length, f64::from(u8::from(*has_no_losses))];
@@ -222,6 +227,9 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         }
         ("chatter", [impacts], frequency_hz) => {
             StopReason::Chatter { frequency_hz, element: text()?, impacts: *impacts as usize }
+        }
+        ("impacts-together", [phase], frequency_hz) => {
+            StopReason::ImpactsTogether { frequency_hz, elements: text()?, phase: *phase }
         }
         ("runs-back", [met, lossless], frequency_hz) => {
             StopReason::RunsBack { frequency_hz, met_arc_length: *met, has_no_losses: *lossless != 0.0 }
@@ -330,6 +338,7 @@ pub(crate) mod tests {
             too_short(false),
             too_short(true),
             StopReason::Chatter { frequency_hz, element: "stop".to_owned(), impacts: 12 },
+            StopReason::ImpactsTogether { frequency_hz, elements: "s1 and s2".to_owned(), phase: 0.25 },
             StopReason::RunsBack { frequency_hz, met_arc_length: 3.0, has_no_losses: true },
             StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
             StopReason::NoProgress {
@@ -360,7 +369,8 @@ pub(crate) mod tests {
         ];
         let others = [
             BranchEnd::Crossing { frequency_hz },
-            BranchEnd::Joins { branch: 3, frequency_hz },
+            BranchEnd::Joins { branch: Some(3), frequency_hz },
+            BranchEnd::Joins { branch: None, frequency_hz },
             BranchEnd::NotStarted { message: text() },
             BranchEnd::Failed { message: text() },
         ];

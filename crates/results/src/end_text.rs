@@ -76,8 +76,11 @@ pub fn sentence(end: &BranchEnd, along: BranchOver<'_>) -> String {
         BranchEnd::Crossing { frequency_hz } => {
             format!("leaves a branch of half the period at {frequency_hz:.6} Hz")
         }
-        BranchEnd::Joins { branch, frequency_hz } => {
+        BranchEnd::Joins { branch: Some(branch), frequency_hz } => {
             format!("beyond {frequency_hz:.6} Hz it is branch {branch}")
+        }
+        BranchEnd::Joins { branch: None, frequency_hz } => {
+            format!("came round to the end of the up side at {frequency_hz:.6} Hz")
         }
         BranchEnd::NotStarted { message } => {
             format!("the branch could not be followed from its start: {message}")
@@ -135,6 +138,11 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
         StopReason::Chatter { frequency_hz, element, impacts } => format!(
             "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each \
                 slower than the one before, and no motion next to it was found; {look}",
+            at(*frequency_hz)
+        ),
+        StopReason::ImpactsTogether { frequency_hz, elements, phase } => format!(
+            "at {} {elements} are struck at one instant, at the phase of {phase:.4} cycles, and the motion \
+                beyond depends on which comes first; {look}",
             at(*frequency_hz)
         ),
         StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => format!(

@@ -93,6 +93,8 @@ pub(super) struct Start {
     pub branch: Option<u32>,
     /// It seems to lie on another start's branch: nothing is walked before that is decided.
     pub doubtful: bool,
+    /// Both sides have ended, and were compared with one another.
+    pub sides_compared: bool,
     pub up: WalkState,
     pub down: WalkState,
 }
@@ -173,6 +175,7 @@ impl Agenda {
                 period_multiple: record.period_multiple,
                 branch: record.branch,
                 doubtful: false,
+                sides_compared: false,
                 up: walk(Side::Up)?,
                 down: walk(Side::Down)?,
             };
@@ -209,6 +212,7 @@ impl Agenda {
                 period_multiple: record.period_multiple,
                 branch: None,
                 doubtful: false,
+                sides_compared: false,
                 up: WalkState { rows, ..WalkState::default() },
                 down: WalkState { end: down, ..WalkState::default() },
             });
@@ -297,7 +301,15 @@ pub(super) mod examples {
     /// A start with rows of its upper side.
     pub fn start(key: u32, branch: Option<u32>, rows: Vec<Sketch>) -> Start {
         let up = WalkState { rows, ..WalkState::default() };
-        Start { key, period_multiple: 1, branch, doubtful: false, up, down: WalkState::default() }
+        Start {
+            key,
+            period_multiple: 1,
+            branch,
+            doubtful: false,
+            sides_compared: false,
+            up,
+            down: WalkState::default(),
+        }
     }
 
     /// A stable row without an event.

@@ -6,7 +6,11 @@ use hammerbeam_results::{
     store::{JobOutcome, Store, StoreError},
 };
 
-use super::{Plan, Solver, again, agenda::Agenda, follow_ups, joins, known};
+use super::{
+    Plan, Solver, again,
+    agenda::{Agenda, Start},
+    follow_ups, joins, known,
+};
 use crate::Observer;
 
 /// What the decisions are taken on.
@@ -133,10 +137,7 @@ impl Decisions<'_> {
     fn follow(&mut self, agenda: &mut Agenda, index: usize, place: usize) -> Result<bool, StoreError> {
         for side in [Side::Up, Side::Down] {
             let end = joins::cut(self.store, self.solver, agenda, (index, place, side))?;
-            let branch = agenda.jobs[index].starts[place].branch;
-            if let (Some(branch), Some(end)) = (branch, end) {
-                self.observer.walk_ended(branch, side, &end);
-            }
+            self.tell_of_end(&agenda.jobs[index].starts[place], side, end);
         }
         let start = &mut agenda.jobs[index].starts[place];
         if let Some(end) = start.up.end.clone().filter(BranchEnd::is_closed)
@@ -147,7 +148,18 @@ impl Decisions<'_> {
             start.down.end = Some(end.clone());
             self.store.cut_walk(start.key, Side::Down, 0, &end)?;
         }
-        Ok(start.is_finished(self.plan))
+        let is_finished = start.is_finished(self.plan);
+        if is_finished {
+            let end = joins::cut_at_upper_side(self.store, self.solver, start)?;
+            self.tell_of_end(&agenda.jobs[index].starts[place], Side::Down, end);
+        }
+        Ok(is_finished)
+    }
+
+    fn tell_of_end(&mut self, start: &Start, side: Side, end: Option<BranchEnd>) {
+        if let (Some(branch), Some(end)) = (start.branch, end) {
+            self.observer.walk_ended(branch, side, &end);
+        }
     }
 
     /// The events of the new branches become jobs.

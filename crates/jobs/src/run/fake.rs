@@ -9,6 +9,9 @@ use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 
 use super::{BranchOrigin, OrbitMatcher, Solver, Surveyed, Walk};
 
+/// Half the width of the ring.
+const RADIUS_HZ: f64 = 4.0;
+
 /// One branch for each period multiple of 1 and 2; the harmonic one overhangs.
 pub(crate) struct FakeSolver {
     pub range_hz: [f64; 2],
@@ -23,6 +26,9 @@ pub(crate) struct FakeSolver {
     pub flips: Option<i64>,
     /// Frequency at which walks of two periods are lost, if they come from above [Hz].
     pub lost_hz: Option<f64>,
+    /// The branch of two periods is a closed curve, `15 + 4 sin s`, and both its sides are lost after so many
+    /// steps.
+    pub ring: Option<i64>,
     /// Why walks of two periods end after a few steps, if they do.
     pub given_up: Option<StopReason>,
     /// Walks that were taken up again.
@@ -39,6 +45,7 @@ impl Default for FakeSolver {
             panics: false,
             flips: None,
             lost_hz: None,
+            ring: None,
             given_up: None,
             resumed: AtomicUsize::new(0),
         }
@@ -48,9 +55,14 @@ impl Default for FakeSolver {
 impl FakeSolver {
     /// The solution at arc length `s`: frequency `15 + s + 2 sin s` for the harmonic branch.
     pub fn solution(&self, multiple: u32, s: f64) -> PeriodicSolution {
-        let overhang = if multiple == 1 { 2.0 * s.sin() } else { 0.0 };
-        let frequency_hz = (15.0 + s + overhang).clamp(self.range_hz[0], self.range_hz[1]);
-        let displacement = f64::from(multiple) * (1.0 + 0.1 * (0.7 * s).cos());
+        let way = match (multiple, self.ring) {
+            (1, _) => s + 2.0 * s.sin(),
+            (_, Some(_)) => RADIUS_HZ * s.sin(),
+            (_, None) => s,
+        };
+        let frequency_hz = (15.0 + way).clamp(self.range_hz[0], self.range_hz[1]);
+        let rate = if self.ring.is_some() { 1.0 } else { 0.7 };
+        let displacement = f64::from(multiple) * (1.0 + 0.1 * (rate * s).cos());
         let node = |segment: usize| {
             (0..self.state_length).map(|i| (s + (segment * self.state_length + i) as f64).sin()).collect()
         };
@@ -65,6 +77,17 @@ impl FakeSolver {
             error_estimate: 1e-10,
             maxima: OrbitMaxima { displacement, acceleration: 10.0 * displacement, ..OrbitMaxima::default() },
         }
+    }
+}
+
+impl FakeSolver {
+    /// Arc length of the branch of two periods at a frequency, if it comes there.
+    fn arc_length(&self, frequency_hz: f64) -> Option<f64> {
+        let way = frequency_hz - 15.0;
+        if self.ring.is_none() {
+            return Some(way);
+        }
+        (way.abs() <= RADIUS_HZ).then(|| (way / RADIUS_HZ).asin())
     }
 }
 
@@ -85,9 +108,9 @@ impl Solver for FakeSolver {
         multiples: &[u32],
         _interrupted: hammerbeam_orbit::Interruption<'_>,
     ) -> Result<Surveyed, String> {
-        match multiples.contains(&2) {
-            true => Ok(Surveyed { solutions: vec![self.solution(2, frequency_hz - 15.0)], incomplete: None }),
-            false => Err("no solution".to_owned()),
+        match self.arc_length(frequency_hz).filter(|_| multiples.contains(&2)) {
+            Some(s) => Ok(Surveyed { solutions: vec![self.solution(2, s)], incomplete: None }),
+            None => Err("no solution".to_owned()),
         }
     }
 
@@ -118,7 +141,8 @@ impl Solver for FakeSolver {
                 (crossing.factor * crossing.orbit.period_multiple, crossing.orbit.frequency_hz)
             }
         };
-        let at = if multiple == 1 { 0.0 } else { frequency_hz - 15.0 };
+        let at = if multiple == 1 { Some(0.0) } else { self.arc_length(frequency_hz) };
+        let at = at.ok_or("it does not come there")?;
         let steps = (at / self.step).round() as i64;
         let direction = if side == Side::Up { 1 } else { -1 };
         Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked: 0 }))
@@ -189,7 +213,8 @@ impl Walk for FakeWalk<'_> {
             located: None,
         });
         let [low, high] = self.solver.range_hz;
-        if self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
+        let is_lost_on_ring = self.multiple == 2 && self.solver.ring == Some(self.walked);
+        if is_lost_on_ring || self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
             let doubt = "lost where it was to be".to_owned();
             let reason = StopReason::StepTooShort {
                 frequency_hz,

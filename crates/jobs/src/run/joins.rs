@@ -8,6 +8,9 @@
 //! of curve meet: that with none of the contacts, that with all, and those with some. A branch that comes
 //! there goes on along one of them, and another one along the same. The later one is cut at the grazing.
 //!
+//! Of a closed curve both sides may go round most of it, if each is lost at a place that the other passes.
+//! That is looked at when both have ended.
+//!
 //! A start on an earlier branch makes no branch, so a later branch can come upon an earlier one only at such
 //! places. Each pair of neighbouring rows of the later branch is compared with the last solution of each
 //! early end, and with a few before it: the last ones may lie where a curve is so crowded that the step
@@ -58,16 +61,53 @@ pub(super) fn cut(
     }
     let found = first_join(store, solver, (start, side), &junctions(agenda, start))?;
     let start = &mut agenda.jobs[job].starts[place];
+    start.walk_mut(side).compared = start.walk(side).rows.len();
+    found.map_or(Ok(None), |found| cut_at(store, start, side, found).map(Some))
+}
+
+/// Cuts the lower side of a branch that is walked to both its ends where it comes upon the lost end of the
+/// upper one: both have gone round most of a closed curve.
+///
+/// It goes on from there along the upper side, so it meets the lost end, or a solution close to it, and then
+/// more of those that are compared, one after the other.
+pub(super) fn cut_at_upper_side(
+    store: &mut Store,
+    solver: &dyn Solver,
+    start: &mut Start,
+) -> Result<Option<BranchEnd>, StoreError> {
+    // With a larger budget a side goes on.
+    let goes_on = start.up.end.as_ref().is_none_or(BranchEnd::is_budget);
+    if std::mem::replace(&mut start.sides_compared, true) || goes_on {
+        return Ok(None);
+    }
+    let Some(lost) = lost_end(start, Side::Up) else { return Ok(None) };
+    let rows: Vec<Placed<'_>> = known::rows_of_side(start, Side::Down).collect();
+    let mut met = Vec::new();
+    for (place, &row) in lost.rows.iter().enumerate() {
+        let index = known::passes(store, solver, &rows, (row, Some(row.1.contacts)))?;
+        met.extend(index.map(|index| (place, index)));
+    }
+    let in_order = met.windows(2).all(|pair| pair[0].1 < pair[1].1);
+    let Some(&(0 | 1, index)) = met.first().filter(|_| met.len() > 1 && in_order) else { return Ok(None) };
+    let end = BranchEnd::Joins { branch: None, frequency_hz: lost.frequency_hz };
+    cut_at(store, start, Side::Down, (index + 1, end)).map(Some)
+}
+
+/// Cuts a side after so many solutions, with this end.
+fn cut_at(
+    store: &mut Store,
+    start: &mut Start,
+    side: Side,
+    (solutions, end): (usize, BranchEnd),
+) -> Result<BranchEnd, StoreError> {
     let key = start.key;
     let walk = start.walk_mut(side);
-    walk.compared = walk.rows.len();
-    let Some((solutions, end)) = found else { return Ok(None) };
     walk.cancel();
     walk.rows.truncate(solutions);
     walk.compared = solutions;
     walk.end = Some(end.clone());
     store.cut_walk(key, side, solutions as u32, &end)?;
-    Ok(Some(end))
+    Ok(end)
 }
 
 /// After how many of its solutions the side comes upon an earlier branch, and the end that this makes.
@@ -101,7 +141,7 @@ fn first_join(
         if let Some(grazing) = grazing_before(walk, solutions).filter(|_| junction.grazes) {
             (solutions, frequency_hz) = (grazing + 1, walk[grazing].frequency_hz);
         }
-        (solutions, BranchEnd::Joins { branch: junction.branch, frequency_hz })
+        (solutions, BranchEnd::Joins { branch: Some(junction.branch), frequency_hz })
     }))
 }
 
@@ -127,10 +167,14 @@ fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
     let branch = start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
     let last = walk.rows.last()?;
     let before = |back: usize| known::row_of_side(start, side, walk.rows.len().checked_sub(1 + back)?);
-    let compared = APART.into_iter().filter_map(before);
     // At a branch point another branch has the same solution and is another one all the same.
-    let compared = compared.filter(|(_, row)| !row.branch_point);
-    Some(Junction { branch, frequency_hz: last.frequency_hz, grazes: false, rows: compared.collect() })
+    let compared = |back: usize| before(back).filter(|(_, row)| !row.branch_point);
+    Some(Junction {
+        branch,
+        frequency_hz: last.frequency_hz,
+        grazes: false,
+        rows: APART.into_iter().filter_map(compared).collect(),
+    })
 }
 
 /// The grazings of a side, with solutions on either side of each: at the grazing itself another branch has

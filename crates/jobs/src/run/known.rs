@@ -4,7 +4,7 @@
 //! solution lie, within a margin, are candidates. Then the states decide: the state between the rows,
 //! interpolated to the frequency of the solution, is compared with the states of the solution at the
 //! starts of all its excitation periods, and the orbit that Newton's method finds from there must be the
-//! solution itself.
+//! solution itself, or it lies straight between the rows, has their contacts and is as stable.
 //!
 //! Where the amplitude may be any a branch ends, but orbits of larger amplitude go on from there, at next to
 //! the same frequency: a solution among them lies on that branch, too.
@@ -35,6 +35,10 @@ const DOUBTS: f64 = 10.0;
 /// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the
 /// same.
 const SAME_STATE: f64 = 5e-3;
+/// Distance of a solution from the line between its neighbours, as a part of their distances from it.
+const STRAIGHT: f64 = 0.03;
+/// Part by which its largest multiplier may be smaller or larger than those of its neighbours.
+const ALIKE: f64 = 0.01;
 /// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
 const OVERHANG: f64 = 1e-3;
 
@@ -115,7 +119,7 @@ fn first_before(
     // A solution that cannot be compared is taken for a new one, and its walk will say why.
     let Ok(matcher) = solver.matcher(&solution) else { return Ok(None) };
     for (index, share) in near {
-        if is_between(store, matcher.as_ref(), (rows[index].0, rows[index + 1].0), share)? {
+        if is_between(store, (matcher.as_ref(), &solution), (rows[index].0, rows[index + 1].0), share)? {
             return Ok(Some(index));
         }
     }
@@ -205,7 +209,7 @@ fn share(first: &Sketch, second: &Sketch, (frequency_hz, maxima): (f64, [f64; 2]
 /// Whether the solution is the one between two stored ones.
 fn is_between(
     store: &Store,
-    matcher: &dyn OrbitMatcher,
+    (matcher, solution): (&dyn OrbitMatcher, &PeriodicSolution),
     (first, second): (i64, i64),
     share: f64,
 ) -> Result<bool, StoreError> {
@@ -218,7 +222,27 @@ fn is_between(
     }
     let pairs = first.nodes[0].iter().zip(&second.nodes[0]);
     let guess: Vec<f64> = pairs.map(|(a, b)| a + share * (b - a)).collect();
-    Ok(matcher.is_near((first.phase, &guess)))
+    let guess = (first.phase, guess.as_slice());
+    Ok(matcher.is_near(guess) || lies_straight(matcher, guess, (&first, solution, &second)))
+}
+
+/// Whether the solution lies straight between two neighbours, has their contacts and is as stable. Beside a
+/// slow impact Newton's method may go from the best guess to another orbit.
+fn lies_straight(
+    matcher: &dyn OrbitMatcher,
+    guess: (f64, &[f64]),
+    (first, solution, second): (&PeriodicSolution, &PeriodicSolution, &PeriodicSolution),
+) -> bool {
+    let multipliers = [first, second].map(PeriodicSolution::largest_multiplier);
+    let (low, high) = (multipliers[0].min(multipliers[1]), multipliers[0].max(multipliers[1]));
+    let is_as_stable = (low * (1.0 - ALIKE)..=high * (1.0 + ALIKE)).contains(&solution.largest_multiplier());
+    let has_contacts = |stored: &PeriodicSolution| stored.maxima.contacts == solution.maxima.contacts;
+    if !is_as_stable || !has_contacts(first) || !has_contacts(second) {
+        return false;
+    }
+    // Without a motion all distances are infinite.
+    let distance = |stored: &PeriodicSolution| matcher.distance((stored.phase, &stored.nodes[0]));
+    matcher.distance(guess) < STRAIGHT * (distance(first) + distance(second))
 }
 
 #[cfg(test)]

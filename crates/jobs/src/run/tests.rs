@@ -385,7 +385,7 @@ fn a_branch_that_comes_upon_the_lost_end_of_another_is_cut_there() {
     let kind = |walk: &hammerbeam_results::store::WalkRecord| walk.end.as_ref().unwrap().word();
     let kinds: Vec<_> = branches.iter().map(|branch| (kind(&branch.up), kind(&branch.down))).collect();
     assert_eq!(kinds, [("range-end", "step-too-short"), ("joins", "range-end")]);
-    let joins = matches!(branches[1].up.end, Some(BranchEnd::Joins { branch: 1, .. }));
+    let joins = matches!(branches[1].up.end, Some(BranchEnd::Joins { branch: Some(1), .. }));
     assert!(joins, "{:?}", branches[1].up.end);
     let frequencies = |text: &str| {
         let lines = text.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().parse::<f64>().unwrap());
@@ -398,4 +398,28 @@ fn a_branch_that_comes_upon_the_lost_end_of_another_is_cut_there() {
     for (threads, patience) in [(2, usize::MAX), (3, usize::MAX), (1, 3), (2, 5), (3, 8)] {
         assert_eq!(of_threads(threads, patience).0, expected, "{threads} threads, patience {patience}");
     }
+}
+
+/// Each side of a ring of 628 steps is lost after 400.
+#[test]
+fn both_sides_of_a_closed_branch_hold_it_once() {
+    let study = study_with("[response]\nperiod_multiples = [2]\n");
+    let solver = FakeSolver { ring: Some(400), ..FakeSolver::default() };
+    let of_threads = |threads: usize| {
+        let folder = tempdir().unwrap();
+        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+        let outcome = run(&mut store, &solver, &Plan::of(&study.study), threads, &mut Quiet).unwrap();
+        assert_eq!(outcome, RunOutcome::Done);
+        store.finish().unwrap();
+        (csv(folder.path()), folder)
+    };
+    let (expected, folder) = of_threads(1);
+    let branches = Store::open(folder.path()).unwrap().branches().unwrap();
+    assert_eq!(branches.len(), 1);
+    let kind = |walk: &hammerbeam_results::store::WalkRecord| walk.end.as_ref().unwrap().word();
+    assert_eq!((kind(&branches[0].up), kind(&branches[0].down)), ("step-too-short", "joins"));
+    assert!(matches!(branches[0].down.end, Some(BranchEnd::Joins { branch: None, .. })));
+    let solutions = branches[0].up.solutions + branches[0].down.solutions;
+    assert!((627..=630).contains(&solutions), "{solutions}");
+    assert_eq!(of_threads(3).0, expected);
 }

@@ -59,6 +59,8 @@ const AT_ONCE_FASTER: f64 = 30.0;
 const AT_ONCE_FARTHER: f64 = 300.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+/// How much faster the impact is in the point that tells the direction.
+const AHEAD: f64 = 1.1;
 /// So many touches are tried, those nearest to grazing first.
 const MOST_TOUCHES: usize = 2;
 /// Speeds that differ by less, relatively, belong to touches that graze at once.
@@ -194,16 +196,23 @@ impl Search {
         let (speed, first) = SLOWER.into_iter().map(slower).find_map(|speed| Some((speed, point(speed)?)))?;
         let far = relative_distance(&first, corner, hertz_per_norm);
         let slow = (speed * (near / far).min(1.0)).max(SLOWEST);
-        let mut points: Vec<Vec<f64>> =
-            FASTER.into_iter().filter_map(|factor| point(factor * slow)).collect();
+        let mut with_farther = |speed: f64| {
+            let nearer = point(speed)?;
+            // Where there is no faster one the direction is that from the corner.
+            let on = || nearer.iter().zip(corner).map(|(z, c)| z + (AHEAD - 1.0) * (z - c)).collect();
+            let farther = point(AHEAD * speed).unwrap_or_else(on);
+            Some([nearer, farther])
+        };
+        let mut points: Vec<[Vec<f64>; 2]> =
+            FASTER.into_iter().filter_map(|factor| with_farther(factor * slow)).collect();
         self.evaluations += equations.evaluations();
         let mut expected = without.to_vec();
         equations.elements.iter().for_each(|&element| expected[element] += 1);
         // Over a period rounding may be more than the impacts that follow.
-        points.retain(|point| {
+        points.retain(|[point, _]| {
             equations.problem.evaluate(point).is_ok() && equations.problem.touches() == expected
         });
-        Some(points.into_iter().map(|point| [point.clone(), point]).collect())
+        Some(points)
     }
 }
 

@@ -6,7 +6,9 @@
 //! enough. Of a motion that is near enough to it, one of its stops is struck [`IN_A_ROW`] times or more, each
 //! time slower, and by [`SLOWER`] at the last.
 
-use super::orbit_path::OrbitPath;
+use hammerbeam_motion::System;
+
+use super::last_motion::LastMotion;
 
 /// Fewest impacts of a chatter.
 const IN_A_ROW: usize = 5;
@@ -15,32 +17,21 @@ const SLOWER: f64 = 0.2;
 
 /// The rigid stop that is struck most often in a row, each time slower than before, and how often; `None` if
 /// that is no chatter.
-pub(super) fn chatters(path: &mut OrbitPath) -> Option<(String, usize)> {
-    if !path.problem.system().has_rigid_stops() {
-        return None;
-    }
-    let impacts = impacts(path)?;
+pub(super) fn chatters(system: &System, motion: &LastMotion) -> Option<(String, usize)> {
+    let impacts = impacts(system, motion);
     let row = |(element, speeds): (usize, &Vec<f64>)| Some((element, longest_row(speeds)?));
     let rows = impacts.iter().enumerate().filter_map(row);
     let (element, impacts) = rows.max_by_key(|(_, impacts)| *impacts)?;
-    Some((path.problem.system().elements()[element].name.clone(), impacts))
+    Some((system.elements()[element].name.clone(), impacts))
 }
 
 /// Speeds of the impacts on each element over twice the orbit, in their order: a row may go on over its end.
-fn impacts(path: &mut OrbitPath) -> Option<Vec<Vec<f64>>> {
-    let OrbitPath { problem, follower, .. } = path;
-    let point = &follower.current().point;
-    problem.move_to(point).ok()?;
-    let (frequency_hz, nodes) = (problem.frequency(point), problem.nodes(point));
-    let mut speeds = vec![Vec::new(); problem.system().elements().len()];
-    for (segment, node) in nodes.iter().enumerate() {
-        let stretch = problem.stretch(segment, frequency_hz);
-        let contacts = problem.integrator().trace(&stretch, node, &[]).ok()?.contacts;
-        for contact in contacts.iter().filter(|contact| contact.jump.is_some()) {
-            speeds[contact.element].extend(contact.begin.as_ref().map(|begin| begin.velocity.abs()));
-        }
+fn impacts(system: &System, motion: &LastMotion) -> Vec<Vec<f64>> {
+    let mut speeds = vec![Vec::new(); system.elements().len()];
+    for impact in motion.impacts() {
+        speeds[impact.element].push(impact.begin.velocity.abs());
     }
-    Some(speeds.into_iter().map(|once| once.repeat(2)).collect())
+    speeds.into_iter().map(|once| once.repeat(2)).collect()
 }
 
 /// How long the longest row of a chatter is, if there is one.

@@ -5,10 +5,12 @@ use hammerbeam_path::PathStop;
 use super::{
     chatter::chatters,
     growth::{end_at_mode, free_mode, has_no_losses, is_far_beyond_gaps},
+    last_motion::LastMotion,
     orbit_path::OrbitPath,
     row::largest_multiplier,
     shorter_period::is_near_shorter_period,
     splits::splits_here,
+    together::struck_together,
 };
 use crate::StopReason;
 
@@ -32,12 +34,26 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
 fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<StopReason> {
     let gets_no_further = matches!(reason, StopReason::StepTooShort { .. } | StopReason::RunsBack { .. });
     let frequency_hz = reason.place().filter(|_| gets_no_further)?;
-    if let Some((element, impacts)) = chatters(path) {
-        return Some(StopReason::Chatter { frequency_hz, element, impacts });
+    if let Some(reason) = end_at_impacts(path, frequency_hz) {
+        return Some(reason);
     }
     let mode = free_mode(path);
     let has_no_bound = mode.is_some() || has_no_losses(path.problem.system()) && is_far_beyond_gaps(path);
     has_no_bound.then(|| end_at_mode(path, frequency_hz, mode))
+}
+
+/// What the impacts of the last motion have to do with it.
+fn end_at_impacts(path: &mut OrbitPath, frequency_hz: f64) -> Option<StopReason> {
+    if !path.problem.system().has_rigid_stops() {
+        return None;
+    }
+    let motion = LastMotion::of(path)?;
+    let system = path.problem.system();
+    if let Some((elements, phase)) = struck_together(system, &motion) {
+        return Some(StopReason::ImpactsTogether { frequency_hz, elements, phase });
+    }
+    let (element, impacts) = chatters(system, &motion)?;
+    Some(StopReason::Chatter { frequency_hz, element, impacts })
 }
 
 /// The reason of a path, in terms of orbits.

@@ -158,10 +158,13 @@ fn approach_corner(attempt: &mut Attempt<'_>, locator: &mut Locator, way: f64) -
     Ok(())
 }
 
-/// The trial, with the tangent behind the corner, is the next point.
+/// The trial, with the tangent behind the corner, is the next point, unless the path came through there.
 pub(super) fn arrive_behind_corner(attempt: &mut Attempt<'_>) -> Result<Arrival, StepDoubt> {
     if !attempt.is_in_range() {
         return Err(StepDoubt::NotLocated);
+    }
+    if let Some(arc_length) = attempt.meets_earlier_stretch() {
+        return Err(StepDoubt::Retraced { arc_length });
     }
     let after = attempt.trial.tangent_parameter();
     let fold = turned(attempt, after);

@@ -109,19 +109,20 @@ fn turn_corner_within(attempt: &mut Attempt<'_>, cone: Cone) -> Result<Turned, S
     let found = attempt.problem.judge().root_corner(&state.base().point, reach, &ahead);
     let corner = found.ok_or(StepDoubt::NotLocated)?;
     attempt.counters.evaluations += corner.evaluations;
-    // The nearest point that is known well, or else the nearest one.
+    // The nearest point that is known well, or else the one that is known best.
     let known_well = WELL_KNOWN * attempt.settings().residual_tolerance;
-    let mut nearest = None;
+    let mut best: Option<(f64, &[Vec<f64>; 2])> = None;
     for behind in &corner.behind {
-        match arrive_behind(attempt, &corner, behind) {
-            Ok(arrived) if attempt.trial.residual_norm <= known_well => {
-                return Ok(turned(&corner, behind, arrived));
-            }
-            Ok(_) => nearest = nearest.or(Some(behind)),
-            Err(_) => {}
+        let Ok(arrived) = arrive_behind(attempt, &corner, behind) else { continue };
+        let residual = attempt.trial.residual_norm;
+        if residual <= known_well {
+            return Ok(turned(&corner, behind, arrived));
+        }
+        if best.is_none_or(|(least, _)| residual < least) {
+            best = Some((residual, behind));
         }
     }
-    let behind = nearest.ok_or(StepDoubt::NotLocated)?;
+    let (_, behind) = best.ok_or(StepDoubt::NotLocated)?;
     let arrived = arrive_behind(attempt, &corner, behind)?;
     Ok(turned(&corner, behind, arrived))
 }
@@ -167,9 +168,12 @@ fn arrive_behind(
         return Err(StepDoubt::NotLocated);
     }
     let mut direction = farther.clone();
-    add_scaled(&mut direction, -1.0, &corner.corner);
-    let scaled = 1.0 / norm(weights, &direction);
-    scale(&mut direction, scaled);
+    add_scaled(&mut direction, -1.0, behind);
+    let way = norm(weights, &direction);
+    if way == 0.0 {
+        return Err(StepDoubt::NotLocated);
+    }
+    scale(&mut direction, 1.0 / way);
     attempt.evaluate(behind)?;
     let signature = attempt.problem.judge().signature();
     attempt.border_across(&direction);

@@ -299,9 +299,6 @@ pub(super) fn arrive_behind_root_corner(
     if !attempt.changes_signature() {
         return Err(StepDoubt::Signature);
     }
-    if let Some(arc_length) = attempt.meets_earlier_stretch() {
-        return Err(StepDoubt::Retraced { arc_length });
-    }
     // The corner lies between the last point, which is before it, and this one.
     let (base, trial) = (attempt.state.base(), &attempt.trial.node);
     let chord = distance(&attempt.frame.weights, &base.point, &trial.point);
