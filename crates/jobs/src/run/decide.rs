@@ -1,6 +1,6 @@
 //! Decisions, in the order of the agenda and as far as the work for them is done.
 
-use hammerbeam_orbit::Side;
+use hammerbeam_orbit::{Side, StopReason};
 use hammerbeam_results::{
     end::BranchEnd,
     store::{JobOutcome, Store, StoreError},
@@ -133,20 +133,19 @@ impl Decisions<'_> {
         self.store.drop_start(key)
     }
 
-    /// Whether both sides of a new branch are followed; a closed one has but one side.
+    /// Whether both sides of a new branch are followed; a closed one has but one side, the upper one if that
+    /// came round.
     fn follow(&mut self, agenda: &mut Agenda, index: usize, place: usize) -> Result<bool, StoreError> {
         for side in [Side::Up, Side::Down] {
             let end = joins::cut(self.store, self.solver, agenda, (index, place, side))?;
             self.tell_of_end(&agenda.jobs[index].starts[place], side, end);
         }
         let start = &mut agenda.jobs[index].starts[place];
-        if let Some(end) = start.up.end.clone().filter(BranchEnd::is_closed)
-            && !(start.down.is_closed() && start.down.rows.is_empty())
-        {
-            start.down.cancel();
-            start.down.rows.clear();
-            start.down.end = Some(end.clone());
-            self.store.cut_walk(start.key, Side::Down, 0, &end)?;
+        let has_up = start.up.rows.len() > 1;
+        if start.up.is_closed() && has_up && !(start.down.is_closed() && start.down.rows.is_empty()) {
+            self.drop_side(start, Side::Down)?;
+        } else if start.down.is_closed() && start.up.end.is_some() && !start.up.is_closed() {
+            self.drop_side(start, Side::Up)?;
         }
         let is_finished = start.is_finished(self.plan);
         if is_finished {
@@ -154,6 +153,17 @@ impl Decisions<'_> {
             self.tell_of_end(&agenda.jobs[index].starts[place], Side::Down, end);
         }
         Ok(is_finished)
+    }
+
+    /// Leaves nothing of a side but the start, which the upper one has: the other one is all of the branch.
+    fn drop_side(&mut self, start: &mut Start, side: Side) -> Result<(), StoreError> {
+        let end = BranchEnd::Walk(StopReason::Closed);
+        let solutions = usize::from(side == Side::Up);
+        let walk = start.walk_mut(side);
+        walk.cancel();
+        walk.rows.truncate(solutions);
+        walk.end = Some(end.clone());
+        self.store.cut_walk(start.key, side, solutions as u32, &end)
     }
 
     fn tell_of_end(&mut self, start: &Start, side: Side, end: Option<BranchEnd>) {

@@ -1,6 +1,9 @@
 //! A solver without mechanics: branches that are plain curves, for tests of running and storing.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{
+    f64::consts::TAU,
+    sync::atomic::{AtomicUsize, Ordering},
+};
 
 use hammerbeam_orbit::{
     BranchEventKind, Crossing, EventSet, OrbitMaxima, PeriodicSolution, Side, StopReason,
@@ -26,9 +29,9 @@ pub(crate) struct FakeSolver {
     pub flips: Option<i64>,
     /// Frequency at which walks of two periods are lost, if they come from above [Hz].
     pub lost_hz: Option<f64>,
-    /// The branch of two periods is a closed curve, `15 + 4 sin s`, and both its sides are lost after so many
-    /// steps.
-    pub ring: Option<i64>,
+    /// The branch of two periods is a closed curve, `15 + 4 sin s`, and its upper and lower sides are lost
+    /// after so many steps, if they have not come round.
+    pub ring: Option<[i64; 2]>,
     /// Why walks of two periods end after a few steps, if they do.
     pub given_up: Option<StopReason>,
     /// Walks that were taken up again.
@@ -213,7 +216,9 @@ impl Walk for FakeWalk<'_> {
             located: None,
         });
         let [low, high] = self.solver.range_hz;
-        let is_lost_on_ring = self.multiple == 2 && self.solver.ring == Some(self.walked);
+        let ring = self.solver.ring.filter(|_| self.multiple == 2);
+        let lost_after = ring.map(|[up, down]| if self.direction > 0 { up } else { down });
+        let is_lost_on_ring = lost_after == Some(self.walked);
         if is_lost_on_ring || self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
             let doubt = "lost where it was to be".to_owned();
             let reason = StopReason::StepTooShort {
@@ -228,6 +233,9 @@ impl Walk for FakeWalk<'_> {
         if let Some(reason) = self.solver.given_up.as_ref().filter(|_| self.multiple == 2 && self.walked == 5)
         {
             return Ok(Some(reason.clone().into()));
+        }
+        if ring.is_some() && self.walked as f64 * self.solver.step >= TAU {
+            return Ok(Some(StopReason::Closed.into()));
         }
         let is_end = frequency_hz <= low || frequency_hz >= high;
         Ok(is_end.then_some(StopReason::RangeEnd { frequency_hz }.into()))

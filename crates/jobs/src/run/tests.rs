@@ -400,26 +400,33 @@ fn a_branch_that_comes_upon_the_lost_end_of_another_is_cut_there() {
     }
 }
 
-/// Each side of a ring of 628 steps is lost after 400.
+/// A ring of 628 steps: both sides are lost, the upper one is, the lower one is, or none.
 #[test]
-fn both_sides_of_a_closed_branch_hold_it_once() {
+fn a_closed_branch_is_held_once_whichever_side_comes_round() {
     let study = study_with("[response]\nperiod_multiples = [2]\n");
-    let solver = FakeSolver { ring: Some(400), ..FakeSolver::default() };
-    let of_threads = |threads: usize| {
-        let folder = tempdir().unwrap();
-        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
-        let outcome = run(&mut store, &solver, &Plan::of(&study.study), threads, &mut Quiet).unwrap();
-        assert_eq!(outcome, RunOutcome::Done);
-        store.finish().unwrap();
-        (csv(folder.path()), folder)
-    };
-    let (expected, folder) = of_threads(1);
-    let branches = Store::open(folder.path()).unwrap().branches().unwrap();
-    assert_eq!(branches.len(), 1);
-    let kind = |walk: &hammerbeam_results::store::WalkRecord| walk.end.as_ref().unwrap().word();
-    assert_eq!((kind(&branches[0].up), kind(&branches[0].down)), ("step-too-short", "joins"));
-    assert!(matches!(branches[0].down.end, Some(BranchEnd::Joins { branch: None, .. })));
-    let solutions = branches[0].up.solutions + branches[0].down.solutions;
-    assert!((627..=630).contains(&solutions), "{solutions}");
-    assert_eq!(of_threads(3).0, expected);
+    let cases = [
+        ([400, 400], ["step-too-short", "joins"], [400..=402, 226..=230]),
+        ([400, 900], ["closed", "closed"], [1..=1, 628..=630]),
+        ([900, 400], ["closed", "closed"], [629..=631, 0..=0]),
+        ([900, 900], ["closed", "closed"], [629..=631, 0..=0]),
+    ];
+    for (ring, words, counts) in cases {
+        let solver = FakeSolver { ring: Some(ring), ..FakeSolver::default() };
+        let of_threads = |threads: usize| {
+            let folder = tempdir().unwrap();
+            let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+            let outcome = run(&mut store, &solver, &Plan::of(&study.study), threads, &mut Quiet).unwrap();
+            assert_eq!(outcome, RunOutcome::Done);
+            store.finish().unwrap();
+            (csv(folder.path()), folder)
+        };
+        let (expected, folder) = of_threads(1);
+        let branches = Store::open(folder.path()).unwrap().branches().unwrap();
+        assert_eq!(branches.len(), 1, "{ring:?}");
+        let sides = [&branches[0].up, &branches[0].down];
+        assert_eq!(sides.map(|side| side.end.as_ref().unwrap().word()), words, "{ring:?}");
+        let fits = sides.iter().zip(&counts).all(|(side, counts)| counts.contains(&side.solutions));
+        assert!(fits, "{ring:?}: {:?}", sides.map(|side| side.solutions));
+        assert_eq!(of_threads(3).0, expected, "{ring:?}");
+    }
 }
