@@ -165,6 +165,15 @@ fn assert_crossed(model: &Model, branches: &StoredBranches, frequency_hz: f64) {
     }
 }
 
+/// How both sides of all branches end, with the number of the branch.
+pub(crate) fn ends(branches: &StoredBranches) -> Vec<(u32, BranchEnd)> {
+    let sides = |branch: &StoredBranch| [branch.record.up.end.clone(), branch.record.down.end.clone()];
+    let branches = branches.branches().iter();
+    branches
+        .flat_map(|branch| sides(branch).into_iter().flatten().map(|end| (branch.record.id, end)))
+        .collect()
+}
+
 /// Frequencies of the grazings on all branches.
 pub(crate) fn grazings(workshop: &Workshop) -> Vec<f64> {
     let (_, branches) = stored(workshop);
@@ -312,12 +321,7 @@ fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_la
     let workshop = Workshop::exported(CHATTERING);
     assert_whole(&workshop, (1.8, 7.0), &[WHOLE, &["chatter", "joins"]].concat());
     let (_, branches) = stored(&workshop);
-    let sides = |branch: &StoredBranch| [branch.record.up.end.clone(), branch.record.down.end.clone()];
-    let ends: Vec<(u32, BranchEnd)> = branches
-        .branches()
-        .iter()
-        .flat_map(|branch| sides(branch).into_iter().flatten().map(|end| (branch.record.id, end)))
-        .collect();
+    let ends = ends(&branches);
     let chattering = ends.iter().filter_map(|(branch, end)| match end {
         BranchEnd::Walk(StopReason::Chatter { element, frequency_hz, .. }) if element == "stop" => {
             Some((*branch, *frequency_hz))

@@ -5,7 +5,7 @@ use hammerbeam_results::end::BranchEnd;
 
 use crate::{
     common::{Row, Workshop, assert_success, number, stored},
-    corners::{WHOLE, assert_whole},
+    corners::{WHOLE, assert_whole, ends},
 };
 
 /// A mass that strikes both the one that carries it and a stop.
@@ -100,11 +100,10 @@ fn waveforms(workshop: &Workshop, frequency_hz: f64, samples: u32) -> Vec<Row> {
 fn a_branch_ends_where_one_body_strikes_two_stops_at_one_instant() {
     let workshop = Workshop::exported(ON_ONE_BODY);
     let (_, branches) = stored(&workshop);
-    let sides = branches.branches().iter().flat_map(|branch| [&branch.record.up, &branch.record.down]);
-    let early: Vec<&BranchEnd> =
-        sides.filter_map(|side| side.end.as_ref()).filter(|end| !end.is_complete()).collect();
+    let mut early = ends(&branches);
+    early.retain(|(_, end)| !end.is_complete());
     assert!(!early.is_empty());
-    for end in early {
+    for (_, end) in &early {
         let BranchEnd::Walk(StopReason::ImpactsTogether { frequency_hz, elements, phase }) = end else {
             panic!("{end:?}");
         };

@@ -157,13 +157,9 @@ impl Decisions<'_> {
 
     /// Leaves nothing of a side but the start, which the upper one has: the other one is all of the branch.
     fn drop_side(&mut self, start: &mut Start, side: Side) -> Result<(), StoreError> {
-        let end = BranchEnd::Walk(StopReason::Closed);
         let solutions = usize::from(side == Side::Up);
-        let walk = start.walk_mut(side);
-        walk.cancel();
-        walk.rows.truncate(solutions);
-        walk.end = Some(end.clone());
-        self.store.cut_walk(start.key, side, solutions as u32, &end)
+        joins::cut_at(self.store, start, side, (solutions, StopReason::Closed.into()))?;
+        Ok(())
     }
 
     fn tell_of_end(&mut self, start: &Start, side: Side, end: Option<BranchEnd>) {

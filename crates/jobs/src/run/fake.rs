@@ -81,9 +81,7 @@ impl FakeSolver {
             maxima: OrbitMaxima { displacement, acceleration: 10.0 * displacement, ..OrbitMaxima::default() },
         }
     }
-}
 
-impl FakeSolver {
     /// Arc length of the branch of two periods at a frequency, if it comes there.
     fn arc_length(&self, frequency_hz: f64) -> Option<f64> {
         let way = frequency_hz - 15.0;

@@ -94,7 +94,7 @@ pub(super) fn cut_at_upper_side(
 }
 
 /// Cuts a side after so many solutions, with this end.
-fn cut_at(
+pub(super) fn cut_at(
     store: &mut Store,
     start: &mut Start,
     side: Side,

@@ -13,6 +13,7 @@
 use hammerbeam_motion::System;
 
 use super::last_motion::{Impact, LastMotion};
+use crate::by_rows::dot;
 
 /// Longest time between the two [cycles]: the shortest steps of a walk come nearer.
 const AT_ONE_INSTANT: f64 = 1e-7;
@@ -47,8 +48,4 @@ fn is_struck_with(system: &System, impact: &Impact<'_>, other: usize) -> bool {
     let (one, two) = (impact.begin.velocity.abs(), velocity.abs());
     let cycles = (stop.level() - r) / velocity * impact.frequency_hz;
     one.min(two) > SLOWER * one.max(two) && cycles.abs() < AT_ONE_INSTANT
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
