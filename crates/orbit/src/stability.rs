@@ -10,7 +10,7 @@
 //! - Fold: the same with `1 - mu_i`, for curves in two parameters.
 //! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of
 //!   pairs outside. Where a pair outside the circle splits into two real multipliers the sign jumps without a
-//!   zero, which is no event.
+//!   zero, which is no event ([`pairs_keep_their_sides`]).
 //!
 //! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of
 //! how many lie outside ([`outside`]).
@@ -152,6 +152,22 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
     leaves && enters
 }
 
+/// Whether complex pairs of multipliers keep to their sides of the unit circle between two neighbouring
+/// points, given by those in the upper half-plane. Which is which is told by their distances, the nearest two
+/// first; the way between them is to be no longer than half of what they are away from the circle together.
+/// One that has no other is, on its side, nearer to the real axis than to the circle: it turns real.
+pub(crate) fn pairs_keep_their_sides(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
+    let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+    let pairs = nearest_first(before, behind);
+    let keeps = |&(from, to): &([f64; 2], [f64; 2])| {
+        let way = (to[0] - from[0]).hypot(to[1] - from[1]);
+        beyond(from) * beyond(to) > 0.0 && way < 0.5 * (beyond(from).abs() + beyond(to).abs())
+    };
+    let is_alone = |pair: &&[f64; 2]| pairs.iter().all(|(from, to)| from != *pair && to != *pair);
+    let mut alone = before.iter().chain(behind).filter(is_alone);
+    pairs.iter().all(keeps) && alone.all(|pair| pair[1] < beyond(*pair).abs())
+}
+
 /// The point nearest to zero of the line between two.
 fn nearest_to_zero(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     let way = [to[0] - from[0], to[1] - from[1]];
@@ -268,6 +284,17 @@ mod tests {
         assert!(!pairs_cross_both_ways(&beside(0.5), &beside(0.58)), "along the circle");
         // On the circle to rounding, as at the last event.
         assert!(!pairs_cross_both_ways(&[[0.6, 0.8 + 1e-9], inside], &[[0.5, 0.7], [0.326, 0.974]]));
+    }
+
+    #[test]
+    fn pairs_keep_their_sides_if_they_move_by_less_than_to_the_circle() {
+        let (inside, outside, turning) = ([0.5, 0.3], [0.9, 1.2], [-3.0, 0.2]);
+        assert!(pairs_keep_their_sides(&[inside, outside, turning], &[[0.92, 1.18], [0.52, 0.33]]));
+        assert!(pairs_keep_their_sides(&[inside], &[turning, [0.52, 0.33]]), "it turns complex");
+        assert!(!pairs_keep_their_sides(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
+        assert!(!pairs_keep_their_sides(&[inside, turning], &[[0.8, 0.7]]), "it left the circle");
+        assert!(!pairs_keep_their_sides(&[[0.9, 0.5], turning], &[[0.5, 0.9]]), "it goes along the circle");
+        assert!(!pairs_keep_their_sides(&[outside, [0.8, 0.61]], &[outside]), "it is no real one");
     }
 
     #[test]

@@ -73,8 +73,8 @@ pub trait Judge {
         None
     }
 
-    /// Numbers, asked for with the test functions, by which [`hides_zeros`](Self::hides_zeros) compares a
-    /// point with the next.
+    /// Numbers, asked for with the test functions, by which [`hides_zeros`](Self::hides_zeros) and
+    /// [`keep_their_sides`](Self::keep_their_sides) compare a point with the next.
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
     }
@@ -85,6 +85,13 @@ pub trait Judge {
     /// A test function that is made of several things may vanish for one of them and for another in between,
     /// and be the same on both sides.
     fn hides_zeros(&self, before: &[f64], behind: &[f64]) -> bool {
+        let _ = (before, behind);
+        false
+    }
+
+    /// Whether all that makes a test function vanish stays on its side of zero between two neighbouring points
+    /// of one smooth arc, by the numbers noted there: a sign that changes then jumps.
+    fn keep_their_sides(&self, before: &[f64], behind: &[f64]) -> bool {
         let _ = (before, behind);
         false
     }

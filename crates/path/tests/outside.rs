@@ -11,6 +11,14 @@ struct Multiplied<P> {
     path: P,
     multipliers: fn(f64) -> Vec<(f64, f64)>,
     x: f64,
+    /// What it says when asked whether all keep to their sides.
+    keep_their_sides: bool,
+}
+
+impl<P> Multiplied<P> {
+    fn new(path: P, multipliers: fn(f64) -> Vec<(f64, f64)>) -> Self {
+        Self { path, multipliers, x: 0.0, keep_their_sides: false }
+    }
 }
 
 /// Where the pair crosses the circle, before the fold at `x = 0`.
@@ -28,7 +36,7 @@ fn normal() -> Multiplied<impl PathProblem> {
         let product = 1.0 + 0.1 * ((x - CROSSING) / -CROSSING).tanh();
         pair(0.5 * (1.0 + product + x.tanh()), product)
     };
-    Multiplied { path: crate::support::graph(|x| (-x * x, -2.0 * x, 0)), multipliers, x: 0.0 }
+    Multiplied::new(crate::support::graph(|x| (-x * x, -2.0 * x, 0)), multipliers)
 }
 
 /// Half-way between the two crossings, and how far they are from it.
@@ -44,7 +52,7 @@ fn passing() -> Multiplied<impl PathProblem> {
         all.extend(pair(-3.0 - 2.0 * (x - middle), 9.0));
         all
     };
-    Multiplied { path: crate::support::graph(|x| (x, 1.0, 0)), multipliers, x: 0.0 }
+    Multiplied::new(crate::support::graph(|x| (x, 1.0, 0)), multipliers)
 }
 
 /// Two multipliers by half their sum, and their product.
@@ -77,6 +85,10 @@ impl<P: PathProblem> PathProblem for Multiplied<P> {
 }
 
 impl<P: PathProblem> Judge for Multiplied<P> {
+    fn keep_their_sides(&self, _: &[f64], _: &[f64]) -> bool {
+        self.keep_their_sides
+    }
+
     fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         let mut left = (self.multipliers)(self.x);
         let all = left.len();
@@ -150,4 +162,20 @@ fn both_crossings_are_found_while_another_pair_turns_real() {
 #[test]
 fn both_crossings_are_found_within_a_step_that_would_do_for_a_change_of_signature() {
     assert_both_crossings(Settings { signature_step: 0.1, ..steps_of(0.3) });
+}
+
+/// A pair outside the circle that turns real, as the sign of the test function does not tell, is searched
+/// unless the judge knows that nothing crosses.
+#[test]
+fn a_jump_that_the_judge_knows_is_not_searched() {
+    let turning = |x: f64| pair(-3.0 - 2.0 * (x - OUT_AND_IN.0), 9.0);
+    let evaluations = |keep_their_sides: bool| {
+        let path = crate::support::graph(|x| (x, 1.0, 0));
+        let problem = Multiplied { keep_their_sides, ..Multiplied::new(path, turning) };
+        let (found, branch) = zeros(problem, [-0.9, -0.9], steps_of(0.3));
+        assert_eq!(found.len(), 0, "{found:?}");
+        branch.counters.evaluations
+    };
+    let (searched, known) = (evaluations(false), evaluations(true));
+    assert!(known + 8 < searched, "{known} and {searched} evaluations");
 }

@@ -16,7 +16,7 @@
 
 use std::sync::OnceLock;
 
-use super::{collocation::Grading, recurrence::gauss_sixteen};
+use super::{collocation::Grading, recurrence::gauss_sixteen, trace::Noted};
 
 /// Nodes of a panel.
 pub const PANEL_NODES: usize = 16;
@@ -55,8 +55,8 @@ pub(super) struct MotionSpan {
 impl MotionSpan {
     /// Its panels.
     ///
-    /// * `fastest`: rate of what moves fastest [1/s]; `at`: state and forces at a time.
-    pub fn panels(self, fastest: f64, at: &impl Fn(f64) -> (Vec<f64>, Vec<f64>)) -> Vec<MotionPanel> {
+    /// * `fastest`: rate of what moves fastest [1/s]; `at`: states and forces at times.
+    pub fn panels(self, fastest: f64, at: &impl Fn(&[f64]) -> Vec<Noted>) -> Vec<MotionPanel> {
         let mut panels = Vec::new();
         let turns = fastest * self.length / PANEL_RADIANS;
         let count = if self.length > 0.0 { turns.ceil().max(1.0) as usize } else { 0 };
@@ -75,7 +75,7 @@ impl MotionSpan {
         self,
         (panel, (from, to)): (MotionPanel, (f64, f64)),
         (scales, halvings): (&[f64], usize),
-        at: &impl Fn(f64) -> (Vec<f64>, Vec<f64>),
+        at: &impl Fn(&[f64]) -> Vec<Noted>,
         panels: &mut Vec<MotionPanel>,
     ) {
         if halvings == 0 || holds_forces(&panel, scales) {
@@ -89,14 +89,14 @@ impl MotionSpan {
     }
 
     /// The panel between two places of the variable of the grading.
-    fn panel(self, (from, to): (f64, f64), at: &impl Fn(f64) -> (Vec<f64>, Vec<f64>)) -> MotionPanel {
+    fn panel(self, (from, to): (f64, f64), at: &impl Fn(&[f64]) -> Vec<Noted>) -> MotionPanel {
         let (mut times, mut weights) = ([0.0; PANEL_NODES], [0.0; PANEL_NODES]);
         for (k, (x, weight)) in gauss_sixteen().iter().enumerate() {
             let (c, slope) = self.grading.map(from + (to - from) * x);
             times[k] = self.start + self.length * c;
             weights[k] = weight * (to - from) * slope * self.length;
         }
-        let (states, forces) = times.iter().map(|time| at(*time)).unzip();
+        let (states, forces) = at(&times).into_iter().unzip();
         MotionPanel { times, weights, states, forces }
     }
 }
@@ -155,7 +155,8 @@ mod tests {
 
     /// The integral of a force, by panels that hold it.
     fn integral(span: MotionSpan, fastest: f64, of: impl Fn(f64) -> f64) -> f64 {
-        let panels = span.panels(fastest, &|time| (Vec::new(), vec![of(time)]));
+        let at = |times: &[f64]| times.iter().map(|time| (Vec::new(), vec![of(*time)])).collect();
+        let panels = span.panels(fastest, &at);
         let of_panel = |panel: &MotionPanel| {
             panel.weights.iter().zip(&panel.forces).map(|(weight, force)| weight * force[0]).sum::<f64>()
         };

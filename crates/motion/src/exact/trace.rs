@@ -110,6 +110,9 @@ pub struct Inside {
     pub forces: Vec<f64>,
 }
 
+/// A state and the forces of the elements.
+pub(super) type Noted = (Vec<f64>, Vec<f64>);
+
 /// What is being written down.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tracing {
@@ -138,19 +141,17 @@ impl Tracing {
 
     /// Notes states in a step.
     ///
-    /// * `at`: state and forces at a time.
-    pub(super) fn note(&mut self, span: MotionSpan, at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) {
+    /// * `at`: states and forces at times.
+    pub(super) fn note(&mut self, span: MotionSpan, at: impl Fn(&[f64]) -> Vec<Noted>) {
         if let Some((panels, fastest)) = &mut self.panels {
             panels.extend(span.panels(*fastest, &at));
         }
         let (given, inside) = self.due(span.start, span.length);
-        for time in given {
-            let (state, forces) = at(time);
+        for (state, forces) in at(&given) {
             self.trace.samples.push(state);
             self.trace.forces.push(forces);
         }
-        for time in inside {
-            let (state, forces) = at(time);
+        for (time, (state, forces)) in inside.iter().copied().zip(at(&inside)) {
             self.trace.inside.push(Inside { time, state, forces });
         }
     }

@@ -40,6 +40,10 @@ impl Judge for ShootingProblem {
         stability::pairs_cross_both_ways(before.as_chunks().0, behind.as_chunks().0)
     }
 
+    fn keep_their_sides(&self, before: &[f64], behind: &[f64]) -> bool {
+        stability::pairs_keep_their_sides(before.as_chunks().0, behind.as_chunks().0)
+    }
+
     fn outside(&mut self, events: PathEvents) -> Option<Outside> {
         if !self.watches_stability() {
             return None;

@@ -2,15 +2,20 @@
 //!
 //! A step over which a test function changes its sign ends at the zero instead, found by few probes
 //! (`bracket.rs`). A function may also jump through zero (when what it is made of changes its kind); then the
-//! bracket shrinks and the value does not, and nothing is recorded. Zeros that leave no trace in the signs
-//! are in `hidden_zeros.rs`, functions that say nothing since a part of them stays at zero in
-//! `undecided.rs`.
+//! bracket shrinks and the value does not, and nothing is recorded.
+//!
+//! Most jumps need no search: where as many multipliers lie outside the unit circle behind a smooth step as
+//! before, the path does not turn, and the judge says that all that could cross the circle keep to their
+//! sides.
+//!
+//! Zeros that leave no trace in the signs are in `hidden_zeros.rs`, functions that say nothing since a part
+//! of them stays at zero in `undecided.rs`.
 
 use super::{
     arrival::{Arrival, Counted},
     attempt::Attempt,
     bracket::Bracket,
-    hidden_zeros::{dips, hides_zeros, undoes_zeros},
+    hidden_zeros::{dips, hides_zeros, undoes_zeros, value_before},
     locator::{Locator, Probing},
     undecided::{leave_undecided_out, left_out},
 };
@@ -57,7 +62,8 @@ pub(super) fn stop_at_zeros(
         if is_long && (zeros >= 2 || zeros == 0 && dips(attempt, index)) {
             return Err(StepDoubt::HiddenZeros);
         }
-        if zeros % 2 == 1 && attempt.trial.tests[index].kind == TestKind::SignChange {
+        let changes_sign = zeros % 2 == 1 && attempt.trial.tests[index].kind == TestKind::SignChange;
+        if changes_sign && !nothing_crosses(attempt, &arrival) {
             (arrival, apart) = stop_at_zero(attempt, locator, index, arrival)?;
         }
     }
@@ -66,6 +72,18 @@ pub(super) fn stop_at_zeros(
         return Err(StepDoubt::HiddenZeros);
     }
     Ok(arrival)
+}
+
+/// Whether no multiplier crosses the circle on the way to the trial, evaluated last.
+fn nothing_crosses(attempt: &mut Attempt<'_>, arrival: &Arrival) -> bool {
+    if arrival.events.any() || attempt.changes_signature() {
+        return false;
+    }
+    let Some((least, most)) = attempt.state.outside else { return false };
+    let judge = attempt.problem.judge();
+    least == most
+        && judge.keep_their_sides(&attempt.tests.noted, &attempt.trial.noted)
+        && judge.outside(arrival.events).is_some_and(|here| (here.least, here.most) == (least, most))
 }
 
 /// The zeros that belong to a point that was reached without a look at what lies between.
@@ -286,6 +304,9 @@ fn narrow(
 ) -> Result<Found, StepDoubt> {
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
+    if let Some((earlier, behind)) = value_before(attempt, index) {
+        bracket = bracket.after(behind, ends.low.signum() * earlier);
+    }
     let (mut value, mut counted, mut is_loose) = (ends.low, None, false);
     let ask = asked(attempt, index);
     for probes in 0..MOST_PROBES {
