@@ -250,8 +250,8 @@ impl ExactIntegrator {
         {
             return free(shorter);
         }
-        let accurate = length * self.growth(error).clamp(0.1, MOST_KEPT);
-        if let Some(shorter) = (error > 1.0).then_some(accurate).or_else(|| self.shorter_for_volume(run)) {
+        let accurate = (error > 1.0).then(|| length * self.growth(error).clamp(0.1, MOST_KEPT));
+        if let Some(shorter) = accurate.or_else(|| self.shorter_for_volume(run)) {
             run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);
             return free(shorter);
         }

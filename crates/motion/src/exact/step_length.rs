@@ -31,6 +31,8 @@ use super::{
     step_error::LONGEST_GROWTH,
 };
 
+/// Share of the length at which the error would be at its bound that is taken.
+const CAUTION: f64 = 0.8;
 /// Error of a graded step over half a stiff Hertz contact, relative to its bound at a tolerance of 1e-9, that
 /// of its sensitivities included.
 const HALF_WITH_SENSITIVITIES: f64 = 0.35;
@@ -100,17 +102,18 @@ impl ExactIntegrator {
 
     /// By how much the length of the solved step may change for an error relative to its bound.
     pub(super) fn growth(&self, error: f64) -> f64 {
-        0.8 * allowed(error, self.step.grading())
+        CAUTION * allowed(error, self.step.grading())
     }
 
     /// Notes what an accepted step tells of the lengths of the next ones.
     pub(super) fn plan_next(&self, run: &mut Run, length: f64, error: f64) {
-        let mut growth = self.growth(error);
+        let allowed = allowed(error, self.step.grading());
+        let mut growth = CAUTION * allowed;
         if self.goes_on && is_bold_one_due(run, length) {
             growth = BOLD;
         }
         if self.step.grading() == Grading::Touch {
-            let longest = BACKWARDS * length * allowed(error, Grading::Touch).min(LONGEST_GROWTH);
+            let longest = BACKWARDS * length * allowed.min(LONGEST_GROWTH);
             run.graded = self.resolved_length(longest);
             growth *= SMOOTH_BEARS;
         }

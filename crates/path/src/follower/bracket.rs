@@ -28,15 +28,6 @@ impl Bracket {
         Self { low, high, side: 0, known: vec![low, high], disappointed: false }
     }
 
-    /// With a value at a place before the bracket, larger than that at its beginning and of the same sign: the
-    /// first guess is no secant then.
-    pub fn after(mut self, place: f64, value: f64) -> Self {
-        if value / self.low.1 > 1.0 {
-            self.known.insert(0, (place, value));
-        }
-        self
-    }
-
     pub fn width(&self) -> f64 {
         self.high.0 - self.low.0
     }
@@ -141,18 +132,6 @@ mod tests {
         assert!(probes(|x| 1.0 - (1.0 + 2.0 * x).ln() * 1.4, 1e-12) <= 5);
         assert!(probes(|x| 0.01 - x * x, 1e-12) <= 10);
         assert!(probes(|x| (0.2 - x).cbrt(), 1e-6) <= 40);
-    }
-
-    /// A value before the bracket saves a probe; one that says nothing is left out.
-    #[test]
-    fn a_value_before_it_makes_the_first_guess_better() {
-        let function = |x: f64| 1.0 - (1.0 + 2.0 * x).ln() * 1.4;
-        let bracket = Bracket::new((0.0, function(0.0)), (1.0, function(1.0)));
-        let zero = ((1.0_f64 / 1.4).exp() - 1.0) / 2.0;
-        let off = |bracket: &Bracket| (bracket.next() - zero).abs();
-        assert!(off(&bracket.clone().after(-0.3, function(-0.3))) < 0.5 * off(&bracket));
-        assert_eq!(bracket.clone().after(-0.3, 0.5), bracket);
-        assert_eq!(bracket.clone().after(-0.3, -2.0), bracket);
     }
 
     /// A jump is bracketed as narrowly as is asked for.

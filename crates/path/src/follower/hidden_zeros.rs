@@ -34,24 +34,18 @@ pub(super) fn undoes_zeros(attempt: &mut Attempt<'_>) -> bool {
 /// both sides: the parabola through its values at the last two points and the trial comes closer to zero
 /// inside the step than [`DIP`] of both ends.
 pub(super) fn dips(attempt: &Attempt<'_>, index: usize) -> bool {
-    let Some((first, behind)) = value_before(attempt, index) else { return false };
+    let Some((earlier, behind)) = test_before(attempt, index) else { return false };
+    let (before, after) = (attempt.tests.values[index], attempt.trial.tests[index]);
+    if earlier.count != before.count || earlier.left_out != before.left_out {
+        return false;
+    }
     let ahead = attempt.progress();
-    let [second, third] =
-        [attempt.tests.values[index], attempt.trial.tests[index]].map(|test| test.value.abs());
+    let [first, second, third] = [earlier, before, after].map(|test| test.value.abs());
     let slope = (second - first) / -behind;
     let bend = ((third - second) / ahead - slope) / (ahead - behind);
     let place = 0.5 * (behind - slope / bend);
     let inside = bend > 0.0 && (EDGE * ahead..=(1.0 - EDGE) * ahead).contains(&place);
     inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
-}
-
-/// How large a test function was at the point before the last one, if nothing has crossed zero since, and how
-/// far that lies behind it, which is negative.
-pub(super) fn value_before(attempt: &Attempt<'_>, index: usize) -> Option<(f64, f64)> {
-    let (earlier, behind) = test_before(attempt, index)?;
-    let before = attempt.tests.values[index];
-    let is_same = earlier.count == before.count && earlier.left_out == before.left_out;
-    is_same.then_some((earlier.value.abs(), behind))
 }
 
 /// A test function at the point before the last one, and how far that lies behind it, which is negative;

@@ -15,7 +15,7 @@ use super::{
     arrival::{Arrival, Counted},
     attempt::Attempt,
     bracket::Bracket,
-    hidden_zeros::{dips, hides_zeros, undoes_zeros, value_before},
+    hidden_zeros::{dips, hides_zeros, undoes_zeros},
     locator::{Locator, Probing},
     undecided::{leave_undecided_out, left_out},
 };
@@ -304,9 +304,6 @@ fn narrow(
 ) -> Result<Found, StepDoubt> {
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
-    if let Some((earlier, behind)) = value_before(attempt, index) {
-        bracket = bracket.after(behind, ends.low.signum() * earlier);
-    }
     let (mut value, mut counted, mut is_loose) = (ends.low, None, false);
     let ask = asked(attempt, index);
     for probes in 0..MOST_PROBES {
