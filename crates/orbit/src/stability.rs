@@ -10,7 +10,7 @@
 //! - Fold: the same with `1 - mu_i`, for curves in two parameters.
 //! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of
 //!   pairs outside. Where a pair outside the circle splits into two real multipliers the sign jumps without a
-//!   zero, which is no event ([`pairs_keep_their_sides`]).
+//!   zero, which is no event ([`one_turns_real`]).
 //!
 //! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of
 //! how many lie outside ([`outside`]).
@@ -30,8 +30,8 @@ const ON_CIRCLE: f64 = 1e-7;
 /// circle is not followed in steps below 0.09 rad for that.
 const WITHIN: f64 = 1e-3;
 
-/// Share of the way by the circle from which on a way counts as one that may have touched it.
-const SHORTER: f64 = 0.7;
+/// Share of the way by the circle that is nearly all of it.
+const NEARLY: f64 = 0.7;
 
 /// The most that a distance from -1 counts in [`flip`].
 pub(crate) const MOST_COUNTED: f64 = 1e3;
@@ -155,17 +155,22 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
     leaves && enters
 }
 
-/// Whether complex pairs of multipliers keep to their sides of the unit circle between two neighbouring
-/// points, given by those in the upper half-plane. Which is which is told by their distances, the nearest two
-/// first; the way between them is to be clearly shorter than one by the circle. Nothing is asked of one that
-/// has no other: it turns real, on the side where it is.
-pub(crate) fn pairs_keep_their_sides(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
+/// Whether one complex pair of multipliers outside the unit circle is there at one of two neighbouring points
+/// alone, given by those in the upper half-plane, and no other one has touched the circle. Which is which is
+/// told by their distances, the nearest two first. A pair has touched it if it has changed sides, or has gone
+/// nearly as far as by the circle.
+pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
-    nearest_first(before, behind).into_iter().all(|(from, to)| {
+    let pairs = nearest_first(before, behind);
+    let keeps_away = |&(from, to): &([f64; 2], [f64; 2])| {
         let way = (to[0] - from[0]).hypot(to[1] - from[1]);
         let by_circle = beyond(from).abs() + beyond(to).abs();
-        beyond(from) * beyond(to) > 0.0 && way < SHORTER * by_circle
-    })
+        beyond(from) * beyond(to) > 0.0 && way < NEARLY * by_circle
+    };
+    let has_no_other = |pair: &&[f64; 2]| pairs.iter().all(|(from, to)| from != *pair && to != *pair);
+    let mut alone = before.iter().chain(behind).filter(has_no_other);
+    let is_one_outside = alone.next().is_some_and(|pair| beyond(*pair) > ON_CIRCLE) && alone.next().is_none();
+    is_one_outside && pairs.iter().all(keeps_away)
 }
 
 /// The point nearest to zero of the line between two.
@@ -287,13 +292,16 @@ mod tests {
     }
 
     #[test]
-    fn pairs_keep_their_sides_if_they_move_by_less_than_to_the_circle() {
+    fn one_pair_turns_real_if_the_others_keep_away_from_the_circle() {
         let (inside, outside, turning) = ([0.5, 0.3], [0.9, 1.2], [-3.0, 0.8]);
-        assert!(pairs_keep_their_sides(&[inside, outside, turning], &[[0.92, 1.18], [0.52, 0.33]]));
-        assert!(pairs_keep_their_sides(&[inside], &[turning, [0.52, 0.33]]), "it turns complex");
-        assert!(!pairs_keep_their_sides(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
-        assert!(!pairs_keep_their_sides(&[inside, turning], &[[0.8, 0.7]]), "it left the circle");
-        assert!(!pairs_keep_their_sides(&[[0.9, 0.5], turning], &[[0.5, 0.9]]), "it goes along the circle");
+        assert!(one_turns_real(&[inside, outside, turning], &[[0.92, 1.18], [0.52, 0.33]]));
+        assert!(one_turns_real(&[inside], &[turning, [0.52, 0.33]]), "it turns complex");
+        assert!(!one_turns_real(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
+        assert!(!one_turns_real(&[inside, turning], &[[0.8, 0.7]]), "it left the circle");
+        assert!(!one_turns_real(&[[0.9, 0.5], turning], &[[0.5, 0.9]]), "it goes along the circle");
+        assert!(!one_turns_real(&[inside, outside], &[outside]), "the one that lacks is inside");
+        assert!(!one_turns_real(&[outside, turning], &[]), "two of them");
+        assert!(!one_turns_real(&[outside], &[[0.92, 1.18]]), "none");
     }
 
     #[test]

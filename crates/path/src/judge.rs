@@ -74,7 +74,7 @@ pub trait Judge {
     }
 
     /// Numbers, asked for with the test functions, by which [`hides_zeros`](Self::hides_zeros) and
-    /// [`keep_their_sides`](Self::keep_their_sides) compare a point with the next.
+    /// [`jumps`](Self::jumps) compare a point with the next.
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
     }
@@ -89,10 +89,10 @@ pub trait Judge {
         false
     }
 
-    /// Whether all that makes a test function vanish stays on its side of zero between two neighbouring points
-    /// of one smooth arc, by the numbers noted there: a sign that changes then jumps.
-    fn keep_their_sides(&self, before: &[f64], behind: &[f64]) -> bool {
-        let _ = (before, behind);
+    /// Whether a test function jumped between two neighbouring points of one smooth arc, at which it has
+    /// different signs, since what it is made of changed its kind; by the numbers noted there.
+    fn jumps(&self, index: usize, before: &[f64], behind: &[f64]) -> bool {
+        let _ = (index, before, behind);
         false
     }
 

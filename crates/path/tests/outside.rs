@@ -11,13 +11,13 @@ struct Multiplied<P> {
     path: P,
     multipliers: fn(f64) -> Vec<(f64, f64)>,
     x: f64,
-    /// What it says when asked whether all keep to their sides.
-    keep_their_sides: bool,
+    /// What it says when asked whether its function jumped.
+    jumps: bool,
 }
 
 impl<P> Multiplied<P> {
     fn new(path: P, multipliers: fn(f64) -> Vec<(f64, f64)>) -> Self {
-        Self { path, multipliers, x: 0.0, keep_their_sides: false }
+        Self { path, multipliers, x: 0.0, jumps: false }
     }
 }
 
@@ -85,8 +85,8 @@ impl<P: PathProblem> PathProblem for Multiplied<P> {
 }
 
 impl<P: PathProblem> Judge for Multiplied<P> {
-    fn keep_their_sides(&self, _: &[f64], _: &[f64]) -> bool {
-        self.keep_their_sides
+    fn jumps(&self, _: usize, _: &[f64], _: &[f64]) -> bool {
+        self.jumps
     }
 
     fn outside(&mut self, events: PathEvents) -> Option<Outside> {
@@ -164,18 +164,28 @@ fn both_crossings_are_found_within_a_step_that_would_do_for_a_change_of_signatur
     assert_both_crossings(Settings { signature_step: 0.1, ..steps_of(0.3) });
 }
 
-/// A pair outside the circle that turns real, as the sign of the test function does not tell, is searched
-/// unless the judge knows that nothing crosses.
+/// A pair outside the circle that turns real is searched for a crossing, unless the judge knows better.
 #[test]
 fn a_jump_that_the_judge_knows_is_not_searched() {
     let turning = |x: f64| pair(-3.0 - 2.0 * (x - OUT_AND_IN.0), 9.0);
-    let evaluations = |keep_their_sides: bool| {
+    let evaluations = |jumps: bool| {
         let path = crate::support::graph(|x| (x, 1.0, 0));
-        let problem = Multiplied { keep_their_sides, ..Multiplied::new(path, turning) };
+        let problem = Multiplied { jumps, ..Multiplied::new(path, turning) };
         let (found, branch) = zeros(problem, [-0.9, -0.9], steps_of(0.3));
         assert_eq!(found.len(), 0, "{found:?}");
         branch.counters.evaluations
     };
     let (searched, known) = (evaluations(false), evaluations(true));
     assert!(known + 8 < searched, "{known} and {searched} evaluations");
+}
+
+/// What crosses the circle is searched whatever the judge says: the numbers outside tell.
+#[test]
+fn a_crossing_that_the_judge_takes_for_a_jump_is_found() {
+    for start in [-0.9, 0.9] {
+        let problem = Multiplied { jumps: true, ..normal() };
+        let (found, _) = zeros(problem, [start, -start * start], steps_of(0.1));
+        assert_eq!(found.len(), 1, "from {start}: {found:?}");
+        assert!((found[0] - CROSSING).abs() < 1e-9, "{found:?}");
+    }
 }

@@ -84,24 +84,26 @@ impl Blocks {
         });
     }
 
-    /// Block states of the free motion from `start` at these times after it.
+    /// Block states of a free motion, which was `start` at the time `since`, at later times.
     ///
-    /// Where the times are equally far apart, as those of a picture are, a state follows from the one before
-    /// by the propagators of one step, which are made once; every [`IN_A_ROW`]th comes from the start, so that
-    /// rounding does not grow.
-    pub fn states_at(&self, start: &[f64], times: &[f64]) -> Vec<Vec<f64>> {
+    /// Where the times are equally far apart, as those of a picture are, a state follows from the one
+    /// before by the propagators of one step, which are made once. Every [`IN_A_ROW`]th comes from the
+    /// start, so that rounding does not grow.
+    pub fn states_at(&self, (start, since): (&[f64], f64), times: &[f64]) -> Vec<Vec<f64>> {
         let mut states: Vec<Vec<f64>> = Vec::with_capacity(times.len());
         let mut propagators = Vec::new();
         for row in times.chunks(IN_A_ROW) {
             let step = equal_step(row);
-            self.propagators(step.unwrap_or_default(), &mut propagators);
+            if let Some(step) = step {
+                self.propagators(step, &mut propagators);
+            }
             for (k, &time) in row.iter().enumerate() {
                 let follows = k > 0 && step.is_some();
                 let mut state = if follows { states[states.len() - 1].clone() } else { start.to_vec() };
                 if follows {
                     self.apply(&propagators, &mut state);
                 } else {
-                    self.carry(&mut state, time);
+                    self.carry(&mut state, (time - since).max(0.0));
                 }
                 states.push(state);
             }
@@ -110,7 +112,7 @@ impl Blocks {
     }
 
     /// Takes a block state over the time of these propagators.
-    fn apply(&self, propagators: &[Propagator], state: &mut [f64]) {
+    pub fn apply(&self, propagators: &[Propagator], state: &mut [f64]) {
         let n = self.count();
         for (i, propagator) in propagators.iter().enumerate() {
             (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
@@ -228,18 +230,25 @@ mod tests {
     fn states_at_equal_steps_are_those_from_the_start() {
         let blocks = Blocks::of(vec![(1.0, 0.02), (1e6, 30.0), (17.0, 40.0), (0.0, 0.0), (5e3, 0.0)], None);
         let start: Vec<f64> = (0..10).map(|i| f64::from(i + 1).sin()).collect();
-        let equal: Vec<f64> = (0..300).map(|k| f64::from(k) / 384.0 / 33.3 + 0.001).collect();
-        let uneven: Vec<f64> = equal.iter().map(|time| time * time).collect();
-        assert!(equal_step(&equal).is_some() && equal_step(&uneven).is_none());
-        for times in [equal, uneven] {
-            for (found, time) in blocks.states_at(&start, &times).iter().zip(&times) {
+        // Phases of a picture at 33.3 Hz, over a flight that begins early and one that begins late.
+        let phases = |from: i32, to: i32| (from..to).map(|k| f64::from(k) / 384.0 / 33.3).collect::<Vec<_>>();
+        let uneven: Vec<f64> = phases(0, 100).iter().map(|time| time * time).collect();
+        assert!(equal_step(&uneven).is_none() && equal_step(&phases(3, 5)).is_none());
+        for (times, since) in [(phases(1, 300), 0.0), (phases(301, 384), 0.0235), (uneven, 0.0)] {
+            if since > 0.0 {
+                assert!(equal_step(&times[..IN_A_ROW]).is_some());
+            }
+            let states = blocks.states_at((&start, since), &times);
+            assert_eq!(states.len(), times.len());
+            for (found, time) in states.iter().zip(&times) {
                 let mut expected = start.clone();
-                blocks.carry(&mut expected, *time);
-                // Velocities are as large as 1e3; a time known to 1e-16 of itself turns a block by 1e-14.
+                blocks.carry(&mut expected, time - since);
+                // Velocities are as large as 1e3, and a time is known to 1e-16 of it.
                 let error = found.iter().zip(&expected).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs()));
-                assert!(error < 1e-10, "{time}: {error}");
+                assert!(error < 3e-11, "{time}: {error}");
             }
         }
+        assert!(blocks.states_at((&start, 0.0), &[]).is_empty());
     }
 
     #[test]

@@ -197,8 +197,8 @@ impl<'a> FlightFunction<'a> {
             let mut value = self.driven(place as f64 * step)[0];
             for i in 0..n {
                 value += self.rows[0][i] * state[i] + self.rows[0][n + i] * state[n + i];
-                (state[i], state[n + i]) = propagators[i].apply(state[i], state[n + i]);
             }
+            blocks.apply(&propagators, &mut state);
             values.push(value);
         }
         values

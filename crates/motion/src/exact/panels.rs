@@ -16,7 +16,7 @@
 
 use std::sync::OnceLock;
 
-use super::{collocation::Grading, recurrence::gauss_sixteen, trace::Noted};
+use super::{collocation::Grading, recurrence::gauss_sixteen, trace::StateAndForces};
 
 /// Nodes of a panel.
 pub const PANEL_NODES: usize = 16;
@@ -56,7 +56,7 @@ impl MotionSpan {
     /// Its panels.
     ///
     /// * `fastest`: rate of what moves fastest [1/s]; `at`: states and forces at times.
-    pub fn panels(self, fastest: f64, at: &impl Fn(&[f64]) -> Vec<Noted>) -> Vec<MotionPanel> {
+    pub fn panels(self, fastest: f64, at: &impl Fn(&[f64]) -> Vec<StateAndForces>) -> Vec<MotionPanel> {
         let mut panels = Vec::new();
         let turns = fastest * self.length / PANEL_RADIANS;
         let count = if self.length > 0.0 { turns.ceil().max(1.0) as usize } else { 0 };
@@ -75,7 +75,7 @@ impl MotionSpan {
         self,
         (panel, (from, to)): (MotionPanel, (f64, f64)),
         (scales, halvings): (&[f64], usize),
-        at: &impl Fn(&[f64]) -> Vec<Noted>,
+        at: &impl Fn(&[f64]) -> Vec<StateAndForces>,
         panels: &mut Vec<MotionPanel>,
     ) {
         if halvings == 0 || holds_forces(&panel, scales) {
@@ -89,7 +89,7 @@ impl MotionSpan {
     }
 
     /// The panel between two places of the variable of the grading.
-    fn panel(self, (from, to): (f64, f64), at: &impl Fn(&[f64]) -> Vec<Noted>) -> MotionPanel {
+    fn panel(self, (from, to): (f64, f64), at: &impl Fn(&[f64]) -> Vec<StateAndForces>) -> MotionPanel {
         let (mut times, mut weights) = ([0.0; PANEL_NODES], [0.0; PANEL_NODES]);
         for (k, (x, weight)) in gauss_sixteen().iter().enumerate() {
             let (c, slope) = self.grading.map(from + (to - from) * x);

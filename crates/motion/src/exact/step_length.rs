@@ -107,13 +107,13 @@ impl ExactIntegrator {
 
     /// Notes what an accepted step tells of the lengths of the next ones.
     pub(super) fn plan_next(&self, run: &mut Run, length: f64, error: f64) {
-        let allowed = allowed(error, self.step.grading());
-        let mut growth = CAUTION * allowed;
+        let to_bound = allowed(error, self.step.grading());
+        let mut growth = CAUTION * to_bound;
         if self.goes_on && is_bold_one_due(run, length) {
             growth = BOLD;
         }
         if self.step.grading() == Grading::Touch {
-            let longest = BACKWARDS * length * allowed.min(LONGEST_GROWTH);
+            let longest = BACKWARDS * length * to_bound.min(LONGEST_GROWTH);
             run.graded = self.resolved_length(longest);
             growth *= SMOOTH_BEARS;
         }

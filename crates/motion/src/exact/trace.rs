@@ -111,7 +111,7 @@ pub struct Inside {
 }
 
 /// A state and the forces of the elements.
-pub(super) type Noted = (Vec<f64>, Vec<f64>);
+pub(super) type StateAndForces = (Vec<f64>, Vec<f64>);
 
 /// What is being written down.
 #[derive(Debug, Clone, Default)]
@@ -142,7 +142,7 @@ impl Tracing {
     /// Notes states in a step.
     ///
     /// * `at`: states and forces at times.
-    pub(super) fn note(&mut self, span: MotionSpan, at: impl Fn(&[f64]) -> Vec<Noted>) {
+    pub(super) fn note(&mut self, span: MotionSpan, at: impl Fn(&[f64]) -> Vec<StateAndForces>) {
         if let Some((panels, fastest)) = &mut self.panels {
             panels.extend(span.panels(*fastest, &at));
         }

@@ -18,14 +18,13 @@ impl ExactIntegrator {
         tracing.end_open(run);
         let span = MotionSpan { start: run.time, length: duration, grading: Grading::Smooth };
         tracing.note(span, |times| {
-            let flown: Vec<f64> = times.iter().map(|time| (time - run.time).max(0.0)).collect();
-            let states = self.blocks.states_at(&self.flight_start, &flown);
-            let noted = |(state, &time): (Vec<f64>, &f64)| {
+            let states = self.blocks.states_at((&self.flight_start, run.time), times);
+            let read = |(state, &time): (Vec<f64>, &f64)| {
                 let pressing = self.pressing_forces(run, &state, time);
                 let forces = pressing.into_iter().map(|force| 0.0 - force).collect();
                 (self.modal_of(state, time), forces)
             };
-            states.into_iter().zip(times).map(noted).collect()
+            states.into_iter().zip(times).map(read).collect()
         });
         if !run.stuck.is_empty() {
             self.trace_held(run, duration, &mut tracing);
@@ -89,13 +88,13 @@ impl ExactIntegrator {
         tracing.end_open(run);
         let (length, grading) = (self.step.length, self.step.grading());
         tracing.note(MotionSpan { start: run.time, length, grading }, |times| {
-            let noted = |&time: &f64| {
+            let read = |&time: &f64| {
                 let mut state = run.state.clone();
                 self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
                 let forces = self.forces_of(run, &state, time);
                 (self.modal_of(state, time), forces)
             };
-            times.iter().map(noted).collect()
+            times.iter().map(read).collect()
         });
         for (a, &element) in self.step.active.iter().enumerate() {
             let Some(piece) = tracing.open[element] else { continue };

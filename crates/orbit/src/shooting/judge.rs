@@ -16,6 +16,8 @@ use super::{
 };
 use crate::{by_rows::norm, corner, stability};
 
+/// Index of the test function of complex pairs.
+const NEIMARK_SACKER: usize = 1;
 /// Images that are known less well tell nothing.
 const MOST_MAGNIFIED: f64 = 1e3;
 
@@ -40,8 +42,9 @@ impl Judge for ShootingProblem {
         stability::pairs_cross_both_ways(before.as_chunks().0, behind.as_chunks().0)
     }
 
-    fn keep_their_sides(&self, before: &[f64], behind: &[f64]) -> bool {
-        stability::pairs_keep_their_sides(before.as_chunks().0, behind.as_chunks().0)
+    /// The function of complex pairs does where one of them becomes two real multipliers.
+    fn jumps(&self, index: usize, before: &[f64], behind: &[f64]) -> bool {
+        index == NEIMARK_SACKER && stability::one_turns_real(before.as_chunks().0, behind.as_chunks().0)
     }
 
     fn outside(&mut self, events: PathEvents) -> Option<Outside> {

@@ -4,9 +4,8 @@
 //! (`bracket.rs`). A function may also jump through zero (when what it is made of changes its kind); then the
 //! bracket shrinks and the value does not, and nothing is recorded.
 //!
-//! Most jumps need no search: where as many multipliers lie outside the unit circle behind a smooth step as
-//! before, the path does not turn, and the judge says that all that could cross the circle keep to their
-//! sides.
+//! Most jumps need no search: the judge knows them, the path does not turn, as many multipliers lie outside
+//! the unit circle behind the step as before, and no other function tells of any that crossed.
 //!
 //! Zeros that leave no trace in the signs are in `hidden_zeros.rs`, functions that say nothing since a part
 //! of them stays at zero in `undecided.rs`.
@@ -63,7 +62,7 @@ pub(super) fn stop_at_zeros(
             return Err(StepDoubt::HiddenZeros);
         }
         let changes_sign = zeros % 2 == 1 && attempt.trial.tests[index].kind == TestKind::SignChange;
-        if changes_sign && !nothing_crosses(attempt, &arrival) {
+        if changes_sign && !jumps(attempt, index, &arrival) {
             (arrival, apart) = stop_at_zero(attempt, locator, index, arrival)?;
         }
     }
@@ -74,16 +73,19 @@ pub(super) fn stop_at_zeros(
     Ok(arrival)
 }
 
-/// Whether no multiplier crosses the circle on the way to the trial, evaluated last.
-fn nothing_crosses(attempt: &mut Attempt<'_>, arrival: &Arrival) -> bool {
-    if arrival.events.any() || attempt.changes_signature() {
-        return false;
-    }
-    let Some((least, most)) = attempt.state.outside else { return false };
+/// Whether a test function, the sign of which is another one at the trial, evaluated last, has jumped on the
+/// way there.
+fn jumps(attempt: &mut Attempt<'_>, index: usize, arrival: &Arrival) -> bool {
+    let is_plain = !arrival.events.any() && arrival.parameter_sign.is_none() && !attempt.changes_signature();
+    let beside_zero = attempt.state.current.events.zeros | attempt.tests.zeros_near | arrival.zeros_near;
+    let pairs = attempt.tests.pairs(&attempt.trial.tests).enumerate();
+    let others_stay = pairs.filter(|(k, _)| *k != index).all(|(_, (a, b))| a.count == b.count);
+    let Some((least, most)) = attempt.state.outside.filter(|_| is_plain && others_stay) else { return false };
     let judge = attempt.problem.judge();
     least == most
-        && judge.keep_their_sides(&attempt.tests.noted, &attempt.trial.noted)
+        && !has_bit(beside_zero, index)
         && judge.outside(arrival.events).is_some_and(|here| (here.least, here.most) == (least, most))
+        && judge.jumps(index, &attempt.tests.noted, &attempt.trial.noted)
 }
 
 /// The zeros that belong to a point that was reached without a look at what lies between.
