@@ -168,9 +168,8 @@ pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
         beyond(from) * beyond(to) > 0.0 && way < NEARLY * by_circle
     };
     let has_no_other = |pair: &&[f64; 2]| pairs.iter().all(|(from, to)| from != *pair && to != *pair);
-    let mut alone = before.iter().chain(behind).filter(has_no_other);
-    let is_one_outside = alone.next().is_some_and(|pair| beyond(*pair) > ON_CIRCLE) && alone.next().is_none();
-    is_one_outside && pairs.iter().all(keeps_away)
+    let alone = before.iter().chain(behind).filter(has_no_other);
+    alone.filter(|pair| beyond(**pair) > 0.0).count() == 1 && pairs.iter().all(keeps_away)
 }
 
 /// The point nearest to zero of the line between two.
@@ -300,6 +299,7 @@ mod tests {
         assert!(!one_turns_real(&[inside, turning], &[[0.8, 0.7]]), "it left the circle");
         assert!(!one_turns_real(&[[0.9, 0.5], turning], &[[0.5, 0.9]]), "it goes along the circle");
         assert!(!one_turns_real(&[inside, outside], &[outside]), "the one that lacks is inside");
+        assert!(one_turns_real(&[inside, [0.1, 0.2], turning], &[inside]), "another one does so inside");
         assert!(!one_turns_real(&[outside, turning], &[]), "two of them");
         assert!(!one_turns_real(&[outside], &[[0.92, 1.18]]), "none");
     }
