@@ -155,21 +155,23 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
     leaves && enters
 }
 
-/// Whether one complex pair of multipliers outside the unit circle is there at one of two neighbouring points
-/// alone, given by those in the upper half-plane, and no other one has touched the circle. Which is which is
-/// told by their distances, the nearest two first. A pair has touched it if it has changed sides, or has gone
-/// nearly as far as by the circle.
+/// Whether there is one complex pair of multipliers more outside the unit circle at one of two neighbouring
+/// points than at the other, and none of those on the same side at both has touched it. Which is which is told
+/// by their distances, the nearest two first. One has touched it if it has gone nearly as far as by the circle.
+///
+/// * `before`, `behind`: the pairs by those in the upper half-plane.
 pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
-    let pairs = nearest_first(before, behind);
-    let keeps_away = |&(from, to): &([f64; 2], [f64; 2])| {
+    let keeps_away = |(from, to): ([f64; 2], [f64; 2])| {
         let way = (to[0] - from[0]).hypot(to[1] - from[1]);
-        let by_circle = beyond(from).abs() + beyond(to).abs();
-        beyond(from) * beyond(to) > 0.0 && way < NEARLY * by_circle
+        way < NEARLY * (beyond(from).abs() + beyond(to).abs())
     };
-    let has_no_other = |pair: &&[f64; 2]| pairs.iter().all(|(from, to)| from != *pair && to != *pair);
-    let alone = before.iter().chain(behind).filter(has_no_other);
-    alone.filter(|pair| beyond(**pair) > 0.0).count() == 1 && pairs.iter().all(keeps_away)
+    let of_side = |pairs: &[[f64; 2]], outside: bool| -> Vec<[f64; 2]> {
+        pairs.iter().copied().filter(|pair| (beyond(*pair) > 0.0) == outside).collect()
+    };
+    let [inside, outside] = [false, true].map(|outside| [before, behind].map(|all| of_side(all, outside)));
+    outside[0].len().abs_diff(outside[1].len()) == 1
+        && [inside, outside].iter().all(|[from, to]| nearest_first(from, to).into_iter().all(keeps_away))
 }
 
 /// The point nearest to zero of the line between two.
@@ -295,11 +297,14 @@ mod tests {
         let (inside, outside, turning) = ([0.5, 0.3], [0.9, 1.2], [-3.0, 0.8]);
         assert!(one_turns_real(&[inside, outside, turning], &[[0.92, 1.18], [0.52, 0.33]]));
         assert!(one_turns_real(&[inside], &[turning, [0.52, 0.33]]), "it turns complex");
-        assert!(!one_turns_real(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
-        assert!(!one_turns_real(&[inside, turning], &[[0.8, 0.7]]), "it left the circle");
-        assert!(!one_turns_real(&[[0.9, 0.5], turning], &[[0.5, 0.9]]), "it goes along the circle");
-        assert!(!one_turns_real(&[inside, outside], &[outside]), "the one that lacks is inside");
         assert!(one_turns_real(&[inside, [0.1, 0.2], turning], &[inside]), "another one does so inside");
+        assert!(
+            one_turns_real(&[inside, turning], &[inside, [0.1, 0.2]]),
+            "another one turns complex inside"
+        );
+        assert!(!one_turns_real(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
+        assert!(!one_turns_real(&[[0.9, 1.2], turning], &[[-0.9, 1.2]]), "it may have been inside");
+        assert!(!one_turns_real(&[inside, outside], &[outside]), "the one that lacks is inside");
         assert!(!one_turns_real(&[outside, turning], &[]), "two of them");
         assert!(!one_turns_real(&[outside], &[[0.92, 1.18]]), "none");
     }
