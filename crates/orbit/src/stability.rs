@@ -33,6 +33,10 @@ const WITHIN: f64 = 1e-3;
 /// Share of the way by the circle that is nearly all of it.
 const NEARLY: f64 = 0.7;
 
+/// How far from the real axis, as a multiple of what it is beyond the circle, a pair may be taken for one that
+/// turns real: one beside the circle may have entered it before.
+const AT_AXIS: f64 = 2.0;
+
 /// The most that a distance from -1 counts in [`flip`].
 pub(crate) const MOST_COUNTED: f64 = 1e3;
 
@@ -156,22 +160,29 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
 }
 
 /// Whether there is one complex pair of multipliers more outside the unit circle at one of two neighbouring
-/// points than at the other, and none of those on the same side at both has touched it. Which is which is told
-/// by their distances, the nearest two first. One has touched it if it has gone nearly as far as by the circle.
+/// points than at the other, which is nearer to the real axis than by [`AT_AXIS`] of what it is beyond the
+/// circle, and none of those on the same side at both has touched it. Which is which is told by their
+/// distances, the nearest two first. One has touched it if it has gone nearly as far as by the circle.
 ///
 /// * `before`, `behind`: the pairs by those in the upper half-plane.
 pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
-    let keeps_away = |(from, to): ([f64; 2], [f64; 2])| {
+    let keeps_away = |&(from, to): &([f64; 2], [f64; 2])| {
         let way = (to[0] - from[0]).hypot(to[1] - from[1]);
         way < NEARLY * (beyond(from).abs() + beyond(to).abs())
     };
-    let of_side = |pairs: &[[f64; 2]], outside: bool| -> Vec<[f64; 2]> {
-        pairs.iter().copied().filter(|pair| (beyond(*pair) > 0.0) == outside).collect()
+    let on_side = |outside: bool| {
+        let of = |all: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            all.iter().copied().filter(|pair| (beyond(*pair) > 0.0) == outside).collect()
+        };
+        [of(before), of(behind)]
     };
-    let [inside, outside] = [false, true].map(|outside| [before, behind].map(|all| of_side(all, outside)));
-    outside[0].len().abs_diff(outside[1].len()) == 1
-        && [inside, outside].iter().all(|[from, to]| nearest_first(from, to).into_iter().all(keeps_away))
+    let ([from, to], [inside_from, inside_to]) = (on_side(true), on_side(false));
+    let (outside, inside) = (nearest_first(&from, &to), nearest_first(&inside_from, &inside_to));
+    let has_no_other = |pair: &&[f64; 2]| outside.iter().all(|(a, b)| a != *pair && b != *pair);
+    let mut alone = from.iter().chain(&to).filter(has_no_other);
+    let is_at_axis = alone.next().is_some_and(|pair| pair[1] < AT_AXIS * beyond(*pair));
+    is_at_axis && alone.next().is_none() && outside.iter().chain(&inside).all(keeps_away)
 }
 
 /// The point nearest to zero of the line between two.
@@ -305,6 +316,7 @@ mod tests {
         assert!(!one_turns_real(&[inside, turning], &[[0.5, -0.3]]), "it may have been outside");
         assert!(!one_turns_real(&[[0.9, 1.2], turning], &[[-0.9, 1.2]]), "it may have been inside");
         assert!(!one_turns_real(&[inside, outside], &[outside]), "the one that lacks is inside");
+        assert!(!one_turns_real(&[[-1.0, 0.06]], &[]), "it is beside the circle");
         assert!(!one_turns_real(&[outside, turning], &[]), "two of them");
         assert!(!one_turns_real(&[outside], &[[0.92, 1.18]]), "none");
     }

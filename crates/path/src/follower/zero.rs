@@ -4,8 +4,8 @@
 //! (`bracket.rs`). A function may also jump through zero (when what it is made of changes its kind); then the
 //! bracket shrinks and the value does not, and nothing is recorded.
 //!
-//! Most jumps need no search: the judge knows them, the path does not turn, as many multipliers lie outside
-//! the unit circle behind the step as before, and no other function tells of any that crossed.
+//! Most jumps need no search: the judge knows them, the path goes straight on, and as many multipliers lie
+//! outside the unit circle behind the step as before.
 //!
 //! Zeros that leave no trace in the signs are in `hidden_zeros.rs`, functions that say nothing since a part
 //! of them stays at zero in `undecided.rs`.
@@ -78,9 +78,7 @@ pub(super) fn stop_at_zeros(
 fn jumps(attempt: &mut Attempt<'_>, index: usize, arrival: &Arrival) -> bool {
     let is_plain = !arrival.events.any() && arrival.parameter_sign.is_none() && !attempt.changes_signature();
     let beside_zero = attempt.state.current.events.zeros | attempt.tests.zeros_near | arrival.zeros_near;
-    let pairs = attempt.tests.pairs(&attempt.trial.tests).enumerate();
-    let others_stay = pairs.filter(|(k, _)| *k != index).all(|(_, (a, b))| a.count == b.count);
-    let Some((least, most)) = attempt.state.outside.filter(|_| is_plain && others_stay) else { return false };
+    let Some((least, most)) = attempt.state.outside.filter(|_| is_plain) else { return false };
     let judge = attempt.problem.judge();
     least == most
         && !has_bit(beside_zero, index)
