@@ -24,15 +24,17 @@ fn five() -> &'static Mutex<(Results, TempDir)> {
     })
 }
 
-/// Impacts span 1.8 kHz of 50 kHz, and the search looks every 2.1 kHz. The study asks for up to three
-/// periods.
+/// Impacts span 5 kHz of 50 kHz, and the survey looks every 2.1 kHz. The study asks for up to three periods.
+/// One motion of three periods is stable from 66.50 to 66.82 kHz, beside one without contact.
 #[test]
 fn a_stable_solution_of_three_periods_within_narrow_impacts_is_on_a_branch() {
     let folder = tempfile::tempdir().unwrap();
     let results = Results::of_run(SWITCH, folder.path(), 2).unwrap();
     let effort = SimulationEffort { states: 24, longest: 3, patience: 1200 };
-    let report = check_at(&results, None, &[63.5e3, 63.6e3, 63.9e3, 64.7e3, 65.5e3], &effort, 1).unwrap();
-    assert!(report.found[3] >= 2, "{report:?}");
+    let report =
+        check_at(&results, None, &[63.5e3, 63.6e3, 63.9e3, 64.7e3, 65.5e3, 66.65e3, 66.75e3], &effort, 1)
+            .unwrap();
+    assert!(report.found[3] >= 4, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
 

@@ -33,8 +33,8 @@ const WITHIN: f64 = 1e-3;
 /// Share of the way by the circle that is nearly all of it.
 const NEARLY: f64 = 0.7;
 
-/// How far from the real axis, as a multiple of what it is beyond the circle, a pair may be taken for one that
-/// turns real: one beside the circle may have entered it before.
+/// How far from the real axis, as a multiple of what it is beyond the circle, a pair may be that is taken for
+/// one that turns real: one beside the circle may have entered it before.
 const AT_AXIS: f64 = 2.0;
 
 /// The most that a distance from -1 counts in [`flip`].

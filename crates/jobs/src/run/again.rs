@@ -1,5 +1,5 @@
-//! Where to look again: frequencies at which no stable solution is known, and those at which a contact of a
-//! stable solution appears or vanishes.
+//! Where to look again: frequencies at which no stable solution is known, those at which a contact of a
+//! stable solution appears or vanishes, and narrow ranges with contacts.
 //!
 //! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic,
 //! quasi-periodic, of a period that is not looked for, or on a branch that is missed. Between two successive
@@ -12,6 +12,10 @@
 //! A grazing may have other attractors beside it although the solution that grazes stays stable. Where the
 //! number of contacts changes between two successive stable rows, the first round looks there, too, unless a
 //! search was near.
+//!
+//! Contacts that are made over a narrow range, at a resonance say, can have many attractors there, although
+//! the motion without contact is stable beside them. Where that range has no more than [`NARROW`] parts of the
+//! survey, or of [`PARTS`] of all, the first round halves it until no part is wider than one in [`PARTS`].
 
 use hammerbeam_orbit::Side;
 use hammerbeam_results::store::JobKind;
@@ -29,6 +33,11 @@ const ROUND: usize = 6;
 const NARROWEST: f64 = 1e-4;
 /// A search within this part of that distance from a change of contacts is near.
 const NEAR: f64 = 0.125;
+
+/// Parts of the survey that a narrow range with contacts has at most,
+const NARROW: f64 = 4.0;
+/// and the parts into which searches cut it.
+const PARTS: usize = 16;
 
 /// Kinds of these jobs.
 pub(super) const KINDS: [JobKind; 2] = [JobKind::NoneStable, JobKind::ContactChange];
@@ -49,8 +58,14 @@ pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i6
     let none_stable = places(&intervals, looked_at.clone(), NARROWEST * width, effort);
     looked_at.extend(&none_stable);
     let is_first = done == 0 && of(JobKind::ContactChange).count() == 0;
-    let most = if is_first { ROUND.min(plan.survey_hz.len()) } else { 0 };
-    let contact_changes = apart(changes_of_contacts(agenda), looked_at, NEAR * width, most);
+    let most = if is_first { plan.survey_hz.len() } else { 0 };
+    let mut contact_changes =
+        apart(changes_of_contacts(agenda), looked_at.clone(), NEAR * width, ROUND.min(most));
+    looked_at.extend(&contact_changes);
+    let mut in_contact = with_contacts(agenda, plan.range_hz);
+    let part = width.min((plan.range_hz[1] - plan.range_hz[0]) / PARTS as f64);
+    in_contact.retain(|[low, high]| high - low <= NARROW * part);
+    contact_changes.extend(cut_finely(&in_contact, looked_at, most));
     let all = [(JobKind::NoneStable, none_stable), (JobKind::ContactChange, contact_changes)];
     all.into_iter().flat_map(|(kind, places)| places.into_iter().map(move |at| (kind, at, None, 0))).collect()
 }
@@ -78,6 +93,28 @@ fn stable_stretches(agenda: &Agenda) -> Vec<[f64; 2]> {
 fn changes_of_contacts(agenda: &Agenda) -> impl Iterator<Item = f64> {
     let changes = stable_pairs(agenda).filter(|pair| pair[0].contacts != pair[1].contacts);
     changes.map(|pair| pair[0].frequency_hz)
+}
+
+/// Ranges of the frequency over which a branch has contacts, ascending.
+fn with_contacts(agenda: &Agenda, range_hz: [f64; 2]) -> Vec<[f64; 2]> {
+    let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
+    let pairs = sides.flat_map(|walk| walk.rows.windows(2));
+    let closed = pairs.filter(|pair| pair[0].contacts > 0 && pair[1].contacts > 0);
+    let stretches: Vec<[f64; 2]> = closed.map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect();
+    uncovered(&uncovered(&stretches, range_hz), range_hz)
+}
+
+/// Frequencies, at most so many, that cut each range into [`PARTS`] with those that were looked at.
+fn cut_finely(ranges: &[[f64; 2]], mut looked_at: Vec<f64>, most: usize) -> Vec<f64> {
+    let mut found = Vec::new();
+    for range in ranges {
+        let left = most - found.len();
+        let narrowest = (range[1] - range[0]) / PARTS as f64;
+        let cuts = places(&[*range], looked_at.clone(), narrowest, Effort { most: left, halvings: left });
+        looked_at.extend(&cuts);
+        found.extend(cuts);
+    }
+    found
 }
 
 /// The first so many frequencies that lie this far from what was looked at, and from each other.
@@ -196,6 +233,16 @@ mod tests {
         let found = |most| apart([1.0, 1.05, 2.0, 3.0, 0.5].into_iter(), vec![2.1, 7.0], 0.2, most);
         assert_eq!(found(6), [1.0, 3.0, 0.5]);
         assert_eq!(found(2), [1.0, 3.0]);
+    }
+
+    #[test]
+    fn a_narrow_range_is_cut_until_no_part_is_wider_than_one_in_sixteen() {
+        let cuts = cut_finely(&[[0.0, 16.0], [20.0, 20.0]], vec![3.0, 12.5], 99);
+        let mut all = [&cuts[..], &[0.0, 3.0, 12.5, 16.0]].concat();
+        all.sort_by(f64::total_cmp);
+        assert!(all.windows(2).all(|pair| pair[1] - pair[0] <= 1.0 && pair[1] - pair[0] > 0.4), "{all:?}");
+        assert_eq!(cut_finely(&[[0.0, 16.0], [20.0, 36.0]], vec![], 20).len(), 20);
+        assert!(cut_finely(&[[0.0, 16.0]], vec![], 0).is_empty());
     }
 
     #[test]
