@@ -14,8 +14,9 @@
 //! search was near.
 //!
 //! Contacts that are made over a narrow range, at a resonance say, can have many attractors there, although
-//! the motion without contact is stable beside them. Where that range has no more than [`NARROW`] parts of the
-//! survey, or of [`PARTS`] of all, the first round halves it until no part is wider than one in [`PARTS`].
+//! the motion without contact is stable beside them. Where that range has no more than [`NARROW`] parts of
+//! the survey, or of [`PARTS`] of all, the first round halves it until no part is wider than one in
+//! [`PARTS`].
 
 use hammerbeam_orbit::Side;
 use hammerbeam_results::store::JobKind;
