@@ -16,7 +16,7 @@
 
 use std::sync::OnceLock;
 
-use super::{collocation::Grading, recurrence::gauss_sixteen, trace::StateAndForces};
+use super::{collocation::Grading, recurrence::gauss_sixteen};
 
 /// Nodes of a panel.
 pub const PANEL_NODES: usize = 16;
@@ -26,6 +26,9 @@ const PANEL_RADIANS: f64 = 4.0;
 const LEFT: f64 = 1e-12;
 /// and how often panels are halved to get there.
 const HALVINGS: usize = 12;
+
+/// A state and the forces of the elements.
+pub(super) type StateAndForces = (Vec<f64>, Vec<f64>);
 
 /// A part of a motion over which it is smooth.
 ///

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use super::{
     ExactIntegrator, MotionError,
-    panels::{MotionPanel, MotionSpan},
+    panels::{MotionPanel, MotionSpan, StateAndForces},
     run::Run,
 };
 use crate::Stretch;
@@ -109,9 +109,6 @@ pub struct Inside {
     /// Forces of the elements along their relative displacements [N].
     pub forces: Vec<f64>,
 }
-
-/// A state and the forces of the elements.
-pub(super) type StateAndForces = (Vec<f64>, Vec<f64>);
 
 /// What is being written down.
 #[derive(Debug, Clone, Default)]
