@@ -137,12 +137,16 @@ pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f6
     off.map(|(multiplier, _)| multiplier)
 }
 
+/// How far beyond the unit circle a multiplier lies.
+fn beyond([re, im]: [f64; 2]) -> f64 {
+    re.hypot(im) - 1.0
+}
+
 /// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points,
 /// given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and
 /// another one enters, or one that is outside at both points is inside half-way, which the line between them
 /// tells. Which is which is told by their distances, the nearest two first.
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
-    let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
     // Either way one lies outside on each side; pairing all of two hundred modes takes as long as the motion.
     if [before, behind].iter().any(|side| side.iter().all(|pair| beyond(*pair) <= ON_CIRCLE)) {
         return false;
@@ -166,7 +170,6 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
 ///
 /// * `before`, `behind`: the pairs by those in the upper half-plane.
 pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
-    let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
     let keeps_away = |&(from, to): &([f64; 2], [f64; 2])| {
         let way = (to[0] - from[0]).hypot(to[1] - from[1]);
         way < NEARLY * (beyond(from).abs() + beyond(to).abs())

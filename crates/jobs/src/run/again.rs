@@ -55,7 +55,7 @@ pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i6
         halvings: (ROUND * (1 + found)).saturating_sub(done),
     };
     let width = plan.survey_width_hz();
-    let intervals = uncovered(&stable_stretches(agenda), plan.range_hz);
+    let intervals = uncovered(&stretches(stable_pairs(agenda)), plan.range_hz);
     let none_stable = places(&intervals, looked_at.clone(), NARROWEST * width, effort);
     looked_at.extend(&none_stable);
     let is_first = done == 0 && of(JobKind::ContactChange).count() == 0;
@@ -79,15 +79,20 @@ struct Effort {
     halvings: usize,
 }
 
-/// Successive stable rows of branches.
-fn stable_pairs(agenda: &Agenda) -> impl Iterator<Item = &[Sketch]> {
+/// Successive rows of branches.
+fn pairs(agenda: &Agenda) -> impl Iterator<Item = &[Sketch]> {
     let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
-    sides.flat_map(|walk| walk.rows.windows(2)).filter(|pair| pair[0].else_stable && pair[1].else_stable)
+    sides.flat_map(|walk| walk.rows.windows(2))
 }
 
-/// Stretches of the frequency from one stable row of a branch to the next one.
-fn stable_stretches(agenda: &Agenda) -> Vec<[f64; 2]> {
-    stable_pairs(agenda).map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect()
+/// Those that are stable.
+fn stable_pairs(agenda: &Agenda) -> impl Iterator<Item = &[Sketch]> {
+    pairs(agenda).filter(|pair| pair[0].else_stable && pair[1].else_stable)
+}
+
+/// Stretches of the frequency from one row to the next one.
+fn stretches<'a>(pairs: impl Iterator<Item = &'a [Sketch]>) -> Vec<[f64; 2]> {
+    pairs.map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect()
 }
 
 /// Where the number of contacts changes from one stable row of a branch to the next one.
@@ -98,11 +103,8 @@ fn changes_of_contacts(agenda: &Agenda) -> impl Iterator<Item = f64> {
 
 /// Ranges of the frequency over which a branch has contacts, ascending.
 fn with_contacts(agenda: &Agenda, range_hz: [f64; 2]) -> Vec<[f64; 2]> {
-    let sides = agenda.accepted().flat_map(|start| [Side::Up, Side::Down].map(|side| start.walk(side)));
-    let pairs = sides.flat_map(|walk| walk.rows.windows(2));
-    let closed = pairs.filter(|pair| pair[0].contacts > 0 && pair[1].contacts > 0);
-    let stretches: Vec<[f64; 2]> = closed.map(|pair| [pair[0].frequency_hz, pair[1].frequency_hz]).collect();
-    uncovered(&uncovered(&stretches, range_hz), range_hz)
+    let closed = pairs(agenda).filter(|pair| pair[0].contacts > 0 && pair[1].contacts > 0);
+    uncovered(&uncovered(&stretches(closed), range_hz), range_hz)
 }
 
 /// Frequencies, at most so many, that cut each range into [`PARTS`] with those that were looked at.
