@@ -27,6 +27,8 @@ pub enum Failure {
     Disagreement(String),
     /// The user stopped it.
     Interrupted(String),
+    /// The user stopped it; what was found by then was given all the same.
+    InterruptedWithResult(String),
     /// The machine refuses.
     Other(anyhow::Error),
 }
@@ -47,13 +49,18 @@ impl Failure {
             Self::NoResult(_) | Self::Other(_) => 1,
             Self::Study(_) | Self::BadInput(_) => 2,
             Self::Disagreement(_) => 3,
-            Self::Interrupted(_) => 130,
+            Self::Interrupted(_) | Self::InterruptedWithResult(_) => 130,
         }
     }
 
     /// Exit code of the process.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code())
+    }
+
+    /// Whether the result was given before it: that is the one document in JSON.
+    pub fn has_result(&self) -> bool {
+        matches!(self, Self::Disagreement(_) | Self::InterruptedWithResult(_))
     }
 
     /// What to report, without colours.
@@ -63,7 +70,8 @@ impl Failure {
             Self::BadInput(message)
             | Self::NoResult(message)
             | Self::Disagreement(message)
-            | Self::Interrupted(message) => message.clone(),
+            | Self::Interrupted(message)
+            | Self::InterruptedWithResult(message) => message.clone(),
             Self::Other(error) => format!("{error:#}"),
         }
     }

@@ -68,11 +68,12 @@ impl Output {
     pub fn failure(self, failure: &Failure) {
         match failure {
             Failure::Study(report) => notify(&report.render(true)),
-            Failure::Interrupted(message) | Failure::Disagreement(message) => notify(&printable(message)),
+            Failure::Interrupted(message)
+            | Failure::InterruptedWithResult(message)
+            | Failure::Disagreement(message) => notify(&printable(message)),
             other => notify(&format!("error: {}", printable(&other.message()))),
         }
-        // Disagreements have their document.
-        if self.json && !matches!(failure, Failure::Disagreement(_)) {
+        if self.json && !failure.has_result() {
             // The exit code says already that there is no result.
             let _ = print(&format!("{:#}", json!({ "error": document(failure) })));
         }

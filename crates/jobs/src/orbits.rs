@@ -12,6 +12,8 @@ pub struct OrbitsReport {
     pub orbits: Vec<PeriodicSolution>,
     /// Why the search is not complete, in words.
     pub incomplete: Option<String>,
+    /// The search was interrupted; what it had found by then is here.
+    pub is_interrupted: bool,
     /// Names of the figures that were drawn of them.
     pub figures: Option<Vec<String>>,
     /// The motion of each over its period, where it was asked for.
@@ -33,10 +35,10 @@ impl OrbitsReport {
     }
 }
 
-/// Finds all periodic solutions of a period at a frequency.
+/// Finds all periodic solutions of a period at a frequency. An interrupted search gives what it has found.
 ///
 /// # Errors
-/// [`JobError`]: nothing could be looked for.
+/// [`JobError`]: nothing could be looked for; [`JobError::Interrupted`] before anything was found.
 pub fn orbits(
     study: &PreparedStudy,
     frequency_hz: f64,
@@ -48,12 +50,13 @@ pub fn orbits(
     study.warn_of_many_modes(observer);
     let solver = OrbitSolver::new(&study.model, &study.file.study);
     let found = solver.find_orbits(frequency_hz, period_multiple, &mut || observer.interrupted());
-    if observer.interrupted() {
+    let is_interrupted = observer.interrupted();
+    if is_interrupted && found.as_ref().map_or(true, |found| found.orbits.is_empty()) {
         return Err(JobError::Interrupted { done: 0, part_s: None });
     }
     let FoundOrbits { orbits, incomplete } = found.map_err(|message| JobError::NoSearch { message })?;
     let incomplete = incomplete.map(|error| error.to_string());
-    Ok(OrbitsReport { orbits, incomplete, figures: None, waveforms: Vec::new() })
+    Ok(OrbitsReport { orbits, incomplete, is_interrupted, figures: None, waveforms: Vec::new() })
 }
 
 /// A solution in few numbers.

@@ -2,7 +2,7 @@
 
 use hammerbeam_drawing::{DrawSettings, draw_into, orbit};
 use hammerbeam_figure::FrequencyUnit;
-use hammerbeam_jobs::{PreparedStudy, counted, orbits::orbits};
+use hammerbeam_jobs::{Observer, PreparedStudy, counted, orbits::orbits};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::readable_to;
 
@@ -22,6 +22,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     file.forced()?;
     let study = PreparedStudy::new(file)?;
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
+    let shown = (study.file.study.response.point.as_str(), output.frequency_unit);
     let mut watch = Watch::new(Interrupt::listen(output)?);
     let mut report = orbits(&study, frequency_hz, multiple, &mut watch)?;
     if report.orbits.is_empty() {
@@ -32,6 +33,13 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         );
         let why = report.incomplete.map_or(String::new(), |reason| format!(": {reason}"));
         return Err(Failure::NoResult(nothing + &why));
+    }
+    if report.is_interrupted {
+        // What is left is short: it is neither drawn nor are motions computed again.
+        watch.finishing();
+        output.give(&report, || text(&report.orbits, shown))?;
+        let message = "interrupted; these are the periodic solutions that were found by then";
+        return Err(Failure::InterruptedWithResult(message.to_owned()));
     }
     if let Some(reason) = &report.incomplete {
         notify(&format!("the search is not complete: {reason}"));
@@ -47,9 +55,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     if output.json {
         report.add_waveforms(&study)?;
     }
-    let point = &study.file.study.response.point;
-    output.give(&report, || text(&report.orbits, (point, output.frequency_unit)))?;
-    Ok(())
+    output.give(&report, || text(&report.orbits, shown))
 }
 
 fn text(orbits: &[PeriodicSolution], shown: (&str, FrequencyUnit)) -> String {

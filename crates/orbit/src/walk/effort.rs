@@ -63,3 +63,64 @@ impl Effort {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use hammerbeam_motion::{Law, law::LinearStop};
+
+    use super::{MOST, PARTS};
+    use crate::{BranchWalk, OrbitSettings, Side, StopReason, find_start, test_oscillator::oscillator};
+
+    const RANGE: (f64, f64) = (0.12, 0.5);
+
+    /// A walk of a bilinear oscillator after some steps.
+    fn walk(settings: &OrbitSettings) -> BranchWalk {
+        let (system, response) = oscillator(0.1, 1.0, Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap()));
+        let start = find_start(&system, &response, 0.3, 1, settings).unwrap();
+        let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, settings).unwrap();
+        for _ in 0..5 {
+            assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
+        }
+        walk
+    }
+
+    #[test]
+    fn work_is_counted_from_the_start_and_grows_with_every_step() {
+        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let mut walk = walk(&settings);
+        let before = walk.operations();
+        assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
+        let step = walk.operations() - before;
+        // Five steps before it, and the start.
+        assert!(step > 0 && before > 3 * step && before < 30 * step, "{before} operations, then {step}");
+    }
+
+    #[test]
+    fn a_side_ends_when_its_work_is_used_up() {
+        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let mut walk = walk(&settings);
+        walk.effort.spent = MOST;
+        walk.effort.mark.0 = MOST;
+        let end = walk.step(&mut Vec::new()).unwrap();
+        let at = walk.path.parameter();
+        let wanted = StopReason::TooMuchWork { frequency_hz: at, solutions: 5, gets_on: true };
+        assert_eq!(end, Some(wanted));
+    }
+
+    /// Steps of a millionth of the range are none that get on; those of a thousandth are.
+    #[test]
+    fn a_side_ends_where_a_part_of_its_work_does_not_move_it() {
+        for (step, ends) in [(1e-6, true), (1e-3, false)] {
+            let settings = OrbitSettings { max_step_hz: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
+            let mut walk = walk(&settings);
+            let arc_length = walk.path.current().arc_length;
+            walk.effort.mark = (0, arc_length);
+            walk.effort.spent = MOST / PARTS;
+            let end = (0..2).find_map(|_| walk.step(&mut Vec::new()).unwrap());
+            let is_end = matches!(end, Some(StopReason::TooMuchWork { gets_on: false, .. }));
+            assert_eq!((is_end, end.is_some()), (ends, ends), "{end:?}");
+        }
+    }
+}
