@@ -25,7 +25,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_000b;
+const MAGIC: u64 = 0x4842_5741_4c4b_000c;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -38,6 +38,7 @@ impl BranchWalk {
         write_varied(&mut out, path.problem.period_multiple(), path.problem.varied());
         out.word(path.problem.segments() as u64);
         out.float(path.problem.phase());
+        out.word(u64::from(path.problem.is_asymmetric()));
         out.floats(path.problem.scale().values());
         out.point(&state.current);
         out.point(&state.start);
@@ -163,6 +164,7 @@ fn read(
     let (period_multiple, varied) = read_varied(reader)?;
     let segments = usize::try_from(reader.word()?).ok()?;
     let phase = reader.float()?;
+    let is_asymmetric = reader.word()? != 0;
     let scale = StateScale::from_values(reader.floats()?);
     let on_orbit = (0.0..f64::from(period_multiple)).contains(&phase);
     if scale.values().len() != 2 * system.dof() || segments == 0 || !on_orbit {
@@ -190,6 +192,7 @@ fn read(
     }
     let mut problem =
         ShootingProblem::new(integrator, (period_multiple, segments), scale, length).beginning_at(phase);
+    problem.set_asymmetric(is_asymmetric);
     if let Err(error) = problem.vary(varied) {
         return Some(Err(error.into()));
     }

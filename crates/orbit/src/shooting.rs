@@ -116,6 +116,8 @@ pub(crate) struct ShootingProblem {
     /// Whether flips and Neimark-Sacker points are looked for.
     watches_stability: bool,
     varied: ContinuationParameter,
+    /// The orbits followed are none of those of a symmetric system that are their own mirror images.
+    is_asymmetric: bool,
     /// For motions beside the one that was evaluated, once one was asked for.
     beside: Option<Box<Beside>>,
     /// The images of the orbit that was asked for last.
@@ -158,6 +160,7 @@ impl ShootingProblem {
             spectrum: None,
             watches_stability: false,
             varied: ContinuationParameter::Frequency,
+            is_asymmetric: false,
             beside: None,
             images: None,
         };
@@ -189,6 +192,17 @@ impl ShootingProblem {
         self.integrator.differentiate_by(varied.parameter())?;
         self.varied = varied;
         Ok(())
+    }
+
+    /// Whether orbits are followed that, in a symmetric system, are not symmetric: those that are, they meet
+    /// at branch points only.
+    pub fn is_asymmetric(&self) -> bool {
+        self.is_asymmetric
+    }
+
+    /// Says that such orbits are followed, or that they are not.
+    pub fn set_asymmetric(&mut self, is_asymmetric: bool) {
+        self.is_asymmetric = is_asymmetric;
     }
 
     /// What varies.

@@ -169,7 +169,7 @@ fn leave(
     // An orbit of doubled period is some two amplitudes from itself half of it later. Beside a grazing the
     // critical direction need not be one of a multiplier at -1, and then Newton's method may find the orbit
     // that flips, gone through twice.
-    if crossing.factor > 1 && problem.distance_to_simpler(&follower.current().point) < OWN * reach.abs() {
+    if crossing.factor > 1 && problem.distance_to_shorter_period(&follower.current().point) < OWN * reach.abs() {
         return Ok(None);
     }
     let same_contacts = follower.current().signature == signature;
@@ -182,6 +182,7 @@ fn leave(
     if away_in_states > reach.abs() || away_in_frequency > amplitude.abs() {
         return Ok(None);
     }
+    problem.note_symmetry(current, OWN * amplitude.abs());
     let path = OrbitPath::new(problem, follower, (settings, range_hz));
     let mut walk = BranchWalk::of(path, orbit.maxima.displacement, response);
     walk.begins_with_present = true;

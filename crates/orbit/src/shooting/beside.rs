@@ -1,7 +1,6 @@
 //! Motions beside the one that was evaluated, by an integrator of their own, since the other one holds what
-//! was evaluated last: how far an orbit is from those of shorter period where its nodes do not tell, as no
-//! two of them lie whole excitation periods apart; and how it begins some periods
-//! later.
+//! was evaluated last: how far an orbit is from those of shorter period, or from symmetric ones, where its
+//! nodes do not tell, as no two of them lie so far apart; and how it begins some periods later.
 
 use hammerbeam_motion::{
     Parameter, Stretch, System,
@@ -38,6 +37,15 @@ pub(super) struct Beginning<'a> {
     pub parameter: Option<(Parameter, f64)>,
 }
 
+/// The orbits that lie in those of a walk as a special case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Simpler {
+    /// Those of shorter period.
+    Shorter,
+    /// Those that are their own mirror images.
+    Symmetric,
+}
+
 /// Motions beside the one that was evaluated.
 #[derive(Debug)]
 pub(super) struct Beside {
@@ -48,6 +56,7 @@ pub(super) struct Beside {
 /// The distance of an orbit that was asked for.
 #[derive(Debug)]
 struct Known {
+    from: Simpler,
     scaled: Vec<f64>,
     /// Phase, frequency and parameter.
     place: [f64; 3],
@@ -75,35 +84,48 @@ impl Beside {
         Ok(&mut self.integrator)
     }
 
-    /// Root of the sum of squares of `Z(z_0) - z_0` after k excitation periods, the least one over the proper
-    /// divisors k of N; infinite where the motion cannot be computed.
-    pub fn distance(&mut self, begin: Beginning<'_>) -> f64 {
+    /// Distance of the state with which an orbit begins from where it comes, by its motion; infinite where
+    /// that cannot be computed.
+    ///
+    /// - From orbits of shorter period: the norm of `Z(z_0) - z_0` after k excitation periods, the least one
+    ///   over the proper divisors k of N.
+    /// - From symmetric ones: the norm of `Z(z_0) + z_0` after N/2 periods.
+    pub fn distance(&mut self, begin: Beginning<'_>, from: Simpler) -> f64 {
         let parameter = begin.parameter.map_or(0.0, |(_, value)| value);
         let place = [begin.phase, begin.frequency_hz, parameter];
-        let is_same = |known: &&Known| known.place == place && known.scaled == begin.scaled;
+        let is_same =
+            |known: &&Known| known.from == from && known.place == place && known.scaled == begin.scaled;
         if let Some(known) = self.known.iter().find(is_same) {
             return known.distance;
         }
-        let distance = self.after_periods(begin).unwrap_or(f64::INFINITY);
+        let distance = self.after_periods(begin, from).unwrap_or(f64::INFINITY);
         self.known.drain(..self.known.len().saturating_sub(KEPT - 1));
-        self.known.push(Known { scaled: begin.scaled.to_vec(), place, distance });
+        self.known.push(Known { from, scaled: begin.scaled.to_vec(), place, distance });
         distance
     }
 
-    fn after_periods(&mut self, begin: Beginning<'_>) -> Result<f64, MotionError> {
+    fn after_periods(&mut self, begin: Beginning<'_>, from: Simpler) -> Result<f64, MotionError> {
         let Beginning { scaled, scales, phase, frequency_hz, period_multiple, parameter } = begin;
         if let Some((parameter, value)) = parameter {
             self.integrator.set_parameter(parameter, value)?;
         }
         let mut state: Vec<f64> = scaled.iter().zip(scales).map(|(x, s)| x * s).collect();
+        let off = |state: &[f64], sign: f64| {
+            let off = scaled.iter().zip(state).zip(scales).map(|((x, z), s)| sign * z / s - x);
+            off.map(|off| off * off).sum::<f64>().sqrt()
+        };
+        if from == Simpler::Symmetric {
+            let end = phase + 0.5 * f64::from(period_multiple);
+            let stretch = Stretch { frequency_hz, start: phase, end };
+            return Ok(off(&self.integrator.advance(&stretch, &state)?, -1.0));
+        }
         let mut least = f64::INFINITY;
         for period in 1..period_multiple {
             let start = phase + f64::from(period - 1);
             let stretch = Stretch { frequency_hz, start, end: start + 1.0 };
             state = self.integrator.advance(&stretch, &state)?;
             if period_multiple.is_multiple_of(period) {
-                let off = scaled.iter().zip(&state).zip(scales).map(|((x, z), s)| z / s - x);
-                least = least.min(off.map(|off| off * off).sum::<f64>().sqrt());
+                least = least.min(off(&state, 1.0));
             }
         }
         Ok(least)

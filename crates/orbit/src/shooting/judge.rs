@@ -11,7 +11,7 @@ use hammerbeam_path::{
 
 use super::{
     ShootingProblem,
-    beside::{Beginning, Beside, KnownImages},
+    beside::{Beginning, Beside, KnownImages, Simpler},
     carried::{Along, Carried},
 };
 use crate::{by_rows::norm, corner, stability};
@@ -54,26 +54,13 @@ impl Judge for ShootingProblem {
         self.spectrum().ok().map(|spectrum| stability::outside(spectrum, events))
     }
 
-    /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart, or
-    /// where there are none by the motion.
-    ///
-    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} -
-    /// z_j`, the least one over the proper divisors k of N for which s is a whole number.
+    /// Distance from the orbits of shorter period and, for a walk of asymmetric orbits, from symmetric ones.
     fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
-        let (periods, m) = (self.period_multiple() as usize, self.segments());
-        let states = &point[..self.unknowns()];
-        let shift = |k: usize| {
-            (periods.is_multiple_of(k) && (m * k).is_multiple_of(periods)).then_some(m * k / periods)
-        };
-        let distance = |nodes: usize| {
-            let later = states.iter().cycle().skip(nodes * self.node_size());
-            let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - b) * (a - b)).sum();
-            self.hertz_per_norm() * (squares / m as f64).sqrt()
-        };
-        let by_nodes = (1..periods).filter_map(shift).map(distance).reduce(f64::min);
-        match by_nodes {
-            None if periods > 1 => self.distance_by_motion(point),
-            by_nodes => by_nodes.unwrap_or(f64::INFINITY),
+        let shorter = self.distance_to_shorter_period(point);
+        if self.is_asymmetric() && self.system().is_symmetric() {
+            shorter.min(self.distance_to_symmetric(point))
+        } else {
+            shorter
         }
     }
 
@@ -111,9 +98,55 @@ impl Judge for ShootingProblem {
 }
 
 impl ShootingProblem {
-    /// Distance of a point from the orbits of shorter period by its motion; infinite where that cannot be
-    /// computed.
-    fn distance_by_motion(&mut self, point: &[f64]) -> f64 {
+    /// Distance of a point from the orbits of shorter period, by the nodes that lie whole excitation periods
+    /// apart, or where there are none by the motion.
+    ///
+    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} -
+    /// z_j`, the least one over the proper divisors k of N for which s is a whole number.
+    pub(crate) fn distance_to_shorter_period(&mut self, point: &[f64]) -> f64 {
+        let (periods, m) = (self.period_multiple() as usize, self.segments());
+        let shift = |k: usize| {
+            (periods.is_multiple_of(k) && (m * k).is_multiple_of(periods)).then_some(m * k / periods)
+        };
+        let shifts = (1..periods).filter_map(shift);
+        match shifts.map(|nodes| self.distance_by_nodes(point, nodes, 1.0)).reduce(f64::min) {
+            None if periods > 1 => self.distance_by_motion(point, Simpler::Shorter),
+            by_nodes => by_nodes.unwrap_or(f64::INFINITY),
+        }
+    }
+
+    /// Notes whether the orbits to be followed are symmetric, by the one at this point: it is if its distance
+    /// from its mirror image, relative to the orbit, is less than this. Of an even number of excitation
+    /// periods no orbit is symmetric, nor is there anything to be met.
+    pub(crate) fn note_symmetry(&mut self, point: &[f64], least: f64) {
+        let has_images = self.system().is_symmetric() && !self.period_multiple().is_multiple_of(2);
+        let least = least * self.hertz_per_norm();
+        let is_far = |distance: f64| distance.is_finite() && distance > least;
+        let is_asymmetric = has_images && is_far(self.distance_to_symmetric(point));
+        self.set_asymmetric(is_asymmetric);
+    }
+
+    /// Distance of a point from the symmetric orbits: from its mirror image half its period later, by its
+    /// nodes if their number is even, else by its motion. That holds for an odd number of excitation periods.
+    fn distance_to_symmetric(&mut self, point: &[f64]) -> f64 {
+        let m = self.segments();
+        if m.is_multiple_of(2) {
+            self.distance_by_nodes(point, m / 2, -1.0)
+        } else {
+            self.distance_by_motion(point, Simpler::Symmetric)
+        }
+    }
+
+    /// The root mean square of `s z_{j+n} - z_j` for a sign s, with `z_j` the nodes and n as many of them.
+    fn distance_by_nodes(&self, point: &[f64], nodes: usize, sign: f64) -> f64 {
+        let states = &point[..self.unknowns()];
+        let later = states.iter().cycle().skip(nodes * self.node_size());
+        let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - sign * b) * (a - sign * b)).sum();
+        self.hertz_per_norm() * (squares / self.segments() as f64).sqrt()
+    }
+
+    /// Distance of a point from simpler orbits by its motion; infinite where that cannot be computed.
+    fn distance_by_motion(&mut self, point: &[f64], from: Simpler) -> f64 {
         let Ok(mut beside) = self.take_beside() else { return f64::INFINITY };
         let begin = Beginning {
             scaled: &point[..self.scale.values().len()],
@@ -123,7 +156,7 @@ impl ShootingProblem {
             period_multiple: self.period_multiple,
             parameter: self.varied.parameter().map(|parameter| (parameter, point[point.len() - 1])),
         };
-        let distance = beside.distance(begin);
+        let distance = beside.distance(begin, from);
         self.beside = Some(beside);
         self.hertz_per_norm * distance
     }

@@ -68,10 +68,10 @@ fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
     let OrbitPath { problem, follower, .. } = path;
     let history = &follower.state().history;
     let nodes = &history.nodes[..history.used];
-    if nodes.len() < 2 || problem.distance_to_simpler(&nodes[0].point) >= near {
+    if nodes.len() < 2 || problem.distance_to_shorter_period(&nodes[0].point) >= near {
         return false;
     }
-    let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_simpler(&node.point)).collect();
+    let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_shorter_period(&node.point)).collect();
     let approaches = left.len() > 2 && left.windows(2).all(|pair| pair[0] < pair[1]);
     if problem.has_root_corners() && approaches && left[0] < ARRIVED * problem.hertz_per_norm() {
         return true;
@@ -98,7 +98,7 @@ fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
         return by_motion < SAME;
     }
     let OrbitPath { problem, follower, .. } = path;
-    problem.distance_to_simpler(&follower.current().point) < SAME * problem.hertz_per_norm()
+    problem.distance_to_shorter_period(&follower.current().point) < SAME * problem.hertz_per_norm()
 }
 
 /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period

@@ -19,6 +19,8 @@ const VANISHING: f64 = 1e-3;
 /// If `|D|` did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
 const JUMP_WIDTH: f64 = 1e-2;
 const JUMP_SIZE: f64 = 0.1;
+/// Nearer than so many distances of sheets to a simpler path a branch point is the one at which that is met.
+const MET: f64 = 100.0;
 /// Share of `t_λ` of the ends below which the branch point is also a fold (as on the arms of a pitchfork).
 const STATIONARY: f64 = 0.02;
 
@@ -31,7 +33,7 @@ pub(super) fn arrive_at_branch_point(
     if smallness > VANISHING || jumps(attempt, locator, smallness) {
         return Err(StepDoubt::Reversed);
     }
-    let parameter_sign = turn_at_branch_point(attempt, share)?;
+    let parameter_sign = turn_at_branch_point(attempt, locator, share)?;
     let uncertainty = beside::sharpen(attempt, locator, share);
     interpolate_tangent(attempt, locator, share);
     locator.arrive(attempt);
@@ -105,8 +107,19 @@ fn exactly_singular(
 }
 
 /// New sign of `t_λ` if the parameter turns at the branch point itself.
-fn turn_at_branch_point(attempt: &Attempt<'_>, share: f64) -> Result<Option<f64>, StepDoubt> {
+///
+/// Where a simpler path is met it does: the path goes on there as an image of what it has come along, and `λ -
+/// λ₀` is even in the distance from it. Slopes beside it may be rounding, and are not asked.
+fn turn_at_branch_point(
+    attempt: &mut Attempt<'_>,
+    locator: &Locator,
+    share: f64,
+) -> Result<Option<f64>, StepDoubt> {
     let (before, after) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
+    let left = attempt.problem.judge().distance_to_simpler(&locator.probe.node.point);
+    if left < MET * attempt.frame.settings.sheet_distance {
+        return Ok(Some(-before));
+    }
     if before * after >= 0.0 {
         return Ok(None);
     }
