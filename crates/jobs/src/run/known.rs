@@ -10,8 +10,8 @@
 //! the same frequency: a solution among them lies on that branch, too.
 //!
 //! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point
-//! there: the same frequency and the same state. A point that was bracketed and not located is taken to lie
-//! within [`DOUBTS`] times its uncertainty.
+//! there: the same frequency and the same state. Either point, if it was bracketed and not located, is taken
+//! to lie within [`DOUBTS`] times its uncertainty.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
 use hammerbeam_results::{
@@ -140,10 +140,13 @@ pub(super) fn has_branch_point(
     }
     let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
     let places = places.filter(|(key, _)| Some(*key) != left_from);
+    let doubt_hz = |key: i64| -> Result<f64, StoreError> {
+        Ok(store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty))
+    };
+    let of_root = left_from.map_or(Ok(0.0), doubt_hz)?;
     let mut near = Vec::new();
     for (key, row) in places {
-        let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty);
-        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + uncertain_hz;
+        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + of_root.max(doubt_hz(key)?);
         if (row.frequency_hz - root.frequency_hz).abs() <= allowed_hz {
             near.push(key);
         }

@@ -107,17 +107,13 @@ fn exactly_singular(
 }
 
 /// New sign of `t_λ` if the parameter turns at the branch point itself.
-///
-/// Where a simpler path is met it does: the path goes on there as an image of what it has come along, and `λ -
-/// λ₀` is even in the distance from it. Slopes beside it may be rounding, and are not asked.
 fn turn_at_branch_point(
     attempt: &mut Attempt<'_>,
     locator: &Locator,
     share: f64,
 ) -> Result<Option<f64>, StepDoubt> {
     let (before, after) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
-    let left = attempt.problem.judge().distance_to_simpler(&locator.probe.node.point);
-    if left < MET * attempt.frame.settings.sheet_distance {
+    if meets_simpler(attempt, &locator.probe.node.point) {
         return Ok(Some(-before));
     }
     if before * after >= 0.0 {
@@ -129,6 +125,15 @@ fn turn_at_branch_point(
         return Ok(Some(-before));
     }
     if here * before > 0.0 { Ok(None) } else { Err(StepDoubt::HiddenFolds) }
+}
+
+/// Whether a branch point here is the one at which a simpler path is met.
+///
+/// There the parameter turns: the path goes on as an image of what it has come along, and `λ - λ₀` is even in
+/// the distance from the simpler path. Slopes beside it may be rounding, and are not asked.
+pub(super) fn meets_simpler(attempt: &mut Attempt<'_>, point: &[f64]) -> bool {
+    let left = attempt.problem.judge().distance_to_simpler(point);
+    left < MET * attempt.frame.settings.sheet_distance
 }
 
 /// At a branch point the direction from the factorisation is that of no branch; both ends of the step have

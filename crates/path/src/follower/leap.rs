@@ -8,6 +8,7 @@
 use super::{
     arrival::Arrival,
     attempt::Attempt,
+    branch_point::meets_simpler,
     finding::{check_defect, turned},
     simpler::check_simpler,
 };
@@ -47,11 +48,13 @@ fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoub
     // Without orienting it, the tangent goes on in the direction of the last one.
     check_defect(attempt, length)?;
     let branch_point = attempt.trial.sign * attempt.state.orientation < 0.0;
-    let slope = attempt.trial.tangent_parameter();
-    let fold = turned(attempt, slope);
+    let (before, slope) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
+    let place = attempt.trial.node.point.clone();
+    let meets_simpler = branch_point && meets_simpler(attempt, &place);
+    let fold = meets_simpler || turned(attempt, slope);
     Ok(Arrival {
         events: PathEvents { branch_point, fold, ..PathEvents::default() },
-        parameter_sign: fold.then(|| slope.signum()),
+        parameter_sign: fold.then_some(if meets_simpler { -before } else { slope.signum() }),
         anchors_anew: branch_point,
         uncertainty: length,
         ..Arrival::default()
