@@ -169,7 +169,9 @@ fn leave(
     // An orbit of doubled period is some two amplitudes from itself half of it later. Beside a grazing the
     // critical direction need not be one of a multiplier at -1, and then Newton's method may find the orbit
     // that flips, gone through twice.
-    if crossing.factor > 1 && problem.distance_to_shorter_period(&follower.current().point) < OWN * reach.abs() {
+    if crossing.factor > 1
+        && problem.distance_to_shorter_period(&follower.current().point) < OWN * reach.abs()
+    {
         return Ok(None);
     }
     let same_contacts = follower.current().signature == signature;

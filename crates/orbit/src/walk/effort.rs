@@ -113,7 +113,8 @@ mod tests {
     #[test]
     fn a_side_ends_where_a_part_of_its_work_does_not_move_it() {
         for (step, ends) in [(1e-6, true), (1e-3, false)] {
-            let settings = OrbitSettings { max_step_hz: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
+            let settings =
+                OrbitSettings { max_step_hz: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
             let mut walk = walk(&settings);
             let arc_length = walk.path.current().arc_length;
             walk.effort.mark = (0, arc_length);
