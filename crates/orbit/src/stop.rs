@@ -20,6 +20,12 @@ pub enum StopReason {
         /// Whether it is a grazing.
         grazes: bool,
     },
+    /// The branch, of asymmetric orbits, came to symmetric ones, beyond which it returns as its own mirror
+    /// image, and so near to the branch point that rounding holds up its steps.
+    Symmetric {
+        /// Where [Hz].
+        frequency_hz: f64,
+    },
     /// The budget of solutions is used up.
     Budget {
         /// Number of solutions.
@@ -145,6 +151,7 @@ impl StopReason {
         match self {
             Self::RangeEnd { frequency_hz }
             | Self::ShorterPeriod { frequency_hz, .. }
+            | Self::Symmetric { frequency_hz }
             | Self::StepTooShort { frequency_hz, .. }
             | Self::Chatter { frequency_hz, .. }
             | Self::ImpactsTogether { frequency_hz, .. }

@@ -13,6 +13,9 @@ impl Display for StopReason {
                 let what = if *grazes { "grazing" } else { "flip" };
                 write!(formatter, "met the {what} of a branch of shorter period at {frequency_hz}")
             }
+            Self::Symmetric { frequency_hz } => {
+                write!(formatter, "met a branch of symmetric orbits at {frequency_hz}")
+            }
             Self::Budget { solutions } => write!(formatter, "the budget of {solutions} solutions is used up"),
             Self::StepTooShort { frequency_hz, step, residual, doubt, .. } => write!(
                 formatter,

@@ -20,6 +20,7 @@ mod settings;
 mod shorter_period;
 mod splits;
 mod stepping;
+mod symmetric;
 mod together;
 
 use hammerbeam_motion::{System, exact::MotionError};

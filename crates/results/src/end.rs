@@ -86,6 +86,13 @@ impl BranchEnd {
         matches!(self, Self::Walk(StopReason::ShorterPeriod { .. }))
     }
 
+    /// Whether the branch came to orbits of which its own are a more general case: of shorter period, or
+    /// symmetric.
+    #[must_use]
+    pub fn is_simpler(&self) -> bool {
+        self.is_shorter_period() || matches!(self, Self::Walk(StopReason::Symmetric { .. }))
+    }
+
     /// Whether the walk ended where it should, and not early.
     #[must_use]
     pub fn is_complete(&self) -> bool {
@@ -93,7 +100,7 @@ impl BranchEnd {
             self,
             Self::Walk(StopReason::RangeEnd { .. }) | Self::Crossing { .. } | Self::Joins { .. }
         );
-        is_end || self.is_closed() || self.has_any_amplitude() || self.is_shorter_period()
+        is_end || self.is_closed() || self.has_any_amplitude() || self.is_simpler()
     }
 }
 
@@ -162,6 +169,7 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
         StopReason::ShorterPeriod { frequency_hz, grazes } => {
             StoredEnd::at("shorter-period", *frequency_hz).with([f64::from(u8::from(*grazes))])
         }
+        StopReason::Symmetric { frequency_hz } => StoredEnd::at("symmetric", *frequency_hz),
         StopReason::Budget { solutions } => StoredEnd::plain("budget").with([*solutions as f64]),
         StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
             let numbers = [*step, *residual, f64::from(u8::from(*has_no_losses))];
@@ -221,6 +229,7 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         ("shorter-period", [grazes], frequency_hz) => {
             StopReason::ShorterPeriod { frequency_hz, grazes: *grazes != 0.0 }
         }
+        ("symmetric", [], frequency_hz) => StopReason::Symmetric { frequency_hz },
         ("step-too-short", [step, residual, lossless], frequency_hz) => {
             let (step, residual, doubt, has_no_losses) = (*step, *residual, text()?, *lossless != 0.0);
             StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
@@ -334,6 +343,7 @@ pub(crate) mod tests {
             StopReason::Closed,
             StopReason::ShorterPeriod { frequency_hz, grazes: true },
             StopReason::ShorterPeriod { frequency_hz, grazes: false },
+            StopReason::Symmetric { frequency_hz },
             StopReason::Budget { solutions: 3 },
             too_short(false),
             too_short(true),

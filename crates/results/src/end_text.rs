@@ -122,6 +122,10 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
                 some excitation periods later",
             at(*frequency_hz)
         ),
+        StopReason::Symmetric { frequency_hz } => format!(
+            "met a branch of symmetric motions at {}, beyond which the mirror images of the same motions come",
+            at(*frequency_hz)
+        ),
         StopReason::Budget { solutions } => format!(
             "the budget of {solutions} solutions is used up; with a larger budget_solutions \
                 ([continuation]) {}",

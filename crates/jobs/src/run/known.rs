@@ -138,7 +138,7 @@ pub(super) fn has_branch_point(
     if start.period_multiple != root.period_multiple {
         return Ok(false);
     }
-    let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
+    let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_simpler(start));
     let places = places.filter(|(key, _)| Some(*key) != left_from);
     let doubt_hz = |key: i64| -> Result<f64, StoreError> {
         Ok(store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty))
@@ -164,11 +164,12 @@ pub(super) fn has_branch_point(
     Ok(false)
 }
 
-/// The last rows of the sides that end at a flip of shorter period, whether it could be located or not.
-fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
+/// The last rows of the sides that end at motions of shorter period or symmetric ones, whether the place could
+/// be located or not.
+fn ends_at_simpler(start: &Start) -> impl Iterator<Item = Placed<'_>> {
     let of_side = |side| {
         let walk = start.walk(side);
-        let ends = walk.end.as_ref().is_some_and(BranchEnd::is_shorter_period);
+        let ends = walk.end.as_ref().is_some_and(BranchEnd::is_simpler);
         row_of_side(start, side, walk.rows.len().checked_sub(1)?).filter(|_| ends)
     };
     [Side::Up, Side::Down].into_iter().filter_map(of_side)

@@ -57,11 +57,7 @@ impl Judge for ShootingProblem {
     /// Distance from the orbits of shorter period and, for a walk of asymmetric orbits, from symmetric ones.
     fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         let shorter = self.distance_to_shorter_period(point);
-        if self.is_asymmetric() && self.system().is_symmetric() {
-            shorter.min(self.distance_to_symmetric(point))
-        } else {
-            shorter
-        }
+        if self.meets_symmetric() { shorter.min(self.distance_to_symmetric(point)) } else { shorter }
     }
 
     /// The orbit as it begins some whole excitation periods later.
@@ -126,9 +122,15 @@ impl ShootingProblem {
         self.set_asymmetric(is_asymmetric);
     }
 
+    /// Whether the orbits followed may meet symmetric ones: they are asymmetric, and the system is symmetric
+    /// at present.
+    pub(crate) fn meets_symmetric(&self) -> bool {
+        self.is_asymmetric() && self.system().is_symmetric()
+    }
+
     /// Distance of a point from the symmetric orbits: from its mirror image half its period later, by its
     /// nodes if their number is even, else by its motion. That holds for an odd number of excitation periods.
-    fn distance_to_symmetric(&mut self, point: &[f64]) -> f64 {
+    pub(crate) fn distance_to_symmetric(&mut self, point: &[f64]) -> f64 {
         let m = self.segments();
         if m.is_multiple_of(2) {
             self.distance_by_nodes(point, m / 2, -1.0)

@@ -10,6 +10,7 @@ use super::{
     row::largest_multiplier,
     shorter_period::is_near_shorter_period,
     splits::splits_here,
+    symmetric::is_near_symmetric,
     together::struck_together,
 };
 use crate::StopReason;
@@ -22,6 +23,9 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
     match reason {
         PathStop::StepTooShort { parameter, .. } if is_near_shorter_period(path) => {
             StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
+        }
+        PathStop::StepTooShort { parameter, .. } if is_near_symmetric(path) => {
+            StopReason::Symmetric { frequency_hz: parameter }
         }
         reason => {
             let reason = stop_reason(path, reason);

@@ -11,6 +11,7 @@ use super::{
     resegment::resegment,
     shorter_period::{grazes_shorter_period, meets_shorter_period},
     splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
+    symmetric::tends_to_symmetric,
 };
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
@@ -131,7 +132,8 @@ impl BranchWalk {
     /// Makes ready to leave the present point; or why the walk ends there.
     fn depart(&mut self) -> Result<Departure, StopReason> {
         let path = &mut self.path;
-        if let Some(end) = meets_shorter_period(path).or_else(|| tends_to_splitting(path)) {
+        let end = meets_shorter_period(path).or_else(|| tends_to_symmetric(path));
+        if let Some(end) = end.or_else(|| tends_to_splitting(path)) {
             return Err(end);
         }
         let place = may_split(path);
