@@ -2,7 +2,7 @@
 //! there, and a change of its sign says nothing until later.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
-use crate::support::{folds, graph, steps_of, up};
+use crate::support::{down, folds, graph, plane, steps_of, up};
 use hammerbeam_path::{Judge, PathProblem, Settings};
 
 /// A path of one unknown that leaves a simpler one at `x = 0`.
@@ -49,4 +49,25 @@ fn a_slope_that_comes_back_is_no_fold() {
     assert_eq!(branch.points.last().unwrap().parameter(), end);
     assert!(branch.points.iter().any(|point| point.tangent[1] < 0.0), "no point lies on the ripple");
     assert_eq!(folds(&branch), Vec::<f64>::new());
+}
+
+/// `λ x - x^3 = 0`, whose arms meet the stem `x = 0` at the branch point, with errors of its derivatives as
+/// rounding makes them: within some 1e-4 of the stem the sign of the slope says nothing.
+#[test]
+fn arms_turn_once_where_they_meet_the_simpler_path_whatever_the_slope_says() {
+    let pitchfork = |x: f64, l: f64| {
+        let error = 2e-7 * (1e9 * x + 3e9 * l).sin();
+        (l * x - x * x * x, l - 3.0 * x * x + error, x, 0)
+    };
+    for number in 0..40 {
+        // Steps end at other distances from the stem.
+        let x = 0.3 + 1.3e-4 * f64::from(number);
+        let step = [0.05, 0.01, 0.001][number as usize % 3];
+        let arms = down(&mut Leaving(plane(pitchfork)), &[x, x * x], -1.0, 0.1, steps_of(step));
+        assert_eq!(arms.points.last().unwrap().parameter(), 0.1, "from {x}: {:?}", arms.stop);
+        let turns: Vec<_> = arms.points.iter().filter(|p| p.events.fold || p.events.branch_point).collect();
+        assert_eq!(turns.len(), 1, "from {x}: {turns:?}");
+        assert!(turns[0].events.branch_point, "from {x}: {turns:?}");
+        assert!(arms.points.last().unwrap().point[0] < 0.0, "from {x}");
+    }
 }
