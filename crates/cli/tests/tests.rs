@@ -44,6 +44,7 @@ mod settings;
 mod signal;
 mod special_points;
 mod structures;
+mod symmetric_pairs;
 mod unbounded;
 mod unwritable;
 mod update;

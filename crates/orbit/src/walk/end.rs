@@ -24,7 +24,9 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         PathStop::StepTooShort { parameter, .. } if is_near_shorter_period(path) => {
             StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
         }
-        PathStop::StepTooShort { parameter, .. } if is_near_symmetric(path) => {
+        PathStop::StepTooShort { parameter, .. } | PathStop::RunsBack { parameter, .. }
+            if is_near_symmetric(path) =>
+        {
             StopReason::Symmetric { frequency_hz: parameter }
         }
         reason => {
