@@ -14,6 +14,9 @@ use crate::common::{Workshop, assert_success, stderr};
 /// Far beyond the second that is promised, for machines under load, and far below what the work would take.
 const MOMENT: Duration = Duration::from_secs(15);
 
+/// The beam with little damping.
+const LITTLE_DAMPING: &str = include_str!("../../../studies/beam-with-stop-low-damping.toml");
+
 /// One mass against a stop; the text is the rest of the study.
 fn against_a_stop(mass_kg: f64, damping_n_s_m: f64, rest: &str) -> Workshop {
     Workshop::with(&format!(
@@ -124,4 +127,27 @@ fn what_was_stored_before_a_long_computation_is_kept_and_goes_on() {
     ended(workshop.spawn(&run), Duration::from_secs(4), "-INT");
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     assert!(rows() >= before, "{} rows, {before} before", rows());
+}
+
+/// The beam with little damping at a frequency at which the first solution is there at once, and the search
+/// for others goes on for seconds.
+#[test]
+fn an_interrupted_search_for_orbits_gives_what_it_has_found() {
+    let workshop = Workshop::with(LITTLE_DAMPING);
+    let orbit = ["orbit", "study.toml", "--frequency", "33.6", "--json"];
+    let gave = (1..8).any(|wait| {
+        let child = workshop.spawn_into(Stdio::piped(), &orbit);
+        thread::sleep(wait * Duration::from_millis(400));
+        let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        let output = child.wait_with_output().unwrap();
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        if output.status.code() != Some(130) || document.get("error").is_some() {
+            return false;
+        }
+        assert_eq!(document["search_complete"], false, "{document}");
+        assert_eq!(document["frequency_hz"], 33.6, "{document}");
+        assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
+        true
+    });
+    assert!(gave, "no interrupted search gave a solution");
 }
