@@ -135,13 +135,17 @@ fn what_was_stored_before_a_long_computation_is_kept_and_goes_on() {
 fn an_interrupted_search_for_orbits_gives_what_it_has_found() {
     let workshop = Workshop::with(LITTLE_DAMPING);
     let orbit = ["orbit", "study.toml", "--frequency", "33.6", "--json"];
-    let gave = (1..8).any(|wait| {
+    // It may be that nothing is found so early, or that the search has ended by then.
+    let gave = (0..6).any(|doublings| {
         let child = workshop.spawn_into(Stdio::piped(), &orbit);
-        thread::sleep(wait * Duration::from_millis(400));
+        thread::sleep(Duration::from_millis(400 << doublings));
         let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         let output = child.wait_with_output().unwrap();
+        if output.status.code() != Some(130) || output.stdout.is_empty() {
+            return false;
+        }
         let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        if output.status.code() != Some(130) || document.get("error").is_some() {
+        if document.get("error").is_some() {
             return false;
         }
         assert_eq!(document["search_complete"], false, "{document}");

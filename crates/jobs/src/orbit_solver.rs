@@ -3,9 +3,10 @@
 mod places;
 
 use hammerbeam_orbit::{
-    BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PeriodicSolution,
-    ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, TrialEffort, Wanted, find_orbits,
-    find_start_unless, free_vibration, newton_trials, probe, reach_orbit, settled_orbit, survey,
+    BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings, PathError,
+    PeriodicSolution, ProbeStarts, Response, Segments, Side, SurveyEffort, SurveyedMotions, TrialEffort,
+    Wanted, find_orbits, find_start_unless, free_vibration, newton_trials, probe, reach_orbit, settled_orbit,
+    survey,
 };
 use hammerbeam_results::{end::BranchEnd, row::SolvedRow};
 use hammerbeam_study::{
@@ -178,6 +179,17 @@ pub(crate) fn effort(search: &file::Search, wanted: Wanted) -> SurveyEffort {
     }
 }
 
+/// Why a walk does not begin.
+fn why_not_begun(error: OrbitError) -> String {
+    match error {
+        OrbitError::Path(PathError::Start { parameter, cause }) => format!(
+            "the motion at {parameter} Hz was not found again to the tolerance of a branch; mostly a contact is so \
+            hard that rounding hides its penetration ({cause})"
+        ),
+        error => error.to_string(),
+    }
+}
+
 impl Solver for OrbitSolver<'_> {
     fn find_harmonic(
         &self,
@@ -258,7 +270,7 @@ impl Solver for OrbitSolver<'_> {
                 BranchWalk::from_crossing(system, self.response(), crossing, side, range_hz, &self.settings)
             }
         };
-        Ok(Box::new(walk.map_err(|error| error.to_string())?))
+        Ok(Box::new(walk.map_err(why_not_begun)?))
     }
 
     fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {

@@ -1,6 +1,6 @@
 //! All periodic solutions at one frequency.
 
-use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
+use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
 use serde::{Serialize, Serializer};
 
 use crate::{JobError, Observer, OrbitSolver, OrbitWaveform, PreparedStudy, orbit_waveform};
@@ -50,11 +50,11 @@ pub fn orbits(
     study.warn_of_many_modes(observer);
     let solver = OrbitSolver::new(&study.model, &study.file.study);
     let found = solver.find_orbits(frequency_hz, period_multiple, &mut || observer.interrupted());
-    let is_interrupted = observer.interrupted();
-    if is_interrupted && found.as_ref().map_or(true, |found| found.orbits.is_empty()) {
+    let FoundOrbits { orbits, incomplete } = found.map_err(|message| JobError::NoSearch { message })?;
+    let is_interrupted = incomplete == Some(OrbitError::Interrupted);
+    if is_interrupted && orbits.is_empty() {
         return Err(JobError::Interrupted { done: 0, part_s: None });
     }
-    let FoundOrbits { orbits, incomplete } = found.map_err(|message| JobError::NoSearch { message })?;
     let incomplete = incomplete.map(|error| error.to_string());
     Ok(OrbitsReport { orbits, incomplete, is_interrupted, figures: None, waveforms: Vec::new() })
 }

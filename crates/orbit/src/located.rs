@@ -10,7 +10,6 @@
 mod place;
 mod uncertainty;
 
-use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, PathProblem, norm, weighed};
 
 use crate::{
@@ -131,20 +130,10 @@ fn critical(events: hammerbeam_path::PathEvents, multipliers: &[[f64; 2]]) -> (O
     (nearest.copied(), if events.zeros == 0 && events.branch_point { off * off } else { off })
 }
 
-/// Whether an orbit of an odd number of periods is its own mirror image: after half of them the excitation
-/// has changed its sign, and the state has.
+/// Whether an orbit is its own mirror image.
 fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> bool {
-    if problem.period_multiple().is_multiple_of(2) {
-        return false;
-    }
-    let (frequency_hz, start) = (problem.frequency(&point.point), problem.phase());
-    let end = start + 0.5 * f64::from(problem.period_multiple());
-    let state = problem.nodes(&point.point).swap_remove(0);
-    let Ok(half) = problem.integrator().advance(&Stretch { frequency_hz, start, end }, &state) else {
-        return false;
-    };
-    let mirrored: Vec<f64> = half.iter().map(|value| -value).collect();
-    problem.scale().distance(&mirrored, &state) < MIRRORED
+    let mirrored = MIRRORED * problem.hertz_per_norm();
+    problem.has_symmetric_orbits() && problem.distance_to_symmetric(&point.point) < mirrored
 }
 
 /// The contacts of which one orbit has more or fewer than the one before.

@@ -116,7 +116,7 @@ pub(crate) struct ShootingProblem {
     /// Whether flips and Neimark-Sacker points are looked for.
     watches_stability: bool,
     varied: ContinuationParameter,
-    /// The orbits followed are none of those of a symmetric system that are their own mirror images.
+    /// The orbits followed differ from their mirror images.
     is_asymmetric: bool,
     /// For motions beside the one that was evaluated, once one was asked for.
     beside: Option<Box<Beside>>,
@@ -194,8 +194,8 @@ impl ShootingProblem {
         Ok(())
     }
 
-    /// Whether orbits are followed that, in a symmetric system, are not symmetric: those that are, they meet
-    /// at branch points only.
+    /// Whether orbits are followed that differ from their mirror images: those that do not they meet at branch
+    /// points only.
     pub fn is_asymmetric(&self) -> bool {
         self.is_asymmetric
     }

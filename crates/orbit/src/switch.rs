@@ -184,7 +184,7 @@ fn leave(
     if away_in_states > reach.abs() || away_in_frequency > amplitude.abs() {
         return Ok(None);
     }
-    problem.note_symmetry(current, OWN * amplitude.abs());
+    problem.note_symmetry(current);
     let path = OrbitPath::new(problem, follower, (settings, range_hz));
     let mut walk = BranchWalk::of(path, orbit.maxima.displacement, response);
     walk.begins_with_present = true;

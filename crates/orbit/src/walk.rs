@@ -41,10 +41,6 @@ pub(crate) use row::RowRecord;
 use settings::segment_count;
 pub(crate) use settings::{hertz_per_norm, path_settings};
 
-/// Distance of a start from its mirror image, relative to it, up to which its branch is one of symmetric
-/// orbits: of those that searches find the images lie nearer.
-const SYMMETRIC: f64 = 1e-5;
-
 /// One side of a branch, followed from its start.
 ///
 /// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored
@@ -135,7 +131,7 @@ impl BranchWalk {
         let path = path_settings(settings, system, length);
         let started = Follower::start(&mut problem, &point, direction, range, path);
         let follower = started.map_err(|error| problem.failure_or(error))?;
-        problem.note_symmetry(&follower.current().point, SYMMETRIC);
+        problem.note_symmetry(&follower.current().point);
         let path = OrbitPath::new(problem, follower, (settings, range_hz));
         Ok(Self::of(path, start.maxima.displacement, response))
     }

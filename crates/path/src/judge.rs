@@ -102,6 +102,9 @@ pub trait Judge {
     /// An orbit of N periods solves the same equations as one of a divisor of N that is gone through several
     /// times, a solution without a symmetry the same as one with it. Such a path is tangent to nothing: a
     /// point that comes that close is a jump. What was evaluated last stays so.
+    ///
+    /// Where that distance vanishes the path goes on as an image of what it has come along, and the parameter
+    /// turns; a path for which that is not so has to end there.
     fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         let _ = point;
         f64::INFINITY

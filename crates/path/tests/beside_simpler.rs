@@ -71,3 +71,17 @@ fn arms_turn_once_where_they_meet_the_simpler_path_whatever_the_slope_says() {
         assert!(arms.points.last().unwrap().point[0] < 0.0, "from {x}");
     }
 }
+
+/// `(x - x0)(λ - (x - x0)) = 0`: a path that only passes near a simpler one, at a branch point.
+#[test]
+fn a_branch_point_near_a_simpler_path_is_passed_straight_on() {
+    let near = 9e-4;
+    let crossing = move |x: f64, l: f64| {
+        let u = x - near;
+        (u * (l - u), l - 2.0 * u, u, 0)
+    };
+    let branch = up(&mut Leaving(plane(crossing)), &[near - 0.05, -0.05], -0.1, 0.1, steps_of(1e-3));
+    assert_eq!(branch.points.last().unwrap().parameter(), 0.1, "{:?}", branch.stop);
+    assert_eq!(branch.branch_points().count(), 1);
+    assert_eq!(folds(&branch), Vec::<f64>::new());
+}

@@ -89,7 +89,7 @@ impl BranchEnd {
     /// Whether the branch came to orbits of which its own are a more general case: of shorter period, or
     /// symmetric.
     #[must_use]
-    pub fn is_simpler(&self) -> bool {
+    pub fn meets_simpler(&self) -> bool {
         self.is_shorter_period() || matches!(self, Self::Walk(StopReason::Symmetric { .. }))
     }
 
@@ -100,7 +100,7 @@ impl BranchEnd {
             self,
             Self::Walk(StopReason::RangeEnd { .. }) | Self::Crossing { .. } | Self::Joins { .. }
         );
-        is_end || self.is_closed() || self.has_any_amplitude() || self.is_simpler()
+        is_end || self.is_closed() || self.has_any_amplitude() || self.meets_simpler()
     }
 }
 

@@ -123,7 +123,7 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
             at(*frequency_hz)
         ),
         StopReason::Symmetric { frequency_hz } => format!(
-            "met a branch of symmetric motions at {}, beyond which the mirror images of the same motions come",
+            "met a branch of symmetric motions at {}, beyond which it repeats as its mirror image",
             at(*frequency_hz)
         ),
         StopReason::Budget { solutions } => format!(

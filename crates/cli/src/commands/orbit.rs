@@ -38,8 +38,9 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         // What is left is short: it is neither drawn nor are motions computed again.
         watch.finishing();
         output.give(&report, || text(&report.orbits, shown))?;
-        let message = "interrupted; these are the periodic solutions that were found by then";
-        return Err(Failure::InterruptedWithResult(message.to_owned()));
+        let drawn = if options.out.is_some() { ", and nothing is drawn" } else { "" };
+        let message = format!("interrupted; these are the periodic solutions that were found by then{drawn}");
+        return Err(Failure::InterruptedWithResult(message));
     }
     if let Some(reason) = &report.incomplete {
         notify(&format!("the search is not complete: {reason}"));

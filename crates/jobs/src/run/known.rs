@@ -146,7 +146,7 @@ pub(super) fn has_branch_point(
     let of_root = left_from.map_or(Ok(0.0), doubt_hz)?;
     let mut near = Vec::new();
     for (key, row) in places {
-        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + of_root.max(doubt_hz(key)?);
+        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + of_root + doubt_hz(key)?;
         if (row.frequency_hz - root.frequency_hz).abs() <= allowed_hz {
             near.push(key);
         }
@@ -169,7 +169,7 @@ pub(super) fn has_branch_point(
 fn ends_at_simpler(start: &Start) -> impl Iterator<Item = Placed<'_>> {
     let of_side = |side| {
         let walk = start.walk(side);
-        let ends = walk.end.as_ref().is_some_and(BranchEnd::is_simpler);
+        let ends = walk.end.as_ref().is_some_and(BranchEnd::meets_simpler);
         row_of_side(start, side, walk.rows.len().checked_sub(1)?).filter(|_| ends)
     };
     [Side::Up, Side::Down].into_iter().filter_map(of_side)

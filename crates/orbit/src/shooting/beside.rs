@@ -21,7 +21,7 @@ pub(super) struct KnownImages {
 }
 
 /// Orbits whose distance is kept: a trial is the next current point.
-const KEPT: usize = 4;
+const KEPT: usize = 8;
 
 /// Where an orbit begins, and in which units.
 #[derive(Debug, Clone, Copy)]

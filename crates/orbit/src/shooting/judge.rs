@@ -18,6 +18,9 @@ use crate::{by_rows::norm, corner, stability};
 
 /// Index of the test function of complex pairs.
 const NEIMARK_SACKER: usize = 1;
+/// Distance of an orbit from its mirror image, relative to it, up to which it may be a symmetric one: of those
+/// that Newton's method finds the images lie nearer.
+const SYMMETRIC: f64 = 1e-5;
 /// Images that are known less well tell nothing.
 const MOST_MAGNIFIED: f64 = 1e3;
 
@@ -57,7 +60,11 @@ impl Judge for ShootingProblem {
     /// Distance from the orbits of shorter period and, for a walk of asymmetric orbits, from symmetric ones.
     fn distance_to_simpler(&mut self, point: &[f64]) -> f64 {
         let shorter = self.distance_to_shorter_period(point);
-        if self.meets_symmetric() { shorter.min(self.distance_to_symmetric(point)) } else { shorter }
+        if self.is_asymmetric() && self.has_symmetric_orbits() {
+            shorter.min(self.distance_to_symmetric(point))
+        } else {
+            shorter
+        }
     }
 
     /// The orbit as it begins some whole excitation periods later.
@@ -111,21 +118,19 @@ impl ShootingProblem {
         }
     }
 
-    /// Notes whether the orbits to be followed are symmetric, by the one at this point: it is if its distance
-    /// from its mirror image, relative to the orbit, is less than this. Of an even number of excitation
-    /// periods no orbit is symmetric, nor is there anything to be met.
-    pub(crate) fn note_symmetry(&mut self, point: &[f64], least: f64) {
-        let has_images = self.system().is_symmetric() && !self.period_multiple().is_multiple_of(2);
-        let least = least * self.hertz_per_norm();
-        let is_far = |distance: f64| distance.is_finite() && distance > least;
-        let is_asymmetric = has_images && is_far(self.distance_to_symmetric(point));
-        self.set_asymmetric(is_asymmetric);
+    /// Whether there are orbits that are their own mirror images half their period later: in a symmetric
+    /// system, of an odd number of excitation periods.
+    pub(crate) fn has_symmetric_orbits(&self) -> bool {
+        self.system().is_symmetric() && !self.period_multiple().is_multiple_of(2)
     }
 
-    /// Whether the orbits followed may meet symmetric ones: they are asymmetric, and the system is symmetric
-    /// at present.
-    pub(crate) fn meets_symmetric(&self) -> bool {
-        self.is_asymmetric() && self.system().is_symmetric()
+    /// Notes whether the orbits to be followed are asymmetric ones that may meet symmetric ones, by the one at
+    /// this point. In doubt they are not: then nothing is known of what they meet.
+    pub(crate) fn note_symmetry(&mut self, point: &[f64]) {
+        let symmetric = SYMMETRIC * self.hertz_per_norm();
+        let is_asymmetric = self.has_symmetric_orbits()
+            && (symmetric..f64::INFINITY).contains(&self.distance_to_symmetric(point));
+        self.set_asymmetric(is_asymmetric);
     }
 
     /// Distance of a point from the symmetric orbits: from its mirror image half its period later, by its

@@ -10,7 +10,7 @@ use super::{
     row::largest_multiplier,
     shorter_period::is_near_shorter_period,
     splits::splits_here,
-    symmetric::is_near_symmetric,
+    symmetric::has_come_to_symmetric,
     together::struck_together,
 };
 use crate::StopReason;
@@ -25,7 +25,7 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
             StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
         }
         PathStop::StepTooShort { parameter, .. } | PathStop::RunsBack { parameter, .. }
-            if is_near_symmetric(path) =>
+            if has_come_to_symmetric(path) =>
         {
             StopReason::Symmetric { frequency_hz: parameter }
         }

@@ -11,7 +11,7 @@ use super::{
     resegment::resegment,
     shorter_period::{grazes_shorter_period, meets_shorter_period},
     splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
-    symmetric::tends_to_symmetric,
+    symmetric::has_come_to_symmetric,
 };
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
@@ -132,8 +132,7 @@ impl BranchWalk {
     /// Makes ready to leave the present point; or why the walk ends there.
     fn depart(&mut self) -> Result<Departure, StopReason> {
         let path = &mut self.path;
-        let end = meets_shorter_period(path).or_else(|| tends_to_symmetric(path));
-        if let Some(end) = end.or_else(|| tends_to_splitting(path)) {
+        if let Some(end) = meets_shorter_period(path).or_else(|| tends_to_splitting(path)) {
             return Err(end);
         }
         let place = may_split(path);
@@ -157,6 +156,8 @@ impl BranchWalk {
             from.clone_from(path.follower.current());
             match path.follower.step(&mut path.problem) {
                 StepOutcome::Accepted => return Ok(None),
+                // Cut anew it would go on along the symmetric orbits.
+                StepOutcome::Stopped(reason) if has_come_to_symmetric(path) => return Ok(Some(reason)),
                 StepOutcome::Stopped(StepTooShort { .. } | EvaluationFailed { .. })
                     if flights < MOST_FLIGHTS && flee_phase(path) =>
                 {

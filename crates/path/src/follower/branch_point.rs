@@ -19,8 +19,10 @@ const VANISHING: f64 = 1e-3;
 /// If `|D|` did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
 const JUMP_WIDTH: f64 = 1e-2;
 const JUMP_SIZE: f64 = 0.1;
-/// Nearer than so many distances of sheets to a simpler path a branch point is the one at which that is met.
+/// A branch point at which a simpler path is met is known to within so many distances of sheets from it,
 const MET: f64 = 100.0;
+/// and is nearer to it than the farther end of the step, by this factor.
+const FALLEN: f64 = 0.1;
 /// Share of `t_λ` of the ends below which the branch point is also a fold (as on the arms of a pitchfork).
 const STATIONARY: f64 = 0.02;
 
@@ -113,7 +115,10 @@ fn turn_at_branch_point(
     share: f64,
 ) -> Result<Option<f64>, StepDoubt> {
     let (before, after) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
-    if meets_simpler(attempt, &locator.probe.node.point) {
+    let judge = attempt.problem.judge();
+    let ends = [&attempt.state.current.point, &attempt.trial.point].map(|end| judge.distance_to_simpler(end));
+    let near = (FALLEN * ends[0].max(ends[1])).min(MET * attempt.frame.settings.sheet_distance);
+    if meets_simpler(attempt, &locator.probe.node.point, near) {
         return Ok(Some(-before));
     }
     if before * after >= 0.0 {
@@ -127,13 +132,12 @@ fn turn_at_branch_point(
     if here * before > 0.0 { Ok(None) } else { Err(StepDoubt::HiddenFolds) }
 }
 
-/// Whether a branch point here is the one at which a simpler path is met.
+/// Whether a branch point here, or nearer to a simpler path, is the one at which that is met.
 ///
 /// There the parameter turns: the path goes on as an image of what it has come along, and `λ - λ₀` is even in
 /// the distance from the simpler path. Slopes beside it may be rounding, and are not asked.
-pub(super) fn meets_simpler(attempt: &mut Attempt<'_>, point: &[f64]) -> bool {
-    let left = attempt.problem.judge().distance_to_simpler(point);
-    left < MET * attempt.frame.settings.sheet_distance
+pub(super) fn meets_simpler(attempt: &mut Attempt<'_>, point: &[f64], near: f64) -> bool {
+    attempt.problem.judge().distance_to_simpler(point) < near
 }
 
 /// At a branch point the direction from the factorisation is that of no branch; both ends of the step have

@@ -17,6 +17,9 @@ use crate::{error::StepDoubt, point::PathEvents};
 /// Lengths that are tried, in shortest steps.
 const REACHES: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 
+/// A simpler path that was met within a step is no farther from its end than so many times its length.
+const PASSED: f64 = 4.0;
+
 /// Passes a place at which short steps fail, in a longer one.
 ///
 /// # Errors
@@ -50,11 +53,11 @@ fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoub
     let branch_point = attempt.trial.sign * attempt.state.orientation < 0.0;
     let (before, slope) = (attempt.state.parameter_sign, attempt.trial.tangent_parameter());
     let place = attempt.trial.node.point.clone();
-    let meets_simpler = branch_point && meets_simpler(attempt, &place);
-    let fold = meets_simpler || turned(attempt, slope);
+    let meets = branch_point && meets_simpler(attempt, &place, PASSED * length);
+    let fold = meets || turned(attempt, slope);
     Ok(Arrival {
         events: PathEvents { branch_point, fold, ..PathEvents::default() },
-        parameter_sign: fold.then_some(if meets_simpler { -before } else { slope.signum() }),
+        parameter_sign: fold.then_some(if meets { -before } else { slope.signum() }),
         anchors_anew: branch_point,
         uncertainty: length,
         ..Arrival::default()
