@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
+use hammerbeam_motion::{Law, Stretch, exact::ExactSettings, law::PowerSpring};
 use hammerbeam_path::PathProblem;
 
 use super::*;
@@ -65,5 +65,64 @@ fn tangents_beside_multipliers_of_1e4_to_1e24_are_those_of_the_hill() {
             // What the error of the motion leaves; the tangent is 1e-7 large.
             assert!((found[0] - expected).abs() < 1e-10, "1e{power}: {} {expected}", found[0]);
         }
+    }
+}
+
+/// `x'' + 0.2 x' + x + x^3 = 15 cos(2 pi f t)`, which loses its symmetry between 0.099 and 0.153 Hz.
+fn duffing(segments: usize, start: [f64; 2], periods: u32) -> (ShootingProblem, Vec<f64>) {
+    let (system, _) = oscillator(0.2, 15.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
+    let scale = StateScale::new(&[1.0], 1.0, 3.0);
+    let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
+    let part = f64::from(periods) / segments as f64;
+    let mut nodes = vec![start.to_vec()];
+    for k in 1..segments {
+        let (start, end) = ((k - 1) as f64 * part, k as f64 * part);
+        nodes.push(integrator.advance(&Stretch { frequency_hz: 0.12, start, end }, &nodes[k - 1]).unwrap());
+    }
+    let mut problem = ShootingProblem::new(integrator, (periods, segments), scale, 0.5);
+    let mut point = problem.point(&nodes, 0.12);
+    correct(&mut problem, &mut point, &OrbitSettings::default()).unwrap();
+    (problem, point)
+}
+
+/// Where an orbit that differs from its mirror image begins, and a symmetric one, at 0.12 Hz.
+fn pair_and_symmetric() -> [[f64; 2]; 2] {
+    let subject = oscillator(0.2, 15.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
+    let orbit = (0.12, 1);
+    let settings = OrbitSettings::default();
+    let found =
+        crate::find_orbits(&subject.0, &subject.1, orbit, (0.11, 0.13), &settings, &mut || false).unwrap();
+    let starts: Vec<[f64; 2]> =
+        found.orbits.iter().map(|orbit| [orbit.nodes[0][0], orbit.nodes[0][1]]).collect();
+    let off = |start: &[f64; 2]| {
+        let (mut problem, point) = duffing(1, *start, 1);
+        problem.distance_to_symmetric(&point)
+    };
+    let farthest = starts.iter().max_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+    let nearest = starts.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+    [*farthest, *nearest]
+}
+
+/// By the nodes, of which two lie half a period apart, and by the motion of the first one, if none do: with two
+/// nodes or one it is the same number. That of a symmetric orbit is rounding.
+#[test]
+fn the_distance_from_symmetric_orbits_is_that_from_the_mirror_image() {
+    let [asymmetric, symmetric] = pair_and_symmetric();
+    let of = |start: [f64; 2], segments: usize, periods: u32| {
+        let (mut problem, point) = duffing(segments, start, periods);
+        let distance = problem.distance_to_symmetric(&point);
+        problem.note_symmetry(&point);
+        (distance, problem.is_asymmetric())
+    };
+    let (by_motion, by_nodes) = (of(asymmetric, 1, 1), of(asymmetric, 2, 1));
+    assert!(by_motion.0 > 1e-2, "{by_motion:?}");
+    assert!((by_motion.0 / by_nodes.0 - 1.0).abs() < 1e-7, "{by_motion:?} {by_nodes:?}");
+    assert!(by_motion.1 && by_nodes.1 && of(asymmetric, 3, 1).1 && of(asymmetric, 4, 1).1);
+    // Gone through three times it has its image one and a half periods later, and twice none.
+    assert!((of(asymmetric, 3, 3).0 / by_motion.0 - 1.0).abs() < 1e-6);
+    assert!(!of(asymmetric, 2, 2).1);
+    for (segments, periods) in [(1, 1), (2, 1), (3, 1), (4, 1), (3, 3), (6, 3)] {
+        let (distance, is_asymmetric) = of(symmetric, segments, periods);
+        assert!(distance < 1e-7 && !is_asymmetric, "{distance:e}, {segments} segments");
     }
 }
