@@ -41,7 +41,8 @@ max_step_hz = 0.005
 frequencies = 1
 "#;
 
-/// There, or beyond, where the walk goes through the branch point: it must not come over to the symmetric branch.
+/// There, or beyond, where the walk goes through the branch point: it must not come over to the symmetric
+/// branch.
 #[test]
 fn a_pair_that_rounding_hardly_tells_apart_ends_where_it_becomes_symmetric() {
     let workshop = Workshop::with(HARDLY_APART);

@@ -183,8 +183,8 @@ pub(crate) fn effort(search: &file::Search, wanted: Wanted) -> SurveyEffort {
 fn why_not_begun(error: OrbitError) -> String {
     match error {
         OrbitError::Path(PathError::Start { parameter, cause }) => format!(
-            "the motion at {parameter} Hz was not found again to the tolerance of a branch; mostly a contact is so \
-            hard that rounding hides its penetration ({cause})"
+            "the motion at {parameter} Hz was not found again to the tolerance of a branch; mostly a contact \
+            is so hard that rounding hides its penetration ({cause})"
         ),
         error => error.to_string(),
     }

@@ -194,8 +194,8 @@ impl ShootingProblem {
         Ok(())
     }
 
-    /// Whether orbits are followed that differ from their mirror images: those that do not they meet at branch
-    /// points only.
+    /// Whether orbits are followed that differ from their mirror images: those that do not they meet at
+    /// branch points only.
     pub fn is_asymmetric(&self) -> bool {
         self.is_asymmetric
     }

@@ -164,8 +164,8 @@ pub(super) fn has_branch_point(
     Ok(false)
 }
 
-/// The last rows of the sides that end at motions of shorter period or symmetric ones, whether the place could
-/// be located or not.
+/// The last rows of the sides that end at motions of shorter period or symmetric ones, whether the place
+/// could be located or not.
 fn ends_at_simpler(start: &Start) -> impl Iterator<Item = Placed<'_>> {
     let of_side = |side| {
         let walk = start.walk(side);

@@ -18,8 +18,8 @@ use crate::{by_rows::norm, corner, stability};
 
 /// Index of the test function of complex pairs.
 const NEIMARK_SACKER: usize = 1;
-/// Distance of an orbit from its mirror image, relative to it, up to which it may be a symmetric one: of those
-/// that Newton's method finds the images lie nearer.
+/// Distance of an orbit from its mirror image, relative to it, up to which it may be a symmetric one: of
+/// those that Newton's method finds the images lie nearer.
 const SYMMETRIC: f64 = 1e-5;
 /// Images that are known less well tell nothing.
 const MOST_MAGNIFIED: f64 = 1e3;
@@ -124,8 +124,8 @@ impl ShootingProblem {
         self.system().is_symmetric() && !self.period_multiple().is_multiple_of(2)
     }
 
-    /// Notes whether the orbits to be followed are asymmetric ones that may meet symmetric ones, by the one at
-    /// this point. In doubt they are not: then nothing is known of what they meet.
+    /// Notes whether the orbits to be followed are asymmetric ones that may meet symmetric ones, by the one
+    /// at this point. In doubt they are not: then nothing is known of what they meet.
     pub(crate) fn note_symmetry(&mut self, point: &[f64]) {
         let symmetric = SYMMETRIC * self.hertz_per_norm();
         let is_asymmetric = self.has_symmetric_orbits()

@@ -103,8 +103,8 @@ fn pair_and_symmetric() -> [[f64; 2]; 2] {
     [*farthest, *nearest]
 }
 
-/// By the nodes, of which two lie half a period apart, and by the motion of the first one, if none do: with two
-/// nodes or one it is the same number. That of a symmetric orbit is rounding.
+/// By the nodes, of which two lie half a period apart, and by the motion of the first one, if none do: with
+/// two nodes or one it is the same number. That of a symmetric orbit is rounding.
 #[test]
 fn the_distance_from_symmetric_orbits_is_that_from_the_mirror_image() {
     let [asymmetric, symmetric] = pair_and_symmetric();
