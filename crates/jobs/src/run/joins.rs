@@ -137,10 +137,11 @@ fn first_join(
     Ok(first.map(|(index, junction)| {
         let walk = &start.walk(side).rows;
         let mut solutions = skipped + index + 1 - ahead;
-        let mut frequency_hz = junction.frequency_hz;
         if let Some(grazing) = grazing_before(walk, solutions).filter(|_| junction.grazes) {
-            (solutions, frequency_hz) = (grazing + 1, walk[grazing].frequency_hz);
+            solutions = grazing + 1;
         }
+        let last = solutions.checked_sub(1).and_then(|last| walk.get(last));
+        let frequency_hz = last.map_or(junction.frequency_hz, |row| row.frequency_hz);
         (solutions, BranchEnd::Joins { branch: Some(junction.branch), frequency_hz })
     }))
 }
