@@ -415,3 +415,37 @@ max_step_hz = 0.0050659
     );
     assert_whole(&workshop, (1.0, 2.41766), WHOLE);
 }
+
+/// Motions of three periods between two stops. Where their impacts become ever slower, at 2.91304 Hz, those of
+/// many branches come together, nearer than they are known, and part again.
+#[test]
+fn branches_that_come_together_in_slow_impacts_are_not_one() {
+    let workshop = Workshop::with(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m1", mass_kg = 0.23 }]
+spring = [{ between = ["m1", "ground"], stiffness_n_m = 611.0 }]
+[damping]
+modal_ratio = 0.019
+[excitation]
+kind = "force"
+at = "m1"
+amplitude_n = 5.1
+frequency_hz = [2.7, 4.0]
+[[stop]]
+at = "m1"
+law = "rigid"
+restitution = 0.55
+side = "both"
+gap_m = 0.0121
+[response]
+period_multiples = [3]
+[continuation]
+max_step_hz = 0.0252
+"#,
+    );
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert_whole(&workshop, (2.7, 4.0), WHOLE);
+}

@@ -35,7 +35,8 @@ const APART: [usize; 5] = [0, 4, 16, 64, 256];
 
 /// A place at which a later branch may come upon an earlier one.
 struct Junction<'a> {
-    /// The earlier branch.
+    /// The earlier branch, and its number.
+    start: &'a Start,
     branch: u32,
     /// Frequency of its last solution there, or of its grazing [Hz].
     frequency_hz: f64,
@@ -129,7 +130,9 @@ fn first_join(
             let upto = first.map_or(rows.len(), |(index, _)| index + 1);
             // Beside a grazing lie orbits with more contacts and with fewer, and Newton's method goes over.
             let contacts = junction.grazes.then_some(row.1.contacts);
-            if let Some(index) = known::passes(store, solver, &rows[..upto], (row, contacts))? {
+            let Some(index) = known::passes(store, solver, &rows[..upto], (row, contacts))? else { continue };
+            let upto = skipped + index + 1 - ahead;
+            if !junction.grazes || goes_along(store, solver, (start, side, upto), junction.start)? {
                 first = Some((index, junction));
             }
         }
@@ -146,11 +149,35 @@ fn first_join(
     }))
 }
 
+/// Whether a side goes along another branch from its last grazing on up to so many of its solutions, by one
+/// halfway.
+///
+/// Where contacts are ever slower, orbits of many branches come together, nearer than they are known, and
+/// part again: that they meet says nothing there.
+fn goes_along(
+    store: &Store,
+    solver: &dyn Solver,
+    (start, side, solutions): (&Start, Side, usize),
+    other: &Start,
+) -> Result<bool, StoreError> {
+    let rows = &start.walk(side).rows;
+    let from = last_change(rows, solutions).map_or(0, |index| index + 1);
+    let halfway = from + (solutions.max(from) - from) / 2;
+    let Some((key, _)) = known::row_of_side(start, side, halfway.min(rows.len().saturating_sub(1))) else {
+        return Ok(true);
+    };
+    known::lies_on(store, solver, other, &store.solution_of_key(key)?)
+}
+
 /// The grazing from which on a side has the contacts that it has after so many solutions.
 fn grazing_before(rows: &[Sketch], solutions: usize) -> Option<usize> {
+    last_change(rows, solutions).filter(|&index| rows[index].grazes)
+}
+
+/// The last of so many solutions before those that have the contacts of the last one.
+fn last_change(rows: &[Sketch], solutions: usize) -> Option<usize> {
     let contacts = rows[..solutions].last()?.contacts;
-    let changes = |row: &Sketch| row.grazes || row.contacts != contacts;
-    rows[..solutions].iter().rposition(changes).filter(|&index| rows[index].grazes)
+    rows[..solutions].iter().rposition(|row| row.grazes || row.contacts != contacts)
 }
 
 /// Early ends and grazings of the branches before the one of a start, of the same period.
@@ -171,6 +198,7 @@ fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
     // At a branch point another branch has the same solution and is another one all the same.
     let compared = |back: usize| before(back).filter(|(_, row)| !row.branch_point);
     Some(Junction {
+        start,
         branch,
         frequency_hz: last.frequency_hz,
         grazes: false,
@@ -192,6 +220,7 @@ fn grazings(start: &Start, side: Side) -> Vec<Junction<'_>> {
     let grazes = start.walk(side).rows.iter().enumerate().filter(|(_, row)| row.grazes);
     grazes
         .map(|(index, row)| Junction {
+            start,
             branch,
             frequency_hz: row.frequency_hz,
             grazes: true,
