@@ -416,12 +416,12 @@ max_step_hz = 0.0050659
     assert_whole(&workshop, (1.0, 2.41766), WHOLE);
 }
 
-/// Motions of three periods between two stops. Where their impacts become ever slower, at 2.91304 Hz, those of
-/// many branches come together, nearer than they are known, and part again.
+/// Motions of three periods between two stops. Where their impacts become ever slower, at 2.91304 Hz, those
+/// of many branches come together, nearer than they are known, and part again. One of 10 impacts and one of 11
+/// differ by less than 1e-4.
 #[test]
 fn branches_that_come_together_in_slow_impacts_are_not_one() {
-    let workshop = Workshop::with(
-        r#"
+    let study = r#"
 [structure]
 kind = "lumped"
 mass = [{ name = "m1", mass_kg = 0.23 }]
@@ -443,9 +443,8 @@ gap_m = 0.0121
 period_multiples = [3]
 [continuation]
 max_step_hz = 0.0252
-"#,
-    );
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    assert_whole(&workshop, (2.7, 4.0), WHOLE);
+"#;
+    let ends = Workshop::exported(study).table("results/export/ends.csv");
+    assert!(ends.len() >= 20, "{ends:?}");
+    assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
 }
