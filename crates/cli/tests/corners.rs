@@ -417,8 +417,8 @@ max_step_hz = 0.0050659
 }
 
 /// Motions of three periods between two stops. Where their impacts become ever slower, at 2.91304 Hz, those
-/// of many branches come together, nearer than they are known, and part again. One of 10 impacts and one of 11
-/// differ by less than 1e-4.
+/// of many branches come together, nearer than they are known, and part again. One of 10 impacts and one of
+/// 11 differ by less than 1e-4.
 #[test]
 fn branches_that_come_together_in_slow_impacts_are_not_one() {
     let study = r#"
