@@ -421,30 +421,10 @@ max_step_hz = 0.0050659
 /// 11 differ by less than 1e-4.
 #[test]
 fn branches_that_come_together_in_slow_impacts_are_not_one() {
-    let study = r#"
-[structure]
-kind = "lumped"
-mass = [{ name = "m1", mass_kg = 0.23 }]
-spring = [{ between = ["m1", "ground"], stiffness_n_m = 611.0 }]
-[damping]
-modal_ratio = 0.019
-[excitation]
-kind = "force"
-at = "m1"
-amplitude_n = 5.1
-frequency_hz = [2.7, 4.0]
-[[stop]]
-at = "m1"
-law = "rigid"
-restitution = 0.55
-side = "both"
-gap_m = 0.0121
-[response]
-period_multiples = [3]
-[continuation]
-max_step_hz = 0.0252
-"#;
-    let ends = Workshop::exported(study).table("results/export/ends.csv");
+    let stop = "restitution = 0.55\nside = \"both\"\ngap_m = 0.0121";
+    let oscillator = one_mass([0.23, 611.0, 0.019, 5.1], [2.7, 4.0], stop);
+    let further = "[response]\nperiod_multiples = [3]\n[continuation]\nmax_step_hz = 0.0252\n";
+    let ends = Workshop::exported(&(oscillator + further)).table("results/export/ends.csv");
     assert!(ends.len() >= 20, "{ends:?}");
     assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
 }

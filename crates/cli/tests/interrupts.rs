@@ -150,7 +150,6 @@ fn an_interrupted_search_for_orbits_gives_what_it_has_found() {
         }
         assert_eq!(document["search_complete"], false, "{document}");
         assert_eq!(document["frequency_hz"], 33.6, "{document}");
-        assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
         true
     });
     assert!(gave, "no interrupted search gave a solution");

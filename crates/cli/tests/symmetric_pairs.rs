@@ -1,10 +1,7 @@
 //! Pairs of mirror images, where they meet the symmetric orbits.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::{
-    common::{Workshop, assert_success},
-    corners::WHOLE,
-};
+use crate::{common::Workshop, corners::WHOLE};
 
 /// Two masses, one of them between two stops. From the grazing at 10.72681 Hz, where one contact more is made
 /// on one side, to the branch point 6e-7 Hz away from it the images part by some 1e-5 of the motion: beside
@@ -45,10 +42,7 @@ frequencies = 1
 /// branch.
 #[test]
 fn a_pair_that_rounding_hardly_tells_apart_ends_where_it_becomes_symmetric() {
-    let workshop = Workshop::with(HARDLY_APART);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let ends = workshop.table("results/export/ends.csv");
+    let ends = Workshop::exported(HARDLY_APART).table("results/export/ends.csv");
     assert!(ends.len() > 6, "{ends:?}");
     let is_whole = |end: &str| WHOLE.contains(&end) || end == "symmetric";
     assert!(ends.iter().all(|end| is_whole(&end["end"])), "{ends:?}");

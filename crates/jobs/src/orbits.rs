@@ -10,10 +10,8 @@ use crate::{JobError, Observer, OrbitSolver, OrbitWaveform, PreparedStudy, orbit
 pub struct OrbitsReport {
     /// The solutions; the first one is the one that the search has come to first.
     pub orbits: Vec<PeriodicSolution>,
-    /// Why the search is not complete, in words.
-    pub incomplete: Option<String>,
-    /// The search was interrupted; what it had found by then is here.
-    pub is_interrupted: bool,
+    /// Why the search is not complete.
+    pub incomplete: Option<OrbitError>,
     /// Names of the figures that were drawn of them.
     pub figures: Option<Vec<String>>,
     /// The motion of each over its period, where it was asked for.
@@ -24,6 +22,12 @@ pub struct OrbitsReport {
 const SAMPLES: usize = 256;
 
 impl OrbitsReport {
+    /// Whether the search was interrupted; what it had found by then is here.
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        self.incomplete == Some(OrbitError::Interrupted)
+    }
+
     /// Computes the motion of each solution over its period, 256 samples in an excitation period.
     ///
     /// # Errors
@@ -51,12 +55,11 @@ pub fn orbits(
     let solver = OrbitSolver::new(&study.model, &study.file.study);
     let found = solver.find_orbits(frequency_hz, period_multiple, &mut || observer.interrupted());
     let FoundOrbits { orbits, incomplete } = found.map_err(|message| JobError::NoSearch { message })?;
-    let is_interrupted = incomplete == Some(OrbitError::Interrupted);
-    if is_interrupted && orbits.is_empty() {
+    let report = OrbitsReport { orbits, incomplete, figures: None, waveforms: Vec::new() };
+    if report.is_interrupted() && report.orbits.is_empty() {
         return Err(JobError::Interrupted { done: 0, part_s: None });
     }
-    let incomplete = incomplete.map(|error| error.to_string());
-    Ok(OrbitsReport { orbits, incomplete, is_interrupted, figures: None, waveforms: Vec::new() })
+    Ok(report)
 }
 
 /// A solution in few numbers.

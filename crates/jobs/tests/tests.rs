@@ -3,6 +3,7 @@
 
 mod comparison;
 mod comparison_minima;
+mod orbits;
 mod update;
 mod update_data;
 mod varied;

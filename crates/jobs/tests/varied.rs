@@ -9,7 +9,7 @@ use hammerbeam_results::{Store, export_csv, export_states};
 use tempfile::{TempDir, tempdir};
 
 /// An oscillator on a hardening spring: an S over the force, with two folds, and the curve of the folds.
-const STUDY: &str = r#"
+pub const STUDY: &str = r#"
 [structure]
 kind = "lumped"
 mass = [{ name = "mass", mass_kg = 1.0 }]

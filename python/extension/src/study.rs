@@ -160,7 +160,8 @@ impl NativeStudy {
         let found = found.map_err(|error| exception(py, error))?;
         let chosen = |solution| ChosenOrbit { branch: None, event: String::new(), solution };
         let all = found.orbits.into_iter().map(chosen).collect();
-        Ok((NativeOrbits::new(self.study.clone(), all), found.incomplete))
+        let incomplete = found.incomplete.map(|error| error.to_string());
+        Ok((NativeOrbits::new(self.study.clone(), all), incomplete))
     }
 
     /// A motion in time: of a study with an excitation `(frequency_hz, transient, periods, duration_s,

@@ -34,7 +34,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         let why = report.incomplete.map_or(String::new(), |reason| format!(": {reason}"));
         return Err(Failure::NoResult(nothing + &why));
     }
-    if report.is_interrupted {
+    if report.is_interrupted() {
         // What is left is short: it is neither drawn nor are motions computed again.
         watch.finishing();
         output.give(&report, || text(&report.orbits, shown))?;

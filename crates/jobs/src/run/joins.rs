@@ -35,9 +35,8 @@ const APART: [usize; 5] = [0, 4, 16, 64, 256];
 
 /// A place at which a later branch may come upon an earlier one.
 struct Junction<'a> {
-    /// The earlier branch, and its number.
+    /// The earlier branch.
     start: &'a Start,
-    branch: u32,
     /// Frequency of its last solution there, or of its grazing [Hz].
     frequency_hz: f64,
     /// Whether it is a grazing, from which the branch goes on.
@@ -145,7 +144,7 @@ fn first_join(
         }
         let last = solutions.checked_sub(1).and_then(|last| walk.get(last));
         let frequency_hz = last.map_or(junction.frequency_hz, |row| row.frequency_hz);
-        (solutions, BranchEnd::Joins { branch: Some(junction.branch), frequency_hz })
+        (solutions, BranchEnd::Joins { branch: junction.start.branch, frequency_hz })
     }))
 }
 
@@ -162,7 +161,7 @@ fn goes_along(
 ) -> Result<bool, StoreError> {
     let rows = &start.walk(side).rows;
     let from = last_change(rows, solutions).map_or(0, |index| index + 1);
-    let halfway = from + (solutions.max(from) - from) / 2;
+    let halfway = from + (solutions - from) / 2;
     let Some((key, _)) = known::row_of_side(start, side, halfway.min(rows.len().saturating_sub(1))) else {
         return Ok(true);
     };
@@ -192,14 +191,13 @@ const SIDES: [Side; 2] = [Side::Up, Side::Down];
 
 fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
     let walk = start.walk(side);
-    let branch = start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
+    start.branch.filter(|_| !walk.end.as_ref().is_none_or(BranchEnd::is_complete))?;
     let last = walk.rows.last()?;
     let before = |back: usize| known::row_of_side(start, side, walk.rows.len().checked_sub(1 + back)?);
     // At a branch point another branch has the same solution and is another one all the same.
     let compared = |back: usize| before(back).filter(|(_, row)| !row.branch_point);
     Some(Junction {
         start,
-        branch,
         frequency_hz: last.frequency_hz,
         grazes: false,
         rows: APART.into_iter().filter_map(compared).collect(),
@@ -209,7 +207,9 @@ fn lost_end(start: &Start, side: Side) -> Option<Junction<'_>> {
 /// The grazings of a side, with solutions on either side of each: at the grazing itself another branch has
 /// the same one.
 fn grazings(start: &Start, side: Side) -> Vec<Junction<'_>> {
-    let Some(branch) = start.branch else { return Vec::new() };
+    if start.branch.is_none() {
+        return Vec::new();
+    }
     let is_plain = |(_, row): &Placed<'_>| !row.branch_point && !row.grazes;
     let around = |index: usize| {
         let apart = APART.into_iter().skip(1);
@@ -221,7 +221,6 @@ fn grazings(start: &Start, side: Side) -> Vec<Junction<'_>> {
     grazes
         .map(|(index, row)| Junction {
             start,
-            branch,
             frequency_hz: row.frequency_hz,
             grazes: true,
             rows: around(index),
