@@ -9,8 +9,9 @@
 //! falls with the step and rounding grows. It is shortened as well as long as `2 b^2`, what a bend b beside a
 //! square root leaves of error, is more than the next step's rounding: beside slow impacts the column is
 //! large, and where the columns of an orbit cancel, as they do in a tangent, an error of a millionth is one
-//! of hundredths. Where only one side has a system, it is the difference to that. How the number changes the
-//! matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference
+//! of hundredths. Where only one side has a system, or the contacts of this motion even at the shortest step,
+//! it is the difference to that: beside a grazing the motions beyond it tell nothing of those on this side.
+//! How the number changes the matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference
 //! of columns at two states would divide the rounding of the columns by a second step. The column serves
 //! Newton's method and tangents, both of which converge whatever its last digits: solutions are those of the
 //! equations, and events those of the fundamental matrices, which are exact.
@@ -135,13 +136,14 @@ impl ExactIntegrator {
         end: &[f64],
         of: &mut impl FnMut(&mut Self) -> Option<Vec<f64>>,
     ) -> Option<Difference> {
-        let mut ends: Vec<(f64, Vec<f64>)> = Vec::new();
-        let mut is_same = true;
+        let (mut same, mut other): (Vec<(f64, Vec<f64>)>, Vec<(f64, Vec<f64>)>) = Default::default();
         for (step, neighbour) in neighbours {
             let Some(moved) = of(neighbour) else { continue };
-            is_same &= neighbour.touches == self.touches;
-            ends.push((*step, moved));
+            let is_same = neighbour.touches == self.touches;
+            if is_same { &mut same } else { &mut other }.push((*step, moved));
         }
+        let (is_same, crosses) = (!same.is_empty(), !other.is_empty());
+        let ends = if is_same { same } else { other };
         let middle = (0.0, end.to_vec());
         let (below, above) = match ends.as_slice() {
             [below, above] => (below, above),
@@ -155,11 +157,14 @@ impl ExactIntegrator {
         let rounding = GROWTH * ROUNDING * norm(&mut end.iter().copied()) / difference;
         let bend = match ends.len() {
             _ if !is_same => f64::INFINITY,
+            // Known of one side alone, and near a grazing it may bend as much as it moves.
+            _ if crosses => 1.0,
             2 => bend / difference,
             _ => 0.0,
         };
         // What does not move at all is no difference to better.
-        let is_smooth = is_same && (difference == 0.0 || (bend <= BEND && 2.0 * bend * bend <= rounding));
+        let is_still = is_same && !crosses && difference == 0.0;
+        let is_smooth = is_still || (bend <= BEND && 2.0 * bend * bend <= rounding);
         let width = above.0 - below.0;
         Some(Difference { column: pairs().map(|(a, b)| (b - a) / width).collect(), bend, is_smooth })
     }
