@@ -428,3 +428,23 @@ fn branches_that_come_together_in_slow_impacts_are_not_one() {
     assert!(ends.len() >= 20, "{ends:?}");
     assert!(ends.iter().all(|end| WHOLE.contains(&end["end"].as_str())), "{ends:?}");
 }
+
+/// Over the gap of both sides the symmetric orbit of two impacts grazes where that is the amplitude of the
+/// linear response, and goes on without them. Before, the column of the gap was one of differences, and the
+/// branch was lost beside it.
+#[test]
+fn a_branch_over_the_gap_of_both_sides_goes_on_across_their_grazing() {
+    let oscillator = [0.73, 311.0, 0.047, 1.7];
+    let stop = "restitution = 0.71\nside = \"both\"\ngap_m = 0.005";
+    let vary = "[[vary]]\nparameter = \"stop.s.gap_m\"\nrange = [0.0031, 0.0123]\nfrequency_hz = 2.03\nsteps = 300\n";
+    let workshop = Workshop::exported(&(one_mass(oscillator, [2.0, 2.06], stop) + vary));
+    let ends = workshop.table("results/export/parameter_ends.csv");
+    assert!(ends.iter().all(|end| end["end"] == "range") && ends.len() == 2, "{ends:?}");
+    let events = workshop.table("results/export/parameter_events.csv");
+    let last = events.iter().max_by(|a, b| number(a, "parameter").total_cmp(&number(b, "parameter")));
+    let (last, [m, k, ratio, force]) = (last.unwrap(), oscillator);
+    let relative = from_gap([m, k, ratio, force, number(last, "parameter")], 2.03);
+    let uncertainty = number(last, "uncertainty") / number(last, "parameter");
+    assert!(last["event"] == "grazing" && relative.abs() <= uncertainty, "{relative:e}: {last:?}");
+    assert!(uncertainty < 1e-8, "{last:?}");
+}

@@ -117,6 +117,7 @@ pub mod law;
 mod load;
 mod parameter;
 mod point_motion;
+mod start_speed;
 mod stretch;
 mod system;
 

@@ -2,9 +2,10 @@
 //!
 //! * excitation scale `a`: value 1 as built; what it changes all harmonics of order 1 and above: `b_m = a
 //!   b_m(1)`, `U_m = a U_m(1)`.
-//! * constant of a law: value as the law has it; what it changes one element: its gap shifts the levels of
-//!   its contacts, of a two-sided stop both, which must be equal; the restitution of a rigid stop its
-//!   impacts; any other its force at the levels that its contacts have ([`LawConstant`]).
+//! * constant of a law: value as the law has it; what it changes one element, or the two that stand for the
+//!   sides of one stop: its gap shifts the levels of its contacts, of a two-sided stop both, which must be
+//!   equal; the restitution of a rigid stop its impacts; any other its force at the levels that its contacts
+//!   have ([`LawConstant`]).
 //! * number of a family: value in its unit; what it changes the whole structure, its modes and their
 //!   coordinates ([`Family`]).
 //! * added damping `z_k`: value 0 as built; what it changes the damping, `C = C(0) + sum_k z_k D_k`, `d =
@@ -14,7 +15,10 @@ use std::sync::Arc;
 
 use faer::Mat;
 
-use crate::{Family, LawConstant, LawError, Member, System};
+use crate::{Family, Law, LawConstant, LawError, Member, System};
+
+/// A stop has no more.
+const MOST_SIDES: usize = 2;
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -23,8 +27,10 @@ pub enum Parameter {
     ExcitationScale,
     /// A constant of the law of an element, in the unit of the law.
     OfLaw {
-        /// Number of the element.
+        /// Number of the element, of several the first.
         element: usize,
+        /// How many elements from that on have it in common, with one value: 1, or 2 for both sides of a stop.
+        sides: usize,
         /// The constant.
         constant: LawConstant,
     },
@@ -45,28 +51,34 @@ impl Parameter {
     /// Ratio to critical damping [-] that every mode has besides the damping as given.
     pub const ADDED_DAMPING_RATIO: Self = Self::AddedDamping { part: 0 };
 
+    /// A constant of the law of one element.
+    #[must_use]
+    pub const fn of_law(element: usize, constant: LawConstant) -> Self {
+        Self::OfLaw { element, sides: 1, constant }
+    }
+
     /// The gap of an element.
     #[must_use]
     pub const fn gap(element: usize) -> Self {
-        Self::OfLaw { element, constant: LawConstant::Gap }
+        Self::of_law(element, LawConstant::Gap)
     }
 
     /// The stiffness of the law of an element.
     #[must_use]
     pub const fn stiffness(element: usize) -> Self {
-        Self::OfLaw { element, constant: LawConstant::Stiffness }
+        Self::of_law(element, LawConstant::Stiffness)
     }
 
     /// The coefficient of restitution of an element.
     #[must_use]
     pub const fn restitution(element: usize) -> Self {
-        Self::OfLaw { element, constant: LawConstant::Restitution }
+        Self::of_law(element, LawConstant::Restitution)
     }
 
     /// The damping of the contact of an element.
     #[must_use]
     pub const fn contact_damping(element: usize) -> Self {
-        Self::OfLaw { element, constant: LawConstant::Damping }
+        Self::of_law(element, LawConstant::Damping)
     }
 
     /// The numbers that stand for it in checkpoints: what it is, and of which element, part or family. The
@@ -77,7 +89,7 @@ impl Parameter {
             Self::ExcitationScale => (1, 0),
             Self::AddedDamping { part } => (2, part),
             Self::OfFamily { family } => (7, family),
-            Self::OfLaw { element, constant } => (constant.code(), element),
+            Self::OfLaw { element, sides, constant } => (constant.code(), element * MOST_SIDES + sides - 1),
         }
     }
 
@@ -88,16 +100,38 @@ impl Parameter {
             1 => Some(Self::ExcitationScale),
             2 => Some(Self::AddedDamping { part: number }),
             7 => Some(Self::OfFamily { family: number }),
-            _ => Some(Self::OfLaw { element: number, constant: LawConstant::of_code(kind)? }),
+            _ => Some(Self::OfLaw {
+                element: number / MOST_SIDES,
+                sides: number % MOST_SIDES + 1,
+                constant: LawConstant::of_code(kind)?,
+            }),
         }
     }
 
     /// The constant that it is of the law of an element, if it is of that element.
-    pub(crate) fn constant_of(self, of: usize) -> Option<LawConstant> {
+    #[must_use]
+    pub fn constant_of(self, of: usize) -> Option<LawConstant> {
         match self {
-            Self::OfLaw { element, constant } if element == of => Some(constant),
+            Self::OfLaw { element, sides, constant } if (element..element + sides).contains(&of) => {
+                Some(constant)
+            }
             _ => None,
         }
+    }
+
+    /// Whether it is the gap of an element, alone or with that of the other side.
+    #[must_use]
+    pub fn is_gap_of(self, element: usize) -> bool {
+        self.constant_of(element) == Some(LawConstant::Gap)
+    }
+
+    /// What is left of it if the gaps of these elements do not change with it; `None` if nothing.
+    #[must_use]
+    pub fn without_gaps_of(self, elements: &[usize]) -> Option<Self> {
+        let Self::OfLaw { element, sides, constant: LawConstant::Gap } = self else { return Some(self) };
+        let mut left = (element..element + sides).filter(|element| !elements.contains(element));
+        let first = left.next()?;
+        Some(Self::OfLaw { element: first, sides: 1 + left.count(), constant: LawConstant::Gap })
     }
 }
 
@@ -162,6 +196,8 @@ pub enum ParameterError {
     #[error("the excitation scale is {found}, must be finite and positive")]
     ExcitationScale { found: f64 },
     /// Every mode keeps a damping that is not negative.
+    #[error("the two sides of \"{name}\" have different values")]
+    SidesDiffer { name: String },
     #[error("an added damping of {found} makes the damping of a mode negative or not finite")]
     AddedDamping { found: f64 },
 }
@@ -179,11 +215,14 @@ impl System {
                 self.added_damping().get(part).copied().ok_or(missing)
             }
             Parameter::OfFamily { family } => Ok(self.family(family)?.value),
-            Parameter::OfLaw { element, constant } => {
-                let element = self.element(element)?;
-                let varies = |value: &f64| constant != LawConstant::Damping || *value > 0.0;
-                let value = element.law.constant(constant).filter(varies);
-                value.ok_or_else(|| missing(element.name.clone(), constant))
+            Parameter::OfLaw { element, sides, constant } => {
+                let value = self.law_constant(element, constant)?;
+                for other in element + 1..element + sides {
+                    if self.law_constant(other, constant)? != value {
+                        return Err(ParameterError::SidesDiffer { name: self.element(other)?.name.clone() });
+                    }
+                }
+                Ok(value)
             }
         }
     }
@@ -212,19 +251,31 @@ impl System {
                 *self = self.member(family, value)?.system;
                 Ok(())
             }
-            Parameter::OfLaw { element, constant } => {
+            Parameter::OfLaw { element, sides, constant } => {
                 // Says whether there is such an element, and such a constant.
                 self.parameter(parameter)?;
-                let element = &mut self.elements_mut()[element];
-                let name = element.name.clone();
-                if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {
-                    return Err(ParameterError::ContactDamping { name, found: value });
-                }
-                let law = element.law.with_constant(constant, value);
-                element.law = law.map_err(|source| ParameterError::Law { name, source })?;
+                let places = element..element + sides;
+                let laws = self.elements()[places.clone()].iter().map(|element| {
+                    let name = || element.name.clone();
+                    if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {
+                        return Err(ParameterError::ContactDamping { name: name(), found: value });
+                    }
+                    let law = element.law.with_constant(constant, value);
+                    law.map_err(|source| ParameterError::Law { name: name(), source })
+                });
+                let laws = laws.collect::<Result<Vec<Law>, ParameterError>>()?;
+                let elements = self.elements_mut()[places].iter_mut();
+                elements.zip(laws).for_each(|(element, law)| element.law = law);
                 Ok(())
             }
         }
+    }
+
+    fn law_constant(&self, element: usize, constant: LawConstant) -> Result<f64, ParameterError> {
+        let element = self.element(element)?;
+        let varies = |value: &f64| constant != LawConstant::Damping || *value > 0.0;
+        let value = element.law.constant(constant).filter(varies);
+        value.ok_or_else(|| missing(element.name.clone(), constant))
     }
 
     fn element(&self, element: usize) -> Result<&crate::LocalElement, ParameterError> {

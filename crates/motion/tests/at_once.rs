@@ -146,7 +146,7 @@ fn columns_of_several_stops_at_a_mass_are_those_of_stops_taken_apart() {
         let stops: Vec<(f64, Law)> = levers(apart).into_iter().zip(laws.clone()).collect();
         ExactIntegrator::new(mass(&stops, 2.0), ExactSettings { tolerance: 1e-12 }).unwrap()
     });
-    let of_law = |element: usize, constant: LawConstant| Parameter::OfLaw { element, constant };
+    let of_law = Parameter::of_law;
     let parameters = [
         Parameter::ExcitationScale,
         of_law(1, LawConstant::Gap),

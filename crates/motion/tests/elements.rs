@@ -221,3 +221,20 @@ fn loads_on_eigenfrequencies_agree() {
         }
     }
 }
+
+/// Of one mode the nearest open stop is at `gap/max(w, 2 pi f)`; those that touch at rest need no reaching.
+#[test]
+fn a_search_begins_about_a_quarter_of_what_reaches_the_nearest_open_stop() {
+    let (w, frequency_hz) = (TAU * 3.0, 5.0);
+    let speed = |gaps: &[f64], linear: f64| {
+        let linear_stop = |gap: &f64| Law::Linear(LinearStop::with_gap(100.0, *gap).unwrap());
+        let elements = gaps.iter().map(|gap| element(&[2.0], 0.0, linear_stop(gap))).collect();
+        let system = System::new(model(&[w], Mat::zeros(1, 1)), &Load::default(), elements).unwrap();
+        system.start_speed(frequency_hz, linear)
+    };
+    let expected = 0.25 * 0.3 / 2.0 * TAU * frequency_hz;
+    assert!((speed(&[0.4, 0.3, 0.0], 0.0) / expected - 1.0).abs() < 1e-14);
+    assert_eq!(speed(&[0.4, 0.3], 2.0 * expected), 2.0 * expected);
+    assert_eq!(speed(&[0.0], 1e-3), 1e-3);
+    assert_eq!(speed(&[], 1e-3), 1e-3);
+}

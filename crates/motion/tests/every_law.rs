@@ -4,20 +4,37 @@
 
 use hammerbeam_motion::{
     Harmonic, LawConstant, Load, LocalElement, Parameter, Stretch, System,
-    law::{DESCRIPTIONS, LawDescription},
+    law::{DESCRIPTIONS, LawDescription, LawSides},
 };
 
-use crate::common::{assert_agreement, beam_model, differences::assert_by_parameters, element, settled};
+use crate::common::{
+    assert_agreement, beam_model, differences::assert_by_parameters, element, integrator, settled,
+};
 
 const STRETCH: Stretch = Stretch { frequency_hz: 33.0, start: 0.25, end: 1.25 };
 
 /// The beam against a stop of each law, and a motion of it that has settled.
 fn systems() -> impl Iterator<Item = (&'static LawDescription, System, Vec<f64>)> {
-    DESCRIPTIONS.iter().map(|described| {
+    beams(&[-1.0])
+}
+
+/// The beam between two stops of each law that has but one side.
+fn between_stops() -> impl Iterator<Item = (&'static LawDescription, System, Vec<f64>)> {
+    beams(&[-1.0, 1.0]).filter(|(described, ..)| matches!(described.sides, LawSides::One { .. }))
+}
+
+/// * `signs`: of the directions in which stops are.
+fn beams<'a>(signs: &'a [f64]) -> impl Iterator<Item = (&'static LawDescription, System, Vec<f64>)> + 'a {
+    DESCRIPTIONS.iter().map(move |described| {
         let model = beam_model(0.015);
-        let shape: Vec<f64> = model.points[0].shape.iter().map(|phi| -phi).collect();
-        let parts = described.sample(1e-4).unwrap().into_iter();
-        let elements: Vec<LocalElement> = parts.map(|part| element(&shape, 0.0, part.law)).collect();
+        let elements: Vec<LocalElement> = signs
+            .iter()
+            .flat_map(|sign| {
+                let shape: Vec<f64> = model.points[0].shape.iter().map(|phi| sign * phi).collect();
+                let parts = described.sample(1e-4).unwrap().into_iter();
+                parts.map(move |part| element(&shape, 0.0, part.law))
+            })
+            .collect();
         let support = vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }.into()];
         let system = System::new(model, &Load { support, ..Load::default() }, elements).unwrap();
         let state = settled(&system, STRETCH.frequency_hz, 40, STRETCH.start);
@@ -47,12 +64,44 @@ fn flows_agree_with_the_general_integrator() {
 fn columns_of_parameters_agree_with_differences() {
     for (described, system, state) in systems() {
         let constants = constants(described).into_iter().chain([LawConstant::Gap]);
-        let of_element = constants.map(|constant| Parameter::OfLaw { element: 0, constant });
+        let of_element = constants.map(|constant| Parameter::of_law(0, constant));
         let varies = |parameter: &Parameter| system.parameter(*parameter).is_ok();
         let parameters: Vec<Parameter> =
             [Parameter::ExcitationScale].into_iter().chain(of_element.filter(varies)).collect();
         assert!(parameters.len() > 1 || described.name == "formula", "{}: nothing varies", described.name);
         assert_by_parameters(&system, &STRETCH, &state, &parameters, 2e-5);
+    }
+}
+
+/// Each of which agrees with differences, see above.
+#[test]
+fn the_column_of_what_both_sides_have_in_common_is_the_sum_of_those_of_the_sides() {
+    for (described, system, _) in between_stops() {
+        let (from_rest, stretch) = (vec![0.0; 2 * system.dof()], Stretch { end: 2.25, ..STRETCH });
+        let mut integrator = integrator(&system);
+        for constant in constants(described).into_iter().chain([LawConstant::Gap]) {
+            let mut column = |parameter| {
+                integrator.differentiate_by(Some(parameter)).unwrap();
+                integrator.flow(&stretch, &from_rest).unwrap().by_parameter
+            };
+            if system.parameter(Parameter::of_law(0, constant)).is_err() {
+                continue;
+            }
+            let both = column(Parameter::OfLaw { element: 0, sides: 2, constant });
+            let sides = [0, 1].map(|element| column(Parameter::of_law(element, constant)));
+            let size = sides.iter().flatten().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+            for (i, both) in both.iter().enumerate() {
+                let sum = sides[0][i] + sides[1][i];
+                assert!((both - sum).abs() <= 1e-9 * size, "{}: {constant:?}", described.name);
+            }
+            let is_touched = integrator.touches().iter().all(|touches| *touches > 0);
+            // A second slope may not be reached.
+            assert!(
+                is_touched && (size > 0.0 || matches!(constant, LawConstant::Further(_))),
+                "{}: {constant:?}",
+                described.name
+            );
+        }
     }
 }
 

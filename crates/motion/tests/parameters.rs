@@ -12,7 +12,8 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
-        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, TwoSidedStop,
+        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, RigidStop,
+        TwoSidedStop,
     },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
@@ -307,4 +308,23 @@ fn parameters_that_are_not_there_are_refused() {
     }
     let small = DampingPart { matrix: Mat::zeros(2, 2), supports: vec![vec![0.0; 3]] };
     assert!(matches!(lossy.with_damping_part(small), Err(ParameterError::DampingPartSize { .. })));
+}
+
+/// Free vibration of the amplitude a, short of a rigid stop by less than any step of differences: what the gap
+/// does to motions that strike is nothing to one that does not.
+#[test]
+fn beside_a_grazing_a_family_is_differentiated_on_the_side_of_the_motion() {
+    let (w, a) = (TAU * 3.5, 0.01);
+    let stretch = Stretch { frequency_hz: 3.0, start: 0.0, end: 1.0 };
+    for clearance in [1e-8, 1e-11, 1e-13] {
+        let stop = Law::Rigid(RigidStop::with_gap(0.6, a + clearance).unwrap());
+        let model = model(&[w], Mat::zeros(1, 1));
+        let system = System::new(model, &Load::default(), vec![element(&[1.0], 0.0, stop)]).unwrap();
+        let over = Arc::new(Over(system.clone(), Parameter::gap(0)));
+        let mut integrator = exact(&system.with_family(over, a + clearance, a), 1e-13);
+        integrator.differentiate_by(Some(Parameter::OfFamily { family: 0 })).unwrap();
+        let flow = integrator.flow(&stretch, &[0.0, w * a]).unwrap();
+        assert_eq!(integrator.touches(), [0], "{clearance:e}");
+        assert_eq!(flow.by_parameter, [0.0, 0.0], "{clearance:e}");
+    }
 }

@@ -25,7 +25,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_000c;
+const MAGIC: u64 = 0x4842_5741_4c4b_000d;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.

@@ -46,10 +46,9 @@ impl ForceStep {
                 {
                     std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
                 }
-                Parameter::OfLaw { element, constant } => {
-                    let Some(b) = self.active.iter().position(|&other| other == element) else { return };
+                Parameter::OfLaw { constant, .. } => {
                     let mut values = [0.0; NODES];
-                    for b in b..=b + usize::from(laws[element].round_hole().is_some()) {
+                    for b in (0..count).filter(|&b| self.has_parameter(b, parameter, laws)) {
                         let (w, (part, of)) =
                             (&self.weights.convolution[a * count + b], self.direct(b, constant, laws));
                         for (k, value) in values.iter_mut().enumerate() {
@@ -72,13 +71,20 @@ impl ForceStep {
         laws: &[Law],
         (column, columns): (usize, usize),
     ) {
-        let Parameter::OfLaw { element, constant } = parameter else { return };
-        let Some(a) = self.active.iter().position(|&e| e == element) else { return };
-        for a in a..=a + usize::from(laws[element].round_hole().is_some()) {
+        let Parameter::OfLaw { constant, .. } = parameter else { return };
+        for a in 0..self.active.len() {
+            if !self.has_parameter(a, parameter, laws) {
+                continue;
+            }
             let (part, of) = self.direct(a, constant, laws);
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(part).for_each(|(row, part)| row[column] += part / of);
         }
+    }
+
+    /// Whether the law of the a-th active element has the parameter; that of a hole is its first one's.
+    fn has_parameter(&self, a: usize, parameter: Parameter, laws: &[Law]) -> bool {
+        parameter.constant_of(hole::owner(laws, self.active[a])).is_some()
     }
 
     /// Derivative of the force of the a-th active element at the nodes by the gap of its law.

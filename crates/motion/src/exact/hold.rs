@@ -11,7 +11,7 @@
 use super::{
     ExactIntegrator, MotionError, by_damping::ByDamping, drive::Drive, flight::Boundary, held::Held, run::Run,
 };
-use crate::{LawConstant, Parameter, Stretch};
+use crate::Stretch;
 
 /// A held structure in use; its place is taken by the free one meanwhile.
 #[derive(Debug)]
@@ -45,11 +45,12 @@ impl ExactIntegrator {
         };
         held.begin(&self.system, &self.stretch);
         let by_level = match self.parameter {
-            Some(Parameter::OfLaw { element, constant: LawConstant::Gap }) => elements
+            // Both sides of a stop do not hold at once.
+            Some(parameter) => elements
                 .iter()
-                .position(|e| *e == element)
+                .position(|e| parameter.is_gap_of(*e))
                 .map(|j| held.by_level(&self.system, &self.stretch, j)),
-            _ => None,
+            None => None,
         };
         let of_held = |part| ByDamping::of_held((&self.system, part), &held.structure, held.elements.len());
         let by_damping = self.damping_part().map(of_held);

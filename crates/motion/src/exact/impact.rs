@@ -179,7 +179,7 @@ impl ExactIntegrator {
         let carried = self.blocks.system_times_column(input);
         let Some(sensitivity) = &mut run.sensitivity else { return };
         if let Some((parameter, column)) = self.parameter.zip(sensitivity.parameter_column())
-            && parameter == crate::Parameter::restitution(touch.element)
+            && parameter.constant_of(touch.element) == Some(crate::LawConstant::Restitution)
         {
             by_impulse[column] -= before.slope / mobility;
         }

@@ -95,9 +95,7 @@ impl ExactIntegrator {
         if let Some((parameter, column)) = self.parameter.zip(sensitivity.parameter_column()) {
             row[column] += match parameter {
                 Parameter::ExcitationScale => self.drive.values_by_scale(element, output, span, now)[0],
-                other if other == Parameter::gap(element) => {
-                    -self.laws[element].contacts()[touch.contact].sign
-                }
+                other if other.is_gap_of(element) => -self.laws[element].contacts()[touch.contact].sign,
                 other => self.read_particular(other, run.time, &output.row),
             };
         }

@@ -122,8 +122,7 @@ impl<'a> TouchEquations<'a> {
             system = system.with_parameter(gap, WIDE * (level.abs() + reach)).map_err(MotionError::from)?;
         }
         let mut opened = problem.integrator().for_system(system)?;
-        opened
-            .differentiate_by(problem.varied().parameter().filter(|&varied| !is_gap_of(varied, &elements)))?;
+        opened.differentiate_by(problem.varied().parameter().and_then(|p| p.without_gaps_of(&elements)))?;
         let mut equations = Self { problem, opened, elements, width: WIDEST, evaluations: 0 };
         equations.width = equations.fitting_width(&sorted, last)?;
         Ok(equations)
@@ -233,9 +232,8 @@ impl<'a> TouchEquations<'a> {
 
     pub(super) fn move_to(&mut self, last: f64) -> Result<(), OrbitError> {
         self.problem.move_to(&[last])?;
-        if let Some(parameter) = self.problem.varied().parameter()
-            && !is_gap_of(parameter, &self.elements)
-        {
+        let varied = self.problem.varied().parameter();
+        if let Some(parameter) = varied.and_then(|varied| varied.without_gaps_of(&self.elements)) {
             self.opened.set_parameter(parameter, last)?;
         }
         Ok(())
@@ -407,10 +405,6 @@ impl<'a> TouchEquations<'a> {
 fn reach(problem: &ShootingProblem, element: usize) -> f64 {
     let shape = &problem.system().elements()[element].shape;
     shape.iter().zip(problem.scale().values()).map(|(shape, scale)| (shape * scale).abs()).sum()
-}
-
-fn is_gap_of(parameter: Parameter, elements: &[usize]) -> bool {
-    elements.iter().any(|&element| parameter == Parameter::gap(element))
 }
 
 /// `A B` by rows.

@@ -96,7 +96,7 @@ impl Touch {
                 rows[0][nodes + 1] = sign * carried[0] / place.value / length;
                 rows[1][nodes + 1] = sign * carried[1] / place.value / unit;
             }
-            other if other == Parameter::gap(self.element) => rows[0][nodes + 1] = -1.0 / length,
+            other if other.is_gap_of(self.element) => rows[0][nodes + 1] = -1.0 / length,
             _ => {
                 let [r, speed] = by_family.unwrap_or_default();
                 rows[0][nodes + 1] = sign * r / length;
@@ -160,8 +160,7 @@ impl Touch {
     /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one
     /// of their two elements alone.
     fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
-        let Parameter::OfLaw { element, .. } = parameter else { return true };
-        self.element == other.element || ![self.element, other.element].contains(&element)
+        parameter.constant_of(self.element) == parameter.constant_of(other.element)
     }
 
     /// Where the contact of the orbit with these nodes, the first at the phase `begin`, turns nearest to its

@@ -59,31 +59,30 @@ impl Passing {
     ) -> Result<Option<Self>, OrbitError> {
         let touches: Vec<Touch> = [touch].into_iter().chain(opposite.map(|(touch, _)| touch)).collect();
         let mut opened = system.clone();
-        let mut is_parameter = false;
         for Touch { element, .. } in &touches {
             let gap = Parameter::gap(*element);
             let Some(level) = system.elements()[*element].law.gap() else {
                 return Ok(None);
             };
-            is_parameter |= parameter == gap;
-            let largest = if parameter == gap { range.1.abs().max(range.0.abs()) } else { level };
+            let largest =
+                if parameter.is_gap_of(*element) { range.1.abs().max(range.0.abs()) } else { level };
             let wide = WIDE * (largest + start.maxima.displacement);
             opened = opened.with_parameter(gap, wide).map_err(MotionError::from)?;
         }
         let mut integrator = solve::integrator(&opened, response, orbits)?;
-        if !is_parameter {
-            integrator.differentiate_by(Some(parameter))?;
-        }
+        let elements: Vec<usize> = touches.iter().map(|touch| touch.element).collect();
+        integrator.differentiate_by(parameter.without_gaps_of(&elements))?;
         let opposite = opposite.map(|(_, behind)| behind);
         Ok(Some(Self { integrator, touches, behind: opposite, width: WIDEST }))
     }
 
     /// Gives the parameter that is followed another value.
     pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), MotionError> {
-        if self.touches.iter().any(|touch| parameter == Parameter::gap(touch.element)) {
-            return Ok(());
+        let elements: Vec<usize> = self.touches.iter().map(|touch| touch.element).collect();
+        match parameter.without_gaps_of(&elements) {
+            Some(left) => self.integrator.set_parameter(left, value),
+            None => Ok(()),
         }
-        self.integrator.set_parameter(parameter, value)
     }
 
     /// The contact that is touched opposite, and how long behind the begin of the orbit [cycles].

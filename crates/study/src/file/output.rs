@@ -11,7 +11,7 @@ use crate::document::{
 };
 
 use super::{
-    Excitation, Stop, StopEntry,
+    Excitation, Stop,
     names::Names,
     output_value::{OutputQuantity, OutputValue},
 };
@@ -220,14 +220,8 @@ fn read_stop(value: &Value<'_>, stops: &[Stop]) -> Option<OutputSource> {
     if let Some(index) = stops.iter().position(|stop| stop.name == name) {
         return Some(OutputSource::Stop { sides: vec![(index, false)] });
     }
-    let side = |which: &str| {
-        let is_side = |stop: &Stop| {
-            matches!(stop.entry, StopEntry::OneSide(_)) && stop.name == format!("{name} ({which})")
-        };
-        stops.iter().position(is_side)
-    };
-    if let (Some(above), Some(below)) = (side("above"), side("below")) {
-        return Some(OutputSource::Stop { sides: vec![(above, false), (below, true)] });
+    if let Some(above) = stops.iter().position(|stop| stop.name_of_both_sides() == Some(name)) {
+        return Some(OutputSource::Stop { sides: vec![(above, false), (above + 1, true)] });
     }
     let known: Vec<&str> = stops.iter().map(|stop| stop.name.as_str()).collect();
     value.unknown_word(name, "a stop of this study", &known);

@@ -13,8 +13,8 @@ use crate::{
 };
 
 use super::{
-    DampingKey, DampingTable, Excitation, ExcitationKind, LoadTable, ModalRatio, ParameterKind, Stop,
-    StopEntry, StopLaw, StructureTable,
+    DampingKey, DampingTable, Excitation, ExcitationKind, GapMeasured, LoadTable, ModalRatio, ParameterKind,
+    Stop, StopEntry, StopLaw, StructureTable,
 };
 
 /// A parameter of the study and the range in which it varies.
@@ -44,8 +44,7 @@ pub(super) struct Variable<'a> {
 type Known = (String, ParameterKind, Quantity);
 
 impl Variable<'_> {
-    /// Every parameter by its name; stops also by their number, from 1. What both sides of a stop have in
-    /// common is a number of the model as any other, so a side has no number.
+    /// Every parameter by its name; stops also by their number, from 1, which of two sides stands for both.
     fn known(self) -> Vec<Known> {
         let harmonic = self.excitation.and_then(Excitation::harmonic);
         let amplitude = harmonic.and_then(|harmonic| match harmonic.kind {
@@ -62,13 +61,22 @@ impl Variable<'_> {
         let mut known: Vec<Known> = amplitude.map(of_amplitude).into_iter().collect();
         known.extend(self.damping.into_iter().flat_map(of_damping));
         known.extend(self.structure.into_iter().flat_map(of_dampers));
-        for (number, stop) in self.stops.unwrap_or_default().iter().enumerate() {
-            let mut names = vec![stop.name.clone()];
-            if let StopEntry::Whole(entry) = stop.entry {
-                names.push(format!("{}", entry + 1));
-            }
-            for (key, kind, quantity) in of_stop(number, &stop.law) {
-                known.extend(names.iter().map(|name| (format!("stop.{name}.{key}"), kind, quantity)));
+        let stops = self.stops.unwrap_or_default();
+        for (number, stop) in stops.iter().enumerate() {
+            let numbered = format!("{}", stop.entry.number() + 1);
+            let mut named = |names: &[&str], both_sides: bool| {
+                let other = both_sides.then(|| &stops[number + 1].law);
+                for (key, kind, quantity) in of_stop(number, &stop.law, other) {
+                    known.extend(names.iter().map(|name| (format!("stop.{name}.{key}"), kind, quantity)));
+                }
+            };
+            match (stop.entry, stop.name_of_both_sides()) {
+                (StopEntry::Whole(_), _) => named(&[&stop.name, &numbered], false),
+                (StopEntry::OneSide(_), Some(name)) => {
+                    named(&[&stop.name], false);
+                    named(&[name, &numbered], true);
+                }
+                (StopEntry::OneSide(_), None) => named(&[&stop.name], false),
             }
         }
         known
@@ -157,14 +165,21 @@ fn of_dampers(structure: &StructureTable) -> Vec<Known> {
 }
 
 /// What the description of a law lets vary, and its gap. What else its keys say (the terms of a spring but
-/// the cubic one, the constants of a formula) are numbers of the model as any other.
-fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quantity)> {
-    let of = |key: &'static LawKey, value| {
-        let constant = key.constant(value)?;
-        Some((key.name, ParameterKind::OfStop { stop, constant }, key.quantity()?))
-    };
-    let gap = ParameterKind::OfStop { stop, constant: LawConstant::Gap };
-    let gap = law.gap_m().map(|_| ("gap_m", gap, quantity::GAP));
+/// the cubic one, the constants of a formula) are numbers of the model as any other. So is a gap of both
+/// sides that counts from where the structure rests: the levels of the sides differ.
+///
+/// * `other`: the law of the other side, if what both sides have in common is asked for.
+fn of_stop(
+    stop: usize,
+    law: &StopLaw,
+    other: Option<&StopLaw>,
+) -> Vec<(&'static str, ParameterKind, Quantity)> {
+    let kind = |constant| ParameterKind::OfStop { stop, both_sides: other.is_some(), constant };
+    let of = |key: &'static LawKey, value| Some((key.name, kind(key.constant(value)?), key.quantity()?));
+    let is_shared =
+        |other: &StopLaw| other.gap_m() == law.gap_m() && law.gap_measured() == GapMeasured::Undeformed;
+    let gap = law.gap_m().filter(|_| other.is_none_or(is_shared));
+    let gap = gap.map(|_| ("gap_m", kind(LawConstant::Gap), quantity::GAP));
     law.keys().filter_map(|(key, value)| of(key, value)).chain(gap).collect()
 }
 

@@ -10,8 +10,10 @@ pub enum ParameterKind {
     Amplitude,
     /// A constant of the law of a stop, in its unit.
     OfStop {
-        /// Number of the stop, from 0.
+        /// Number of the stop, from 0; of two sides that of the first.
         stop: usize,
+        /// Whether the next stop, its other side, has the constant in common with it.
+        both_sides: bool,
         /// The constant.
         constant: LawConstant,
     },
@@ -26,12 +28,12 @@ pub enum ParameterKind {
 impl Serialize for ParameterKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         const TYPE: &str = "ParameterKind";
-        let (stop, constant) = match self {
+        let (stop, both_sides, constant) = match self {
             Self::Amplitude => return serializer.serialize_unit_variant(TYPE, 0, "amplitude"),
             Self::ModalRatio => return serializer.serialize_unit_variant(TYPE, 2, "modal-ratio"),
             Self::Damping(key) => return serializer.serialize_newtype_variant(TYPE, 3, "damping", key),
             Self::Number => return serializer.serialize_unit_variant(TYPE, 4, "number"),
-            Self::OfStop { stop, constant } => (stop, constant),
+            Self::OfStop { stop, both_sides, constant } => (stop, *both_sides, constant),
         };
         let (name, number) = match constant {
             LawConstant::Gap => ("gap", None),
@@ -42,6 +44,9 @@ impl Serialize for ParameterKind {
         };
         let mut variant = serializer.serialize_struct_variant(TYPE, 1, name, 2)?;
         variant.serialize_field("stop", stop)?;
+        if both_sides {
+            variant.serialize_field("both_sides", &true)?;
+        }
         if let Some(number) = number {
             variant.serialize_field("number", number)?;
         }

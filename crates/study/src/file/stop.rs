@@ -26,6 +26,19 @@ pub struct Stop {
     pub law: StopLaw,
 }
 
+impl Stop {
+    /// The name of the entry of which this is the side above; the side below is the next stop.
+    #[must_use]
+    pub fn name_of_both_sides(&self) -> Option<&str> {
+        let is_side = matches!(self.entry, StopEntry::OneSide(_));
+        self.name.strip_suffix(ABOVE).filter(|_| is_side)
+    }
+}
+
+/// What the names of the sides of a stop end with.
+const ABOVE: &str = " (above)";
+const BELOW: &str = " (below)";
+
 /// What of the list of a file a stop is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopEntry {
@@ -78,8 +91,8 @@ fn of_law(name: &str, index: usize, place: &Place, law: ReadLaw) -> Vec<Stop> {
     match law {
         ReadLaw::One(law) => vec![stop(name.to_owned(), StopEntry::Whole(index), law)],
         ReadLaw::Pair([above, below]) => vec![
-            stop(format!("{name} (above)"), StopEntry::OneSide(index), above),
-            stop(format!("{name} (below)"), StopEntry::OneSide(index), below),
+            stop(format!("{name}{ABOVE}"), StopEntry::OneSide(index), above),
+            stop(format!("{name}{BELOW}"), StopEntry::OneSide(index), below),
         ],
     }
 }

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
-    law::{LawPart, LawRest, LawSides, LawValues},
+    law::{LawPart, LawRest, LawSides, LawValues, RigidStop},
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
@@ -82,7 +82,7 @@ pub(super) fn elements(
     load: &Load,
 ) -> Result<(Vec<LocalElement>, Vec<ElementsOfStop>), StudyError> {
     let rest = rest(load, model);
-    let (mut elements, mut of_stops) = (Vec::new(), Vec::new());
+    let (mut elements, mut of_stops): (Vec<LocalElement>, Vec<ElementsOfStop>) = (Vec::new(), Vec::new());
     for stop in &file.study.stops {
         let key = format!("stop[{}]", stop.entry.number());
         let relative = Relative::of(&stop.place, model);
@@ -107,6 +107,11 @@ pub(super) fn elements(
         let made = of_stop(stop, relative, rest);
         let made = made.map_err(|error| file.fault(&key, error.to_string(), Vec::new()))?;
         let (made, signs): (Vec<LocalElement>, Vec<f64>) = made.into_iter().unzip();
+        if let Some(other) =
+            made.iter().find_map(|one| elements.iter().find(|other| leave_no_room(one, other)))
+        {
+            return Err(no_room(file, &key, other));
+        }
         of_stops.push((elements.len()..).zip(signs).collect());
         elements.extend(made);
     }
@@ -124,6 +129,23 @@ fn round_hole(stop: &Stop, directions: [Relative; 2]) -> Result<[LocalElement; 2
     let hole = parts.first().ok_or(LawError::NotForHole)?.law.in_round_hole()?;
     let directions = directions.map(|relative| (relative.shape, relative.support_ratios));
     Ok(LocalElement::round_hole(&stop.name, directions, hole))
+}
+
+/// Whether two rigid stops face each other and touch the point between them from both sides.
+fn leave_no_room(one: &LocalElement, other: &LocalElement) -> bool {
+    let level = |element: &LocalElement| element.law.rigid().map(RigidStop::level);
+    let faces = |one: &[f64], other: &[f64]| one.iter().zip(other).all(|(a, b)| *a == -*b);
+    let (Some(here), Some(there)) = (level(one), level(other)) else { return false };
+    here + there <= 0.0
+        && faces(&one.shape, &other.shape)
+        && faces(&one.support_ratios, &other.support_ratios)
+}
+
+fn no_room(file: &StudyFile, key: &str, other: &LocalElement) -> StudyError {
+    let message =
+        format!("its point cannot move: it is at the rigid stop on the other side, \"{}\"", other.name);
+    let help = vec!["allowed: a gap above 0 on one side at least, or a structure that is held there".into()];
+    file.fault(key, message, help)
 }
 
 fn immovable(file: &StudyFile, key: &str) -> StudyError {

@@ -76,9 +76,10 @@ impl Model {
                 let family = family.expect("families of all numbers that vary are built with the model");
                 Ok(plain(Parameter::OfFamily { family }))
             }
-            ParameterKind::OfStop { stop, constant } => {
+            ParameterKind::OfStop { stop, both_sides, constant } => {
                 let element = self.element_of(study, stop)?;
-                let plain = plain(Parameter::OfLaw { element, constant });
+                let sides = if both_sides { 2 } else { 1 };
+                let plain = plain(Parameter::OfLaw { element, sides, constant });
                 if constant != LawConstant::Gap {
                     return Ok(plain);
                 }

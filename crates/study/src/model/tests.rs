@@ -99,6 +99,24 @@ fn a_stop_at_a_held_point_cannot_act() {
 }
 
 #[test]
+fn rigid_stops_that_leave_no_room_are_refused() {
+    let mass = "[structure]\nkind = \"lumped\"\nmass = [{ name = \"m\", mass_kg = 1.0 }]\n\
+        [excitation]\nkind = \"force\"\nat = \"m\"\namplitude_n = 1.0\nfrequency_hz = [1.0, 2.0]\n";
+    let stop = |law: &str, side: &str, gap: f64| {
+        format!("[[stop]]\nat = \"m\"\n{law}\nside = \"{side}\"\ngap_m = {gap}\n")
+    };
+    let (rigid, soft) = ("law = \"rigid\"\nrestitution = 0.5", "law = \"linear\"\nstiffness_n_m = 9.0");
+    let refused = build(&format!("{mass}{}", stop(rigid, "both", 0.0)));
+    assert_refused(refused, &["its point cannot move", "\"stop 1 (above)\"", "stop[0]"]);
+    let apart = [stop(rigid, "above", 0.0), stop(rigid, "below", 0.0)].concat();
+    assert_refused(build(&format!("{mass}{apart}")), &["its point cannot move", "\"stop 1\"", "stop[1]"]);
+    let roomy = [stop(rigid, "above", 0.0), stop(rigid, "below", 1e-3)].concat();
+    for stops in [roomy, stop(rigid, "both", 1e-9), stop(soft, "both", 0.0)] {
+        assert!(build(&format!("{mass}{stops}")).is_ok(), "{stops}");
+    }
+}
+
+#[test]
 fn a_force_on_a_held_point_is_refused() {
     let load = "[[load]]\nkind = \"force\"\nat = \"left\"\namplitude_n = 1.0\norder = 2\n";
     assert_refused(build(&format!("{PAPER}\n{load}")), &["a force at \"left\" does nothing", "load[0].at"]);
