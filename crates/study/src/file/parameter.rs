@@ -166,7 +166,8 @@ fn of_dampers(structure: &StructureTable) -> Vec<Known> {
 
 /// What the description of a law lets vary, and its gap. What else its keys say (the terms of a spring but
 /// the cubic one, the constants of a formula) are numbers of the model as any other. So is a gap of both
-/// sides that counts from where the structure rests: the levels of the sides differ.
+/// sides that counts from where the structure rests: the levels of the sides differ. And what else sides have
+/// in common that press, which keep their preload.
 ///
 /// * `other`: the law of the other side, if what both sides have in common is asked for.
 fn of_stop(
@@ -176,6 +177,9 @@ fn of_stop(
 ) -> Vec<(&'static str, ParameterKind, Quantity)> {
     let kind = |constant| ParameterKind::OfStop { stop, both_sides: other.is_some(), constant };
     let of = |key: &'static LawKey, value| Some((key.name, kind(key.constant(value)?), key.quantity()?));
+    if other.is_some_and(|other| other.gap_m().is_none()) {
+        return Vec::new();
+    }
     let is_shared =
         |other: &StopLaw| other.gap_m() == law.gap_m() && law.gap_measured() == GapMeasured::Undeformed;
     let gap = law.gap_m().filter(|_| other.is_none_or(is_shared));
