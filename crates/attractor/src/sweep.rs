@@ -168,15 +168,13 @@ impl Sweeper {
         let size = |state: &[f64]| {
             state.iter().zip(&scales).map(|(z, scale)| (z / scale).powi(2)).sum::<f64>().sqrt()
         };
-        let size = self.map.integrator().system().start_speed(frequency_hz, size(&steady));
-        let size = size.max(f64::MIN_POSITIVE);
+        let size = size(&steady).max(f64::MIN_POSITIVE);
         let mut random = Random::new(1);
         let n = steady.len() / 2;
         let mut states = vec![vec![0.0; 2 * n], steady.clone()];
         while states.len() < count {
-            // Six reaches, from half the motion without contacts to sixteen times as much, or more, up to the
-            // gaps; low modes move most.
-            let reach = size * 2f64.powi((states.len() as i32 - 2) % 6 - 1);
+            let start = states.len() - 2;
+            let reach = self.map.integrator().system().start_reach(frequency_hz, size, start);
             let about = |i: usize, random: &mut Random| {
                 steady[i] + reach * scales[i] * random.signed() / (1 + i % n) as f64
             };

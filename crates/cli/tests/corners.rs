@@ -436,7 +436,8 @@ fn branches_that_come_together_in_slow_impacts_are_not_one() {
 fn a_branch_over_the_gap_of_both_sides_goes_on_across_their_grazing() {
     let oscillator = [0.73, 311.0, 0.047, 1.7];
     let stop = "restitution = 0.71\nside = \"both\"\ngap_m = 0.005";
-    let vary = "[[vary]]\nparameter = \"stop.s.gap_m\"\nrange = [0.0031, 0.0123]\nfrequency_hz = 2.03\nsteps = 300\n";
+    let vary = "[[vary]]\nparameter = \"stop.s.gap_m\"\nrange = [0.0031, 0.0123]\n\
+        frequency_hz = 2.03\nsteps = 300\n";
     let workshop = Workshop::exported(&(one_mass(oscillator, [2.0, 2.06], stop) + vary));
     let ends = workshop.table("results/export/parameter_ends.csv");
     assert!(ends.iter().all(|end| end["end"] == "range") && ends.len() == 2, "{ends:?}");

@@ -27,9 +27,9 @@ fn an_interrupted_search_says_so_and_gives_what_it_has_found() {
     assert!(cut.orbits.len() < whole.orbits.len(), "{cut:?}");
 }
 
-/// Far above resonance the motion without contacts is a twelfth of the gaps, and at phase 0 the constant force
-/// takes most of that away. A motion of two periods strikes the stop above: an integrator that shares nothing
-/// comes to it from 34 of 60 states within the gaps.
+/// Far above resonance the motion without contacts is a twelfth of the gaps, and at phase 0 the constant
+/// force takes most of that away. A motion of two periods strikes the stop above: an integrator that shares
+/// nothing comes to it from 34 of 60 states within the gaps.
 #[test]
 fn motions_as_large_as_a_gap_are_found_where_the_linear_response_is_much_smaller() {
     let text = include_str!("../../../verification/studies/unequal-stops.toml");

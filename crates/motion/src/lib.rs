@@ -117,7 +117,7 @@ pub mod law;
 mod load;
 mod parameter;
 mod point_motion;
-mod start_speed;
+mod start_reach;
 mod stretch;
 mod system;
 

@@ -17,9 +17,6 @@ use faer::Mat;
 
 use crate::{Family, Law, LawConstant, LawError, Member, System};
 
-/// A stop has no more.
-const MOST_SIDES: usize = 2;
-
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parameter {
@@ -27,10 +24,10 @@ pub enum Parameter {
     ExcitationScale,
     /// A constant of the law of an element, in the unit of the law.
     OfLaw {
-        /// Number of the element, of several the first.
+        /// Number of the element, of both sides of a stop that of the first.
         element: usize,
-        /// How many elements from that on have it in common, with one value: 1, or 2 for both sides of a stop.
-        sides: usize,
+        /// Whether the next element, the other side of the stop, has it in common with that, with one value.
+        both_sides: bool,
         /// The constant.
         constant: LawConstant,
     },
@@ -54,7 +51,7 @@ impl Parameter {
     /// A constant of the law of one element.
     #[must_use]
     pub const fn of_law(element: usize, constant: LawConstant) -> Self {
-        Self::OfLaw { element, sides: 1, constant }
+        Self::OfLaw { element, both_sides: false, constant }
     }
 
     /// The gap of an element.
@@ -89,7 +86,9 @@ impl Parameter {
             Self::ExcitationScale => (1, 0),
             Self::AddedDamping { part } => (2, part),
             Self::OfFamily { family } => (7, family),
-            Self::OfLaw { element, sides, constant } => (constant.code(), element * MOST_SIDES + sides - 1),
+            Self::OfLaw { element, both_sides, constant } => {
+                (constant.code(), 2 * element + usize::from(both_sides))
+            }
         }
     }
 
@@ -101,8 +100,8 @@ impl Parameter {
             2 => Some(Self::AddedDamping { part: number }),
             7 => Some(Self::OfFamily { family: number }),
             _ => Some(Self::OfLaw {
-                element: number / MOST_SIDES,
-                sides: number % MOST_SIDES + 1,
+                element: number / 2,
+                both_sides: number % 2 == 1,
                 constant: LawConstant::of_code(kind)?,
             }),
         }
@@ -112,7 +111,9 @@ impl Parameter {
     #[must_use]
     pub fn constant_of(self, of: usize) -> Option<LawConstant> {
         match self {
-            Self::OfLaw { element, sides, constant } if (element..element + sides).contains(&of) => {
+            Self::OfLaw { element, both_sides, constant }
+                if of == element || (both_sides && of == element + 1) =>
+            {
                 Some(constant)
             }
             _ => None,
@@ -128,10 +129,16 @@ impl Parameter {
     /// What is left of it if the gaps of these elements do not change with it; `None` if nothing.
     #[must_use]
     pub fn without_gaps_of(self, elements: &[usize]) -> Option<Self> {
-        let Self::OfLaw { element, sides, constant: LawConstant::Gap } = self else { return Some(self) };
-        let mut left = (element..element + sides).filter(|element| !elements.contains(element));
-        let first = left.next()?;
-        Some(Self::OfLaw { element: first, sides: 1 + left.count(), constant: LawConstant::Gap })
+        let Self::OfLaw { element, both_sides, constant: LawConstant::Gap } = self else {
+            return Some(self);
+        };
+        let is_left = |element: usize| !elements.contains(&element);
+        match (is_left(element), both_sides && is_left(element + 1)) {
+            (true, true) => Some(self),
+            (true, false) => Some(Self::gap(element)),
+            (false, true) => Some(Self::gap(element + 1)),
+            (false, false) => None,
+        }
     }
 }
 
@@ -196,10 +203,11 @@ pub enum ParameterError {
     #[error("the excitation scale is {found}, must be finite and positive")]
     ExcitationScale { found: f64 },
     /// Every mode keeps a damping that is not negative.
-    #[error("the two sides of \"{name}\" have different values")]
-    SidesDiffer { name: String },
     #[error("an added damping of {found} makes the damping of a mode negative or not finite")]
     AddedDamping { found: f64 },
+    /// What both sides of a stop have in common is one value.
+    #[error("\"{}\" and \"{}\" have different values of it", names[0], names[1])]
+    SidesDiffer { names: [String; 2] },
 }
 
 impl System {
@@ -215,12 +223,11 @@ impl System {
                 self.added_damping().get(part).copied().ok_or(missing)
             }
             Parameter::OfFamily { family } => Ok(self.family(family)?.value),
-            Parameter::OfLaw { element, sides, constant } => {
+            Parameter::OfLaw { element, both_sides, constant } => {
                 let value = self.law_constant(element, constant)?;
-                for other in element + 1..element + sides {
-                    if self.law_constant(other, constant)? != value {
-                        return Err(ParameterError::SidesDiffer { name: self.element(other)?.name.clone() });
-                    }
+                if both_sides && self.law_constant(element + 1, constant)? != value {
+                    let names = [element, element + 1].map(|side| self.elements()[side].name.clone());
+                    return Err(ParameterError::SidesDiffer { names });
                 }
                 Ok(value)
             }
@@ -251,10 +258,10 @@ impl System {
                 *self = self.member(family, value)?.system;
                 Ok(())
             }
-            Parameter::OfLaw { element, sides, constant } => {
+            Parameter::OfLaw { element, both_sides, constant } => {
                 // Says whether there is such an element, and such a constant.
                 self.parameter(parameter)?;
-                let places = element..element + sides;
+                let places = element..=element + usize::from(both_sides);
                 let laws = self.elements()[places.clone()].iter().map(|element| {
                     let name = || element.name.clone();
                     if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {

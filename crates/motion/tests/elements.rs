@@ -222,19 +222,29 @@ fn loads_on_eigenfrequencies_agree() {
     }
 }
 
-/// Of one mode the nearest open stop is at `gap/max(w, 2 pi f)`; those that touch at rest need no reaching.
+/// Of one mode the nearest open stop is at the velocity `gap max(w, 2 pi f)`. No periodic motion is faster than
+/// the load over the damping, and stops that touch at rest need no reaching.
 #[test]
-fn a_search_begins_about_a_quarter_of_what_reaches_the_nearest_open_stop() {
-    let (w, frequency_hz) = (TAU * 3.0, 5.0);
-    let speed = |gaps: &[f64], linear: f64| {
+fn every_second_start_reaches_for_a_gap_that_the_linear_motion_does_not_come_to() {
+    let (w, frequency_hz, load, damping) = (TAU * 3.0, 5.0, 40.0, 2.0);
+    let reaches = |gaps: &[f64], linear: f64, damping: f64| {
         let linear_stop = |gap: &f64| Law::Linear(LinearStop::with_gap(100.0, *gap).unwrap());
         let elements = gaps.iter().map(|gap| element(&[2.0], 0.0, linear_stop(gap))).collect();
-        let system = System::new(model(&[w], Mat::zeros(1, 1)), &Load::default(), elements).unwrap();
-        system.start_speed(frequency_hz, linear)
+        let load = Load { support: vec![], forces: vec![force(&[1.0], 1, load, 0.0)] };
+        let system = System::new(model(&[w], diagonal(&[damping])), &load, elements).unwrap();
+        [0, 1, 2, 3, 4, 5].map(|start| system.start_reach(frequency_hz, linear, start))
     };
-    let expected = 0.25 * 0.3 / 2.0 * TAU * frequency_hz;
-    assert!((speed(&[0.4, 0.3, 0.0], 0.0) / expected - 1.0).abs() < 1e-14);
-    assert_eq!(speed(&[0.4, 0.3], 2.0 * expected), 2.0 * expected);
-    assert_eq!(speed(&[0.0], 1e-3), 1e-3);
-    assert_eq!(speed(&[], 1e-3), 1e-3);
+    let about = |linear: f64| [0.5, 1.0, 2.0, 4.0, 8.0, 16.0].map(|reach| reach * linear);
+    let to_gap = 0.3 / 2.0 * TAU * frequency_hz;
+    let small = to_gap / 17.0;
+    let found = reaches(&[0.4, 0.3, 0.0], small, damping);
+    for (k, (found, about)) in found.into_iter().zip(about(small)).enumerate() {
+        let expected = if k % 2 == 0 { about } else { [0.5, 1.0, 2.0][k / 2] * to_gap };
+        assert!((found / expected - 1.0).abs() < 1e-14, "{k}: {found} {expected}");
+    }
+    // Near enough; no open stop; too far for the load; without damping.
+    assert_eq!(reaches(&[0.4, 0.3], to_gap / 15.0, damping), about(to_gap / 15.0));
+    assert_eq!(reaches(&[0.0], small, damping), about(small));
+    assert_eq!(reaches(&[0.3], small, load / to_gap * 1.01), about(small));
+    assert_eq!(reaches(&[0.3], small, 0.0), about(small));
 }

@@ -87,7 +87,7 @@ fn the_column_of_what_both_sides_have_in_common_is_the_sum_of_those_of_the_sides
             if system.parameter(Parameter::of_law(0, constant)).is_err() {
                 continue;
             }
-            let both = column(Parameter::OfLaw { element: 0, sides: 2, constant });
+            let both = column(Parameter::OfLaw { element: 0, both_sides: true, constant });
             let sides = [0, 1].map(|element| column(Parameter::of_law(element, constant)));
             let size = sides.iter().flatten().fold(0.0_f64, |size, entry| size.max(entry.abs()));
             for (i, both) in both.iter().enumerate() {

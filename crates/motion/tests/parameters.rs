@@ -7,8 +7,8 @@ use std::{f64::consts::TAU, sync::Arc};
 use crate::common::{element, hertz, modal_damping, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
-    DampingPart, Family, Harmonic, HarmonicForce, Law, Load, Member, Parameter, ParameterError, Stretch,
-    System,
+    DampingPart, Family, Harmonic, HarmonicForce, Law, LawConstant, Load, Member, Parameter, ParameterError,
+    Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
@@ -310,13 +310,13 @@ fn parameters_that_are_not_there_are_refused() {
     assert!(matches!(lossy.with_damping_part(small), Err(ParameterError::DampingPartSize { .. })));
 }
 
-/// Free vibration of the amplitude a, short of a rigid stop by less than any step of differences: what the gap
-/// does to motions that strike is nothing to one that does not.
+/// Free vibration of the amplitude a, short of a rigid stop by less than some and by less than all steps of
+/// differences: what the gap does to motions that strike is nothing to one that does not.
 #[test]
 fn beside_a_grazing_a_family_is_differentiated_on_the_side_of_the_motion() {
     let (w, a) = (TAU * 3.5, 0.01);
     let stretch = Stretch { frequency_hz: 3.0, start: 0.0, end: 1.0 };
-    for clearance in [1e-8, 1e-11, 1e-13] {
+    for clearance in [1e-8, 1e-10, 1e-12] {
         let stop = Law::Rigid(RigidStop::with_gap(0.6, a + clearance).unwrap());
         let model = model(&[w], Mat::zeros(1, 1));
         let system = System::new(model, &Load::default(), vec![element(&[1.0], 0.0, stop)]).unwrap();
@@ -327,4 +327,29 @@ fn beside_a_grazing_a_family_is_differentiated_on_the_side_of_the_motion() {
         assert_eq!(integrator.touches(), [0], "{clearance:e}");
         assert_eq!(flow.by_parameter, [0.0, 0.0], "{clearance:e}");
     }
+}
+
+#[test]
+fn what_both_sides_have_in_common_is_one_parameter_of_two_elements() {
+    let both = Parameter::OfLaw { element: 3, both_sides: true, constant: LawConstant::Gap };
+    for parameter in [both, Parameter::gap(3), Parameter::gap(4), Parameter::stiffness(0)] {
+        assert_eq!(Parameter::of_code(parameter.code()), Some(parameter));
+    }
+    assert_eq!([2, 3, 4, 5].map(|element| both.is_gap_of(element)), [false, true, true, false]);
+    assert_eq!(both.without_gaps_of(&[1]), Some(both));
+    assert_eq!(both.without_gaps_of(&[3]), Some(Parameter::gap(4)));
+    assert_eq!(both.without_gaps_of(&[4]), Some(Parameter::gap(3)));
+    assert_eq!(both.without_gaps_of(&[4, 3]), None);
+    let damping = Parameter::OfLaw { element: 3, both_sides: true, constant: LawConstant::Damping };
+    assert_eq!(damping.without_gaps_of(&[3]), Some(damping));
+    let stop = |gap: f64| Law::Rigid(RigidStop::with_gap(0.6, gap).unwrap());
+    let between = |gaps: [f64; 2]| {
+        let elements = vec![element(&[1.0], 0.0, stop(gaps[0])), element(&[-1.0], 0.0, stop(gaps[1]))];
+        System::new(model(&[TAU], Mat::zeros(1, 1)), &Load::default(), elements).unwrap()
+    };
+    let gap = Parameter::OfLaw { element: 0, both_sides: true, constant: LawConstant::Gap };
+    let set = between([0.1, 0.1]).with_parameter(gap, 0.2).unwrap();
+    assert_eq!([0, 1].map(|element| set.parameter(Parameter::gap(element)).unwrap()), [0.2, 0.2]);
+    let differ = between([0.1, 0.2]).parameter(gap);
+    assert!(matches!(differ, Err(ParameterError::SidesDiffer { .. })), "{differ:?}");
 }

@@ -104,8 +104,8 @@ pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
     if (1..=most).contains(&found) { Ok(()) } else { Err(OrbitError::PeriodMultiple { found, most }) }
 }
 
-/// The linear response, and states in its neighbourhood and well beyond it and the gaps, always the same ones.
-/// A state within a contact that must not be begun in is moved in front of it.
+/// The linear response, and states in its neighbourhood and well beyond it and the gaps, always the same
+/// ones. A state within a contact that must not be begun in is moved in front of it.
 pub(crate) fn starting_states(
     system: &System,
     response: &Response,
@@ -116,16 +116,13 @@ pub(crate) fn starting_states(
     let mut integrator = integrator(system, response, settings)?;
     let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
     let linear = integrator.steady_state(&stretch);
-    let mut scale = state_scale(system, &linear, frequency_hz);
+    let scale = state_scale(system, &linear, frequency_hz);
+    let mut noise = Noise::new(0);
     let n = system.dof();
     let speed = scale.values()[n];
-    scale.multiply(system.start_speed(frequency_hz, speed) / speed);
-    let mut noise = Noise::new(0);
     let mut states = vec![linear.clone()];
     for start in 0..starts {
-        // Six reaches, from half the linear response to sixteen times as much, over and over; or more, up to
-        // the gaps.
-        let reach = 0.5 * 2f64.powi((start % STARTS) as i32);
+        let reach = system.start_reach(frequency_hz, speed, start) / speed;
         // Low modes move most: their share falls with the order of the mode.
         let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % n) as f64;
         states.push((0..2 * n).map(|i| linear[i] + add(i, noise.signed())).collect());

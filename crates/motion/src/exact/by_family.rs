@@ -11,10 +11,11 @@
 //! large, and where the columns of an orbit cancel, as they do in a tangent, an error of a millionth is one
 //! of hundredths. Where only one side has a system, or the contacts of this motion even at the shortest step,
 //! it is the difference to that: beside a grazing the motions beyond it tell nothing of those on this side.
-//! How the number changes the matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference
-//! of columns at two states would divide the rounding of the columns by a second step. The column serves
-//! Newton's method and tangents, both of which converge whatever its last digits: solutions are those of the
-//! equations, and events those of the fundamental matrices, which are exact.
+//!
+//! How the number changes the matrix `dZ/dz` along a direction is the same difference of matrices, each of
+//! which is exact: a difference of columns at two states would divide the rounding of the columns by a second
+//! step. The column serves Newton's method and tangents, both of which converge whatever its last digits:
+//! solutions are those of the equations, and events those of the fundamental matrices, which are exact.
 
 use super::{ExactIntegrator, MotionError};
 use crate::{ParameterError, Stretch};
@@ -38,6 +39,8 @@ pub(super) struct ByFamily {
 }
 
 type Neighbour = (f64, ExactIntegrator);
+/// The step to a neighbour, and its end.
+type Moved = (f64, Vec<f64>);
 
 impl ByFamily {
     pub fn new(family: usize) -> Self {
@@ -136,7 +139,7 @@ impl ExactIntegrator {
         end: &[f64],
         of: &mut impl FnMut(&mut Self) -> Option<Vec<f64>>,
     ) -> Option<Difference> {
-        let (mut same, mut other): (Vec<(f64, Vec<f64>)>, Vec<(f64, Vec<f64>)>) = Default::default();
+        let (mut same, mut other): (Vec<Moved>, Vec<Moved>) = (Vec::new(), Vec::new());
         for (step, neighbour) in neighbours {
             let Some(moved) = of(neighbour) else { continue };
             let is_same = neighbour.touches == self.touches;

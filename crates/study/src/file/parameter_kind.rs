@@ -42,7 +42,7 @@ impl Serialize for ParameterKind {
             LawConstant::Damping => ("stop-damping", None),
             LawConstant::Further(number) => ("stop-constant", Some(number)),
         };
-        let mut variant = serializer.serialize_struct_variant(TYPE, 1, name, 2)?;
+        let mut variant = serializer.serialize_struct_variant(TYPE, 1, name, 3)?;
         variant.serialize_field("stop", stop)?;
         if both_sides {
             variant.serialize_field("both_sides", &true)?;

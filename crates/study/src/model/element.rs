@@ -131,7 +131,8 @@ fn round_hole(stop: &Stop, directions: [Relative; 2]) -> Result<[LocalElement; 2
     Ok(LocalElement::round_hole(&stop.name, directions, hole))
 }
 
-/// Whether two rigid stops face each other and touch the point between them from both sides.
+/// Whether two rigid stops face each other and touch the point between them from both sides: stops on one
+/// relative motion, whose shapes are the same but for their sign.
 fn leave_no_room(one: &LocalElement, other: &LocalElement) -> bool {
     let level = |element: &LocalElement| element.law.rigid().map(RigidStop::level);
     let faces = |one: &[f64], other: &[f64]| one.iter().zip(other).all(|(a, b)| *a == -*b);
@@ -144,7 +145,8 @@ fn leave_no_room(one: &LocalElement, other: &LocalElement) -> bool {
 fn no_room(file: &StudyFile, key: &str, other: &LocalElement) -> StudyError {
     let message =
         format!("its point cannot move: it is at the rigid stop on the other side, \"{}\"", other.name);
-    let help = vec!["allowed: a gap above 0 on one side at least, or a structure that is held there".into()];
+    let help =
+        vec!["allowed: a gap above 0 on one side at least; or the point held, and no stops there".into()];
     file.fault(key, message, help)
 }
 

@@ -78,10 +78,16 @@ impl Model {
             }
             ParameterKind::OfStop { stop, both_sides, constant } => {
                 let element = self.element_of(study, stop)?;
-                let sides = if both_sides { 2 } else { 1 };
-                let plain = plain(Parameter::OfLaw { element, sides, constant });
+                if both_sides && self.element_of(study, stop + 1)? != element + 1 {
+                    return Err(format!("{} is not of two stops side by side", varied.name));
+                }
+                let plain = plain(Parameter::OfLaw { element, both_sides, constant });
                 if constant != LawConstant::Gap {
                     return Ok(plain);
+                }
+                let is_rigid = self.system.elements()[element].law.rigid().is_some();
+                if both_sides && is_rigid && varied.range[0] <= 0.0 {
+                    return Err("without a gap on either side of a rigid stop its point cannot move".into());
                 }
                 // A gap that is measured from the rest position differs from the level of the element by the
                 // sag.

@@ -110,6 +110,9 @@ fn rigid_stops_that_leave_no_room_are_refused() {
     assert_refused(refused, &["its point cannot move", "\"stop 1 (above)\"", "stop[0]"]);
     let apart = [stop(rigid, "above", 0.0), stop(rigid, "below", 0.0)].concat();
     assert_refused(build(&format!("{mass}{apart}")), &["its point cannot move", "\"stop 1\"", "stop[1]"]);
+    let vary = "[[vary]]\nparameter = \"stop.1.gap_m\"\nrange = [0.0, 1.0]\nfrequency_hz = 1.5\n";
+    let to_none = format!("{mass}{}{vary}", stop(rigid, "both", 0.5));
+    assert_refused(build(&to_none), &["its point cannot move", "vary[0]"]);
     let roomy = [stop(rigid, "above", 0.0), stop(rigid, "below", 1e-3)].concat();
     for stops in [roomy, stop(rigid, "both", 1e-9), stop(soft, "both", 0.0)] {
         assert!(build(&format!("{mass}{stops}")).is_ok(), "{stops}");
