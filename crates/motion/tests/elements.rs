@@ -222,8 +222,8 @@ fn loads_on_eigenfrequencies_agree() {
     }
 }
 
-/// Of one mode the nearest open stop is at the velocity `gap max(w, 2 pi f)`. No periodic motion is faster than
-/// the load over the damping, and stops that touch at rest need no reaching.
+/// Of one mode the nearest open stop is at the velocity `gap max(w, 2 pi f)`. No periodic motion is faster
+/// than the load over the damping, and stops that touch at rest need no reaching.
 #[test]
 fn every_second_start_reaches_for_a_gap_that_the_linear_motion_does_not_come_to() {
     let (w, frequency_hz, load, damping) = (TAU * 3.0, 5.0, 40.0, 2.0);
