@@ -8,6 +8,7 @@
 use hammerbeam_motion::{
     Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
+    start_reach,
 };
 
 use crate::{
@@ -174,7 +175,7 @@ impl Sweeper {
         let mut states = vec![vec![0.0; 2 * n], steady.clone()];
         while states.len() < count {
             let start = states.len() - 2;
-            let reach = self.map.integrator().system().start_reach(frequency_hz, size, start);
+            let reach = start_reach(self.map.integrator().system(), frequency_hz, size, start);
             let about = |i: usize, random: &mut Random| {
                 steady[i] + reach * scales[i] * random.signed() / (1 + i % n) as f64
             };

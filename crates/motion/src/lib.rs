@@ -128,5 +128,6 @@ pub use law::{Contact, Force, Law, LawConstant, LawError};
 pub use load::{Harmonic, HarmonicForce, Load, SupportHarmonic};
 pub use parameter::{DampingPart, Parameter, ParameterError};
 pub use point_motion::PointMotion;
+pub use start_reach::start_reach;
 pub use stretch::{Flow, Stretch};
 pub use system::{LocalElement, ModalLoad, System, SystemError};

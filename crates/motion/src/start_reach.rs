@@ -17,55 +17,52 @@ const REACHES: [f64; 6] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 /// Reaches of every second start, relative to the nearest gap.
 const TO_GAP: [f64; 3] = [0.5, 1.0, 2.0];
 
-impl System {
-    /// How far from the linear motion a search puts its start of that number, from 0: a velocity
-    /// [kg^1/2 m/s]. States of the reach V have displacements of mode i, from 0, of about
-    /// `V/max(w_i, 2 pi f)/(i + 1)`: low modes move most.
-    ///
-    /// * `linear`: velocity of the linear motion.
-    #[must_use]
-    pub fn start_reach(&self, frequency_hz: f64, linear: f64, start: usize) -> f64 {
-        let about_linear = linear * REACHES[start % REACHES.len()];
-        let is_for_gap = start % 2 == 1;
-        match self.speed_to_gap(frequency_hz).filter(|_| is_for_gap) {
-            Some(speed)
-                if speed > linear * REACHES[REACHES.len() - 1]
-                    && speed <= self.largest_speed(frequency_hz) =>
-            {
-                speed * TO_GAP[start / 2 % TO_GAP.len()]
-            }
-            _ => about_linear,
+/// How far from the linear motion a search puts its start of that number, from 0: a velocity [kg^1/2 m/s].
+/// States of the reach V have displacements of mode i, from 0, of about `V/max(w_i, 2 pi f)/(i + 1)`: low
+/// modes move most.
+///
+/// * `linear`: velocity of the linear motion.
+#[must_use]
+pub fn start_reach(system: &System, frequency_hz: f64, linear: f64, start: usize) -> f64 {
+    let about_linear = linear * REACHES[start % REACHES.len()];
+    let is_for_gap = start % 2 == 1;
+    match speed_to_gap(system, frequency_hz).filter(|_| is_for_gap) {
+        Some(speed)
+            if speed > linear * REACHES[REACHES.len() - 1]
+                && speed <= largest_speed(system, frequency_hz) =>
+        {
+            speed * TO_GAP[start / 2 % TO_GAP.len()]
         }
+        _ => about_linear,
     }
+}
 
-    /// Reach that comes to the nearest stop which the undeformed structure does not touch; `None` without
-    /// one.
-    fn speed_to_gap(&self, frequency_hz: f64) -> Option<f64> {
-        let speed = |element: &LocalElement| {
-            let modes = element.shape.iter().zip(&self.model().natural_frequencies).enumerate();
-            let part =
-                |(i, (phi, w)): (usize, (&f64, &f64))| phi.abs() / w.max(TAU * frequency_hz) / (i + 1) as f64;
-            let per_speed: f64 = modes.map(part).sum();
-            let open = element.law.contacts().iter().filter(|contact| contact.sign * contact.level > 0.0);
-            let nearest = open.map(|contact| contact.level.abs()).reduce(f64::min)?;
-            Some(nearest / per_speed).filter(|speed| speed.is_finite())
-        };
-        self.elements().iter().filter_map(speed).reduce(f64::min)
-    }
+/// Reach that comes to the nearest stop which the undeformed structure does not touch; `None` without one.
+fn speed_to_gap(system: &System, frequency_hz: f64) -> Option<f64> {
+    let speed = |element: &LocalElement| {
+        let modes = element.shape.iter().zip(&system.model().natural_frequencies).enumerate();
+        let part =
+            |(i, (phi, w)): (usize, (&f64, &f64))| phi.abs() / w.max(TAU * frequency_hz) / (i + 1) as f64;
+        let per_speed: f64 = modes.map(part).sum();
+        let open = element.law.contacts().iter().filter(|contact| contact.sign * contact.level > 0.0);
+        let nearest = open.map(|contact| contact.level.abs()).reduce(f64::min)?;
+        Some(nearest / per_speed).filter(|speed| speed.is_finite())
+    };
+    system.elements().iter().filter_map(speed).reduce(f64::min)
+}
 
-    /// About the largest velocity of a periodic motion, `F/d` with the load of all harmonics and the least
-    /// damping of a mode; 0 where that is none, and nothing bounds it.
-    fn largest_speed(&self, frequency_hz: f64) -> f64 {
-        let damping = &self.model().damping;
-        let least = (0..self.dof()).map(|i| damping[(i, i)]).fold(f64::INFINITY, f64::min);
-        if least <= 0.0 {
-            return 0.0;
-        }
-        let works = self.orders().iter().enumerate().filter(|(_, order)| **order > 0);
-        let load = |(index, _)| {
-            let amplitudes = self.modal_load(index, frequency_hz).amplitude;
-            amplitudes.iter().map(|b| b.norm_sqr()).sum::<f64>().sqrt()
-        };
-        works.map(load).sum::<f64>() / least
+/// About the largest velocity of a periodic motion, `F/d` with the load of all harmonics and the least
+/// damping of a mode; 0 where that is none, and nothing bounds it.
+fn largest_speed(system: &System, frequency_hz: f64) -> f64 {
+    let damping = &system.model().damping;
+    let least = (0..system.dof()).map(|i| damping[(i, i)]).fold(f64::INFINITY, f64::min);
+    if least <= 0.0 {
+        return 0.0;
     }
+    let works = system.orders().iter().enumerate().filter(|(_, order)| **order > 0);
+    let load = |(index, _)| {
+        let amplitudes = system.modal_load(index, frequency_hz).amplitude;
+        amplitudes.iter().map(|b| b.norm_sqr()).sum::<f64>().sqrt()
+    };
+    works.map(load).sum::<f64>() / least
 }

@@ -10,6 +10,7 @@ use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, advance},
     law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
+    start_reach,
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
 
@@ -232,7 +233,7 @@ fn every_second_start_reaches_for_a_gap_that_the_linear_motion_does_not_come_to(
         let elements = gaps.iter().map(|gap| element(&[2.0], 0.0, linear_stop(gap))).collect();
         let load = Load { support: vec![], forces: vec![force(&[1.0], 1, load, 0.0)] };
         let system = System::new(model(&[w], diagonal(&[damping])), &load, elements).unwrap();
-        [0, 1, 2, 3, 4, 5].map(|start| system.start_reach(frequency_hz, linear, start))
+        [0, 1, 2, 3, 4, 5].map(|start| start_reach(&system, frequency_hz, linear, start))
     };
     let about = |linear: f64| [0.5, 1.0, 2.0, 4.0, 8.0, 16.0].map(|reach| reach * linear);
     let to_gap = 0.3 / 2.0 * TAU * frequency_hz;

@@ -1,6 +1,6 @@
 //! The first orbit of a branch: from the linear response and from simulation.
 
-use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
+use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator, start_reach};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
@@ -122,7 +122,7 @@ pub(crate) fn starting_states(
     let speed = scale.values()[n];
     let mut states = vec![linear.clone()];
     for start in 0..starts {
-        let reach = system.start_reach(frequency_hz, speed, start) / speed;
+        let reach = start_reach(system, frequency_hz, speed, start) / speed;
         // Low modes move most: their share falls with the order of the mode.
         let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % n) as f64;
         states.push((0..2 * n).map(|i| linear[i] + add(i, noise.signed())).collect());
