@@ -62,7 +62,9 @@ pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<F
 /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to
 /// `d`, and errors `ε` of a point leave `ε/d` in its tangent: a sign of `t_λ` below that is rounding, and
 /// says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
-/// Nor does a sign say anything there while the parameter goes back by no more than errors of points.
+/// Nor does a sign say anything there while the parameter goes back by no more than errors of points; nor
+/// beside a simpler path that the judge does not know, which leaves more than the tolerance of corrections:
+/// an orbit that is the same backwards in time is one to those that are not.
 pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     if slope * attempt.state.parameter_sign >= 0.0 {
         return false;
@@ -76,7 +78,10 @@ pub(super) fn turned(attempt: &mut Attempt<'_>, slope: f64) -> bool {
     let gone = if left < BESIDE * settings.sheet_distance { left.min(step) } else { left };
     let rounding = ROUNDED * attempt.trial.parameter().abs();
     let way = step.max(settings.sheet_distance);
-    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && slope.abs() * way > rounding
+    let weight = attempt.frame.weights[attempt.frame.weights.len() - 1].sqrt();
+    let is_rough = error > settings.correction_tolerance && slope.abs() * weight * step <= NOISE * error;
+    let by_rounding = is_rough || slope.abs() * way <= rounding;
+    slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error && !by_rounding
 }
 
 /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.

@@ -41,8 +41,7 @@ pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>, but: Option<usize>)
     let compared = but.map(|index| (index, attempt.trial.tests[index]));
     attempt.problem.tests(&rule, &mut attempt.trial.tests);
     compared.into_iter().for_each(|(index, test)| attempt.trial.tests[index] = test);
-    compare_last_point_without(attempt, &rule)?;
-    let mut apart = 0;
+    let mut apart = compare_last_point_without(attempt, &rule)?;
     for index in others {
         let (before, after) = (attempt.tests.values[index], &mut attempt.trial.tests[index]);
         let enters = after.undecided > before.undecided;
@@ -58,21 +57,30 @@ pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>, but: Option<usize>)
 }
 
 /// Asks for the test functions of the last point anew where more of them is to be left out; the problem is
-/// evaluated at the trial behind.
-fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<(), StepDoubt> {
+/// evaluated at the trial behind. Bits of those whose sign is not known, since something undecided is left in.
+fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<u32, StepDoubt> {
     let known = &attempt.tests.values;
     if known.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
-        return Ok(());
+        return Ok(0);
     }
-    let mut values: Vec<TestValue> = Vec::new();
+    let (mut values, mut lost): (Vec<TestValue>, u32) = (Vec::new(), 0);
     attempt.evaluate(&attempt.state.current.point)?;
     attempt.problem.tests(rule, &mut values);
-    for ((before, value), left_out) in attempt.tests.values.iter_mut().zip(values).zip(rule) {
-        if before.left_out < *left_out {
-            *before = value;
+    for (index, (before, value)) in attempt.tests.values.iter_mut().zip(values).enumerate() {
+        if before.left_out >= rule[index] {
+            continue;
         }
+        // A sign that was taken over is that of all; of fewer it is known only where none was beyond zero.
+        let (taken_over, none_beyond) = (value.undecided > rule[index], before.count == 0);
+        lost |= u32::from(taken_over && !none_beyond) << index;
+        *before = if taken_over && none_beyond {
+            TestValue { count: 0, value: value.value.abs(), ..value }
+        } else {
+            value
+        };
     }
-    attempt.return_to_trial()
+    attempt.return_to_trial()?;
+    Ok(lost)
 }
 
 /// So many things each of these test functions leaves out.
