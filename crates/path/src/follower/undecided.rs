@@ -57,7 +57,7 @@ pub(super) fn leave_undecided_out(attempt: &mut Attempt<'_>, but: Option<usize>)
 }
 
 /// Asks for the test functions of the last point anew where more of them is to be left out; the problem is
-/// evaluated at the trial behind. Bits of those whose sign is not known, since something undecided is left in.
+/// evaluated at the trial behind. Bits of those whose sign is not known: something undecided is left in.
 fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result<u32, StepDoubt> {
     let known = &attempt.tests.values;
     if known.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
