@@ -330,7 +330,7 @@ fn a_pair_that_becomes_real_at_a_flip_is_no_neimark_sacker_point() {
 }
 
 /// Two undamped masses at a stop: a motion that is not the same backwards in time leaves one that is, at
-/// 2.0229 and at 2.0260 Hz. Beside these points errors of a motion move its frequency farther than the branch.
+/// 2.0229 and at 2.0260 Hz. Beside these points errors of a motion move its frequency more than the branch.
 #[test]
 fn the_frequency_turns_once_where_a_motion_leaves_one_that_is_the_same_backwards() {
     let workshop = Workshop::exported(
