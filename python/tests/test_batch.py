@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -35,6 +36,21 @@ def memory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     folder.mkdir()
     yield folder
     shutil.rmtree(folder)
+
+
+@pytest.fixture(scope="module")
+def file_calls() -> Iterator[Counter[str]]:
+    """How often Python asked the system for a file or a folder since it was cleared."""
+    calls, counts = Counter[str](), True
+
+    def note(event: str, _: tuple[object, ...]) -> None:
+        if counts and event in ("open", "os.mkdir", "os.rename", "os.listdir", "os.scandir", "os.remove"):
+            calls[event] += 1
+
+    # A hook cannot be taken away again.
+    sys.addaudithook(note)
+    yield calls
+    counts = False
 
 
 def test_values_are_placed_as_the_command_places_them(tmp_path: Path) -> None:
@@ -76,15 +92,17 @@ def test_a_wrong_key_or_value_is_refused_before_anything_is_made(tmp_path: Path)
         Task.sweep(parts=3)
 
 
-def test_ten_thousand_items_are_planned_in_five_seconds(memory: Path) -> None:
+def test_ten_thousand_items_are_planned_with_a_folder_and_a_file_each(
+    memory: Path, file_calls: Counter[str]
+) -> None:
     table = Parameters.latin_hypercube(
         {GAP: (0.8, 1.2), "structure.damper.1.damping_n_s_m": (0.02, 0.06)}, 10_000, seed=1
     )
-    started = time.process_time()
+    file_calls.clear()
     planned = Batch.plan(memory / "many", EXAMPLE, table)
     counts = planned.counts()
-    # Processor seconds: other programs may be at work. Planned, and how far each is.
-    assert time.process_time() - started < 5.0
+    # Seconds are those of the machine (python/measure.py takes them); what is done for an item is not.
+    assert file_calls["open"] < 10_100 and file_calls.total() < 20_500, file_calls
     assert counts.missing == counts.items == 10_000
     # None of its folders is too long to be listed.
     assert max(len(files) + len(folders) for _, folders, files in os.walk(planned.folder)) <= 100
