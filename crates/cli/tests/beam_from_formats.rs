@@ -148,9 +148,13 @@ fn rows_of_the_beam_are_those_of_its_matrices_in_each_format() {
     let study = BEAM.split("[figures]").next().unwrap();
     let study = study
         .replace("elements = 44", "elements = 20")
+        .replace("trials = 0", "frequencies = 1\nstarts = 1\ntrials = 0")
         .replace("[19.0, 110.0]", "[30.0, 30.5]")
-        .replace("period_multiples = [1, 2, 3]", "period_multiples = [1]");
-    assert!(study.contains("elements = 20") && study.contains("[30.0, 30.5]"));
+        .replace("period_multiples = [1, 2, 3]", "period_multiples = [1]")
+        + "[continuation]\nmax_step_hz = 0.0025\n";
+    assert!(
+        study.contains("elements = 20") && study.contains("[30.0, 30.5]") && study.contains("starts = 1")
+    );
     let workshop = Workshop::with(&study);
     assert_success(&workshop.hammerbeam(&["import", "study.toml", "--out", "."]));
     assert_success(&workshop.hammerbeam(&["check", "study.toml"]));

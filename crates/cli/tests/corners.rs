@@ -7,7 +7,7 @@ use hammerbeam_orbit::{BranchEventKind, StopReason};
 use hammerbeam_results::end::BranchEnd;
 use hammerbeam_study::Model;
 
-use crate::common::{Workshop, number, stdout, stored};
+use crate::common::{Workshop, extensive, number, stdout, stored};
 
 /// Two masses in a row with 2 % of damping, one stop: coming down, a walk on states alone lost its way at the
 /// corner at 0.04695 Hz, and another branch held the same orbits.
@@ -134,19 +134,21 @@ fn shares(count: u32) -> impl Iterator<Item = f64> {
 /// How a branch ends that is whole.
 pub(crate) const WHOLE: &[&str] = &["range-end", "closed", "crossing", "shorter-period"];
 
-/// Both sides of all branches end as they may, and no orbit is stored twice.
+/// Both sides of all branches end as they may, and no orbit is stored twice: at a dozen frequencies, at sixty
+/// with `HAMMERBEAM_EXTENSIVE=1`.
 pub(crate) fn assert_whole(workshop: &Workshop, range_hz: (f64, f64), ends: &[&str]) {
     for end in workshop.table("results/export/ends.csv") {
         let ends_well = ends.contains(&end["end"].as_str());
         assert!(ends_well, "{end:?}");
     }
     let (model, branches) = stored(workshop);
-    for share in shares(60) {
+    let (looks, crossings) = if extensive() { (60, 12) } else { (12, 4) };
+    for share in shares(looks) {
         let frequency_hz = range_hz.0 + share * (range_hz.1 - range_hz.0);
         let twice = branches.held_twice(&model, frequency_hz).unwrap();
         assert!(twice.is_empty(), "at {frequency_hz} Hz branches {twice:?} hold the same orbit");
     }
-    for share in shares(12) {
+    for share in shares(crossings) {
         assert_crossed(&model, &branches, range_hz.0 + share * (range_hz.1 - range_hz.0));
     }
 }

@@ -7,7 +7,7 @@ use std::fs;
 use hammerbeam_orbit::StopReason;
 use hammerbeam_results::end::BranchEnd;
 
-use crate::common::{Workshop, assert_success, number, stdout, stored};
+use crate::common::{Workshop, assert_success, extensive, number, stdout, stored};
 
 /// One undamped mass about a third of its eigenfrequency, where free vibrations repeat with the motion.
 const FREE: &str = r#"
@@ -108,7 +108,8 @@ fn hard_contact(law: &str) -> Workshop {
 }
 
 /// In the limit a Hertz contact is a rigid stop that gives everything back, whose multipliers are exact. The
-/// softer ones are near it, and of the others no digit is claimed that rounding has eaten.
+/// softer ones are near it, and of the others no digit is claimed that rounding has eaten. By default two of
+/// five.
 #[test]
 fn multipliers_of_contacts_that_are_too_hard_for_rounding_are_marginal() {
     let leading = |law: &str| {
@@ -120,11 +121,12 @@ fn multipliers_of_contacts_that_are_too_hard_for_rounding_are_marginal() {
     };
     let (rigid, stability) = leading("law = \"rigid\"\nrestitution = 1");
     assert_eq!(stability, "unstable");
-    for stiffness in ["1e16", "1e18", "1e20", "1e22", "1e24"] {
+    let all = ["1e18", "1e24", "1e16", "1e20", "1e22"];
+    for stiffness in if extensive() { &all[..] } else { &all[..2] } {
         let (hertz, stability) = leading(&format!("law = \"hertz\"\nstiffness_n_m15 = {stiffness}"));
         let is_known = (hertz - rigid).abs() < 0.01 * rigid.abs();
         assert!(is_known || stability == "marginal", "{stiffness}: {hertz}, {stability}, rigid {rigid}");
-        match stiffness {
+        match *stiffness {
             "1e16" | "1e18" => assert_eq!(stability, "unstable", "{stiffness}: {hertz}"),
             "1e24" => assert_eq!(stability, "marginal", "{hertz}"),
             _ => {}

@@ -124,7 +124,7 @@ fn meet_the_studies_at_their_ends(study: &str, cases: &[Case<'_>], hz: &str) {
     let vary = |&(parameter, _, [low, high]): &Case<'_>| {
         format!(
             "[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\n\
-             frequency_hz = {hz}\nsteps = 50\n"
+             frequency_hz = {hz}\nsteps = 20\n"
         )
     };
     let workshop = Workshop::exported(&format!("{study}{}", cases.iter().map(vary).collect::<String>()));

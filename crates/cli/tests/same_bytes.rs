@@ -35,7 +35,9 @@ stiffness_n_m = 19.0
 side = "above"
 
 [search]
-frequencies = 8
+frequencies = 4
+starts = 3
+trials = 3
 
 [response]
 period_multiples = [1, 2, 3]
@@ -43,7 +45,7 @@ period_doubling_depth = 1
 "#;
 
 fn with_continuation(lines: &str) -> String {
-    format!("{STUDY}\n[continuation]\nmax_step_hz = 0.0004\n{lines}\n")
+    format!("{STUDY}\n[continuation]\nmax_step_hz = 0.001\n{lines}\n")
 }
 
 /// Everything exported.
@@ -152,10 +154,11 @@ fn not_followed(reported: &str) -> usize {
 
 #[test]
 fn a_depth_that_is_raised_later_gives_what_it_gives_at_once() {
-    let deeper = STUDY.replace("period_doubling_depth = 1", "period_doubling_depth = 2");
+    let shallow = with_continuation("").replace("[0.12, 0.6]", "[0.12, 0.25]");
+    let deeper = shallow.replace("period_doubling_depth = 1", "period_doubling_depth = 2");
     let at_once = Workshop::with(&deeper);
     run(&at_once, "2");
-    let raised = Workshop::with(STUDY);
+    let raised = Workshop::with(&shallow);
     let reported = run(&raised, "2");
     let before = raised.csv("results").lines().count();
     let flips_of_four = flips_of_period(&raised, "4");
