@@ -126,6 +126,15 @@ period_multiples = [1, 2, 3]
 
 const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
 
+/// The study with a short search and steps up to that length; as it is with `HAMMERBEAM_EXTENSIVE=1`.
+fn quick(study: &str, longest_step: f64) -> String {
+    if extensive() {
+        return study.to_owned();
+    }
+    let search = "[search]\nfrequencies = 6\nstarts = 3\ntrials = 3\n";
+    format!("{study}{search}[continuation]\nmax_step_hz = {longest_step}\n")
+}
+
 /// Numbers from 0 to 1 without a pattern: multiples of the golden ratio.
 fn shares(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract())
@@ -185,17 +194,17 @@ pub(crate) fn grazings(workshop: &Workshop) -> Vec<f64> {
 
 #[test]
 fn a_branch_goes_on_across_corners_and_no_other_one_holds_its_orbits() {
-    assert_whole(&Workshop::exported(LOST_WAY), (0.0376, 0.2348), WHOLE);
+    assert_whole(&Workshop::exported(&quick(LOST_WAY, 2e-4)), (0.0376, 0.2348), WHOLE);
 }
 
 #[test]
 fn a_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
-    assert_whole(&Workshop::exported(BETWEEN_STOPS), (0.08, 0.4), WHOLE);
+    assert_whole(&Workshop::exported(&quick(BETWEEN_STOPS, 5e-4)), (0.08, 0.4), WHOLE);
 }
 
 #[test]
 fn a_lightly_damped_symmetric_orbit_goes_on_where_it_grazes_both_stops() {
-    let workshop = Workshop::exported(LIGHTLY_BETWEEN_STOPS);
+    let workshop = Workshop::exported(&quick(LIGHTLY_BETWEEN_STOPS, 2e-3));
     assert_whole(&workshop, (4.2, 5.5), WHOLE);
     let off = grazings(&workshop).into_iter().map(|hz| from_gap([0.45, 130.0, 0.012, 0.9, 4.0e-3], hz));
     let off: Vec<f64> = off.collect();
@@ -246,7 +255,7 @@ pub(crate) fn one_mass(
 #[test]
 fn a_symmetric_orbit_goes_on_whose_impacts_come_near_the_ends_of_its_halves() {
     for ratio in [0.012, 0.02] {
-        let workshop = Workshop::exported(&between_stops(ratio, [3.7, 4.0]));
+        let workshop = Workshop::exported(&quick(&between_stops(ratio, [3.7, 4.0]), 5e-4));
         assert_whole(&workshop, (3.7, 4.0), WHOLE);
         assert_eq!(grazings(&workshop).len(), 1, "{ratio}");
     }
@@ -298,10 +307,8 @@ fn an_asymmetric_arm_goes_on_to_where_the_symmetric_orbit_grazes_both_stops() {
 fn a_lightly_damped_orbit_goes_on_beside_a_grazing_near_the_resonance() {
     let stop = "restitution = 0.9312\nside = \"both\"\ngap_m = 0.00032714";
     let study = one_mass([0.138531, 7009.63, 0.002, 1.1286], [35.7, 35.85], stop);
-    let workshop = Workshop::exported(&format!(
-        "{study}[response]\nperiod_multiples = [1, 2]\n[continuation]\nmax_step_hz = 0.01\n"
-    ));
-    assert_whole(&workshop, (35.7, 35.85), WHOLE);
+    let study = format!("{study}[response]\nperiod_multiples = [1, 2]\n");
+    assert_whole(&Workshop::exported(&quick(&study, 0.01)), (35.7, 35.85), WHOLE);
 }
 
 /// The branch of two periods comes to that of one at a grazing, at which nothing leaves in a direction that

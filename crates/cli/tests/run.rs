@@ -35,12 +35,12 @@ fn undisturbed(study: &str) -> (String, Duration) {
     (workshop.csv("results"), begun.elapsed())
 }
 
-/// Each of the runs is killed somewhere from its beginning to its very end and taken up again once: three by
+/// Each of the runs is killed somewhere from its beginning to its very end and taken up again once: two by
 /// default, ten of the whole range with `HAMMERBEAM_EXTENSIVE=1`.
 #[test]
 fn killed_at_random_instants_and_resumed_it_ends_with_the_same_bytes() {
     let whole = format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.002\n");
-    let (study, kills) = if extensive() { (whole, 10) } else { (long_study(), 3) };
+    let (study, kills) = if extensive() { (whole, 10) } else { (long_study(), 2) };
     let (expected, duration) = undisturbed(&study);
     let mut random = SeededNumbers(20);
     for _ in 0..kills {
