@@ -78,7 +78,7 @@ own!(tube_in_a_hole, "tube-in-a-hole", None);
 own!(snubber_with_loss, "snubber-with-loss", Some(0));
 own!(switch, "switch", Some(1));
 own!(mass_chain, "mass-chain", None);
-own!(symmetric_stops, "symmetric-stops", Some(0));
+own!(symmetric_stops, "symmetric-stops", None);
 own!(weakly_damped_beam, "weakly-damped-beam", None);
 own!(impact_pair, "impact-pair", Some(0));
 own!(preloaded_joint, "preloaded-joint", Some(2));

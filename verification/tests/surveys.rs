@@ -46,7 +46,7 @@ const BEAM: &[(&str, &str)] = studies! { "weakly-damped-beam" };
 #[test]
 fn no_attractor_of_an_independent_survey_is_on_no_branch() {
     if !extensive() {
-        STUDIES[..4].iter().for_each(|study| survey(*study, (4, 6)));
+        STUDIES[..2].iter().for_each(|study| survey(*study, (4, 6)));
         return;
     }
     STUDIES.iter().for_each(|study| survey(*study, (12, 12)));

@@ -10,6 +10,7 @@ use hammerbeam_signal::{
     points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
     random::RandomSource,
 };
+use hammerbeam_testkit::stride;
 
 /// A branch of period 1 with two peaks and an unstable stretch between them, one of period 2 with a peak, and
 /// a low one of period 1.
@@ -83,13 +84,15 @@ fn an_offset_is_found_where_an_offset_was_put() {
     assert!(factor.after.rms > 10.0 * found.after.rms, "{} {}", factor.after.rms, found.after.rms);
 }
 
-/// Of 60 seeds the values put in lie within two standard errors as often as they should: 95 % of them, and 90
-/// % allows for chance (a binomial share of 60 is 0.95 +- 0.03).
+/// Of 60 seeds, by default of half of them, the values put in lie within two standard errors as often as they
+/// should: 95 % of them, and 90 % allows for chance (a binomial share of 60 is 0.95 +- 0.03).
 #[test]
 fn standard_errors_are_what_they_say() {
     let (factor, amplitude) = (1.06, 7.0);
     let (mut frequency, mut value) = (0, 0);
-    for seed in 0..60 {
+    let seeds = (0..60).step_by(stride(2));
+    let least = (seeds.len() * 9 / 10) as u32;
+    for seed in seeds {
         let found = held(&measured(factor, amplitude, 0.05, seed), &FitSettings::default()).fit;
         let within = |estimate: FitEstimate, put: f64| {
             u32::from((estimate.value - put).abs() < 2.0 * estimate.standard_error().unwrap())
@@ -98,7 +101,7 @@ fn standard_errors_are_what_they_say() {
         value += within(found.amplitude, amplitude);
         assert!(found.correlation.unwrap().abs() < 1.0);
     }
-    assert!(frequency >= 54 && value >= 54, "{frequency} {value} of 60");
+    assert!(frequency >= least && value >= least, "{frequency} {value}, at least {least}");
 }
 
 #[test]

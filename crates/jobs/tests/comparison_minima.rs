@@ -9,6 +9,7 @@ use hammerbeam_signal::{
     points::{MeasuredKind, MeasuredMaxima, MeasuredPoint},
     random::RandomSource,
 };
+use hammerbeam_testkit::stride;
 
 /// Magnification of a mass on a spring with viscous damping, at a frequency over its eigenfrequency.
 fn magnification(r: f64, damping: f64) -> f64 {
@@ -138,14 +139,15 @@ fn both_flanks_of_a_narrow_peak_are_told() {
 
 /// Three branches of one period lie over one another, a factor of 1.3 apart, so that the nearest one of a
 /// point changes with the factor, and some points are strays: no other factor may have a smaller sum at the
-/// shift that was found, and no other shift with the factor that was.
+/// shift that was found, and no other shift with the factor that was. By default for the first of three sets
+/// of points.
 #[test]
 fn no_factor_and_no_shift_of_a_fine_grid_has_a_smaller_sum() {
     let value = |f: f64| 1.0 + 4.0 * (-((f - 30.0) / 2.0).powi(2)).exp();
     let layer =
         |k: i32| branch(k as u32 + 1, (20.0, 40.0), move |f| 1.3_f64.powi(k) * value(f + 0.3 * f64::from(k)));
     let curves = Curves::new((0..3).map(layer).collect());
-    for seed in 0..3 {
+    for seed in (0..3).step_by(stride(3)) {
         let mut random = RandomSource::new(seed);
         let points: Vec<MeasuredPoint> = (0..30)
             .map(|k| {

@@ -18,6 +18,7 @@ use hammerbeam_motion::{
         HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop, TwoSidedStop,
     },
 };
+use hammerbeam_testkit::stride;
 
 /// Natural circular frequency [rad/s].
 const W: f64 = TAU * 10.0;
@@ -188,7 +189,7 @@ fn three_stops_of_one_level_are_one_of_their_stiffnesses_added() {
         let of_one = mass(&[(0.8, law(1.0))], 2.0);
         let [mut three, mut one] = [three, of_one.clone()]
             .map(|system| ExactIntegrator::new(system, ExactSettings { tolerance: 1e-12 }).unwrap());
-        for k in 0..40 {
+        for k in (0..40).step_by(stride(4)) {
             let stretch = Stretch { frequency_hz: 3.0 + 0.11 * f64::from(k), start: 0.0, end: 1.0 };
             let mut state = vec![0.0; 2];
             for period in 0..4 {
@@ -256,7 +257,7 @@ fn two_stops_of_one_level_change_in_one_instant_however_slowly_it_is_passed() {
     let system = System::new(free, &load, stops).unwrap();
     let stretch =
         Stretch { frequency_hz: 0.164_773_535_786_562_18, start: 0.115_234_375, end: 1.115_234_375 };
-    for number in 0..100 {
+    for number in (0..100).step_by(stride(5)) {
         let rounding = 1e-15 * f64::from(number);
         let state =
             [-0.747_484_226_390_7 + rounding, -0.162_751_820_063_1, 0.678_187_589_630_5, 0.104_255_277_400_8];

@@ -10,6 +10,7 @@ use hammerbeam_motion::{
     general::{GeneralFlow, GeneralSettings, advance},
     law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
+use hammerbeam_testkit::stride;
 
 const TOLERANCES: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
 
@@ -169,12 +170,14 @@ fn any_system(case: usize, next: &mut impl FnMut() -> f64) -> System {
 }
 
 /// Every kind of mode, damping, load and element at once, from rest: both integrators agree, at any tolerance
-/// of the general one.
+/// of the general one. By default a fifth of 200 systems.
 #[test]
 fn every_kind_of_system_is_integrated() {
     let mut next = numbers(1);
     let (mut contacts, mut compared) = (0, 0);
-    for case in 0..200 {
+    let cases = (0..200).step_by(stride(5));
+    let count = cases.len() as u32;
+    for case in cases {
         let system = any_system(case, &mut next);
         let state: Vec<f64> = (0..2 * system.dof()).map(|_| 1e-5 * next()).collect();
         let stretch = Stretch { frequency_hz: 6.0, start: 0.0, end: 2.0 };
@@ -192,7 +195,8 @@ fn every_kind_of_system_is_integrated() {
             compared += 1;
         }
     }
-    assert!(compared > 180 && contacts > 1000, "{compared} compared, {contacts} contacts");
+    let enough = compared * 10 > 9 * count && contacts > 5 * count;
+    assert!(enough, "{compared} of {count} compared, {contacts} contacts");
 }
 
 /// Six periods of the paper's beam in one stretch are six stretches of one.

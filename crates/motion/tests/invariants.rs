@@ -14,6 +14,7 @@ use hammerbeam_motion::{
     },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
+use hammerbeam_testkit::stride;
 
 fn flow(system: &System, stretch: &Stretch, state: &[f64], tolerance: f64) -> Flow {
     ExactIntegrator::new(system.clone(), ExactSettings { tolerance }).unwrap().flow(stretch, state).unwrap()
@@ -88,7 +89,8 @@ const SHAPE: [f64; 3] = [-1.4, 1.1, -0.9];
 const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 
-/// Every law at several supports, coupled and uncoupled dampers, a rigid-body mode, and several elements.
+/// Every law at several supports, coupled and uncoupled dampers, a rigid-body mode, and several elements. By
+/// default a third of these systems.
 #[test]
 fn sensitivities_agree_with_differences() {
     let mut systems = Vec::new();
@@ -104,7 +106,8 @@ fn sensitivities_agree_with_differences() {
     let every = laws().into_iter().chain(lossy_laws());
     let several = every.map(|law| element(&SHAPE, 0.3, law)).collect();
     systems.push(("all laws at once".into(), three_modes(TAU * 3.5, true, several)));
-    for (what, system) in systems {
+    // The last one, with all laws at once, is always among them.
+    for (what, system) in systems.into_iter().rev().step_by(stride(3)) {
         let found = flow(&system, &STRETCH, &STATE, 1e-12);
         for j in 0..6 {
             let column: Vec<f64> = (0..6).map(|i| found.by_state[(i, j)]).collect();

@@ -17,6 +17,7 @@ use hammerbeam_motion::{
     },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
+use hammerbeam_testkit::stride;
 
 const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
@@ -141,6 +142,7 @@ fn derivatives_by_the_restitution_of_every_model_are_those_of_differences() {
     }
 }
 
+/// By default by every other parameter.
 #[test]
 fn derivatives_agree_with_differences_of_both_integrators() {
     let lossless = (laws(), parameters());
@@ -150,7 +152,7 @@ fn derivatives_agree_with_differences_of_both_integrators() {
     let cases = [(false, &lossless, 1e-8), (true, &lossless, 1e-8), (true, &lossy, 1e-7)];
     for (coupled, (laws, parameters), bound) in cases {
         let system = three_modes(laws, coupled);
-        for &(parameter, step) in parameters {
+        for &(parameter, step) in parameters.iter().step_by(stride(2)) {
             let case = (&system, &STRETCH, &STATE[..]);
             let of_exact = |system: &System| exact(system, 1e-14).advance(&STRETCH, &STATE).unwrap();
             let of_general = |system: &System| {

@@ -11,6 +11,7 @@ use hammerbeam_motion::{
     general::{GeneralSettings, advance},
     law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
 };
+use hammerbeam_testkit::stride;
 
 /// Natural circular frequency of the first mode [rad/s].
 const W: f64 = TAU * 10.0;
@@ -49,14 +50,15 @@ fn flow(system: &System, frequency_hz: f64) -> Flow {
 
 /// A rigid stop is not passed, so that another contact of its place is never penetrated: the motion is that
 /// with the rigid stop alone, whatever law the other has. The mass rests on the stop for a part of each
-/// cycle, at the end of a chatter or at once, and leaves it.
+/// cycle, at the end of a chatter or at once, and leaves it. By default at half of four frequencies.
 #[test]
 fn a_contact_at_the_place_of_a_rigid_stop_does_nothing() {
     for restitution in [0.0, 0.3] {
         let stop = || element(&SHAPE, 0.0, rigid(restitution, 0.0));
         let alone = two_modes(vec![stop()]);
-        let frequencies = [2.3, 3.1, 4.7, 6.2];
-        let expected = frequencies.map(|frequency_hz| flow(&alone, frequency_hz));
+        let all = [2.3, 3.1, 4.7, 6.2];
+        let frequencies: Vec<f64> = all.into_iter().step_by(stride(2)).collect();
+        let expected: Vec<_> = frequencies.iter().map(|frequency_hz| flow(&alone, *frequency_hz)).collect();
         let harder = |law: &Law| law.rigid().is_some_and(|law| law.restitution() > restitution);
         for law in laws().into_iter().filter(|law| !harder(law)) {
             let other = || element(&SHAPE.map(|entry| 0.7 * entry), 0.0, law.clone());
@@ -100,10 +102,10 @@ fn a_contact_between_two_held_points_goes_with_the_first_that_leaves() {
 }
 
 /// Without penetration nothing presses: a mass that a constant load holds against both stops stays where it
-/// is, and the rigid one carries all of the load.
+/// is, and the rigid one carries all of the load. By default beside every other law.
 #[test]
 fn a_mass_at_rest_on_both_stops_stays() {
-    for law in laws() {
+    for law in laws().into_iter().step_by(stride(2)) {
         let load = Load { support: vec![], forces: vec![force(&[1.0, 0.3], 0, STATIC * W * W, 0.0)] };
         let stops = vec![element(&[1.0, 0.0], 0.0, law.clone()), element(&[1.0, 0.0], 0.0, rigid(0.0, 0.0))];
         let system = System::new(model(&[W, 3.1 * W], diagonal(&[0.1 * W; 2])), &load, stops).unwrap();
@@ -117,7 +119,7 @@ fn a_mass_at_rest_on_both_stops_stays() {
 }
 
 /// A slow mass meets both stops while the load still pulls at it a little, so that a stop without restitution
-/// does not hold it yet: what it goes back is below rounding.
+/// does not hold it yet: what it goes back is below rounding. By default at a quarter of the frequencies.
 #[test]
 fn a_mass_that_meets_both_stops_just_before_it_is_pressed_on_is_held() {
     let one_mode = |stops| {
@@ -126,7 +128,7 @@ fn a_mass_that_meets_both_stops_just_before_it_is_pressed_on_is_held() {
     };
     let stop = || element(&[1.0], 0.0, rigid(0.0, 0.0));
     for law in laws().into_iter().filter(|law| law.rigid().is_none()) {
-        for k in 0..24 {
+        for k in (0..24).step_by(stride(4)) {
             let stretch = Stretch { frequency_hz: 2.0 + 0.1 * f64::from(k), start: 0.5, end: 3.4 };
             let state = |stops| {
                 let settings = GeneralSettings::with_tolerance(1e-12).state_only();

@@ -18,3 +18,8 @@ pub use random::SeededNumbers;
 pub fn extensive() -> bool {
     std::env::var_os("HAMMERBEAM_EXTENSIVE").is_some_and(|value| value == "1")
 }
+
+/// The step through a set of which every n-th member is a sample: 1 where whole sets are asked for.
+pub fn stride(every: usize) -> usize {
+    if extensive() { 1 } else { every }
+}
