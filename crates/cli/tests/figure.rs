@@ -118,21 +118,23 @@ fn an_orbit_is_drawn_with_the_force_of_its_stop() {
 
 /// The path reaches as far as the displacement that is observed, one of the two across the hole, and less
 /// than the square root of two as far: the load across is smaller, so the tube swings less that way. Of a
-/// flat load there is contact for a part of the period only.
+/// flat load there is contact for a part of the period only. With this much damping, well below the
+/// resonance, the search ends after one solution.
 #[test]
 fn an_orbit_in_a_round_hole_is_drawn_along_its_axis() {
     let workshop = Workshop::with(include_str!("../../../studies/tube-in-hole.toml"));
-    let flat = "excitation.force.2.amplitude_n=0.1";
-    let command = ["orbit", "study.toml", "--frequency", "16", "--set", flat, "--out", "drawn", "--json"];
-    let output = workshop.hammerbeam(&command);
+    let settings = ["--set", "excitation.force.2.amplitude_n=0.1", "--set", "damping.modal_ratio=0.1"];
+    let command = ["orbit", "study.toml", "--frequency", "12", "--out", "drawn", "--json"];
+    let output = workshop.hammerbeam(&[&command[..], &settings].concat());
     assert_success(&output);
     let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let orbits = document["solutions"].as_array().unwrap();
+    assert!(!orbits.is_empty());
     assert_eq!(document["figures"].as_array().unwrap().len(), 8 * orbits.len());
     for (number, orbit) in (1..).zip(orbits) {
         let hole = fs::read_to_string(workshop.path(&format!("drawn/orbit-{number}-hole.svg"))).unwrap();
         for label in
-            [">hole: Tube in a round hole, 16 Hz", ">baffle.y (mm)<", ">baffle.z (mm)<", ">clearance<"]
+            [">hole: Tube in a round hole, 12 Hz", ">baffle.y (mm)<", ">baffle.z (mm)<", ">clearance<"]
         {
             assert!(hole.contains(label), "{label}");
         }
