@@ -26,11 +26,14 @@ use hammerbeam_results::Store;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
-const RANGE: &str = "frequency_hz = [30.0, 40.0]";
+/// Above the motions of twice the period at 34 Hz, off whose orbits it takes long to read outputs.
+const RANGE: &str = "frequency_hz = [34.5, 39.2]";
 
-/// The beam between 30 and 40 Hz, computed, with the number of its branches.
+/// The beam between 34.5 and 39.2 Hz, computed, with the number of its branches. Its budget cuts the harmonic
+/// branch, with folds, flips and a grazing, into several; what leaves it is found without a search.
 fn results() -> (Workshop, Value) {
-    let beam = crate::common::BEAM.replace("trials = 0", "frequencies = 12\ntrials = 0");
+    let search = "frequencies = 0\ntrials = 0\n[continuation]\nmax_step_hz = 0.03\nbudget_solutions = 250\n";
+    let beam = crate::common::BEAM.replace("trials = 0", search);
     let output = "\n[[output]]\nname = \"push\"\nstop = \"stop 1\"\nfigures = [\"maximum\", \"mean\"]\n";
     let study = beam.replacen("frequency_hz = [19.0, 110.0]", RANGE, 1) + output;
     let workshop = Workshop::with(&study);
@@ -60,7 +63,7 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "path": workshop.path("results/page.html"),
         "branches": branches.len(),
         "first_branch": branches[0]["branch"],
-        "range": [30.0, 40.0],
+        "range": [34.5, 39.2],
         "multipliers": multipliers(&workshop),
         "courses": histories(&workshop),
     });

@@ -91,7 +91,7 @@ fn standard_errors_are_what_they_say() {
     let (factor, amplitude) = (1.06, 7.0);
     let (mut frequency, mut value) = (0, 0);
     let seeds = (0..60).step_by(stride(2));
-    let least = (seeds.len() * 9 / 10) as u32;
+    let least = (seeds.clone().count() * 9 / 10) as u32;
     for seed in seeds {
         let found = held(&measured(factor, amplitude, 0.05, seed), &FitSettings::default()).fit;
         let within = |estimate: FitEstimate, put: f64| {
