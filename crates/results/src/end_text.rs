@@ -89,7 +89,7 @@ pub fn sentence(end: &BranchEnd, along: BranchOver<'_>) -> String {
     }
 }
 
-/// BranchOver the frequency.
+/// The sentence over the frequency.
 impl std::fmt::Display for BranchEnd {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.pad(&sentence(self, BranchOver::Frequency))

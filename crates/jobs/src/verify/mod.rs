@@ -9,17 +9,17 @@
 //! dZ_k/dz_0`, `k = 1..=m`, `z_m = z_0`. What is wrong with the first node by `e` is wrong by `|A_k| e`
 //! later, so all errors are judged by `G = 1 + max_k |A_k|`. With the tolerance `tau`:
 //!
-//! * residual: `max_k; Z_k - z_k; / (1 +; A_k; ) <= tau`.
-//! * multipliers: `; mu - mu'; <= tau k (1 +; A_m; + S)`, with the condition `k` of the eigenvalue.
-//! * displacement: `; d - d'; <= max(tau, 1e-9) G max(d', L)`.
-//! * acceleration: `; a - a'; <= max(tau, 1e-7) G max(g a', w)`.
-//! * impact velocity: `; v - v'; <= tau G g_v v'`.
-//! * impulse: `; J - J'; <= tau G sum_j g_j J'_j`.
-//! * contact force: `; F - F'; <= max(tau, 1e-9) G g F'`.
+//! * residual: `max_k |Z_k - z_k| / (1 + |A_k|) <= tau`.
+//! * multipliers: `|mu - mu'| <= tau k (1 + |A_m| + S)`, with the condition `k` of the eigenvalue.
+//! * displacement: `|d - d'| <= max(tau, 1e-9) G max(d', L)`.
+//! * acceleration: `|a - a'| <= max(tau, 1e-7) G max(g a', w)`.
+//! * impact velocity: `|v - v'| <= tau G g_v v'`.
+//! * impulse: `|J - J'| <= tau G sum_j g_j J'_j`.
+//! * contact force: `|F - F'| <= max(tau, 1e-9) G g F'`.
 //! * contacts: as many differ as contacts graze, are touched with `v' <= sqrt(2 W tau G L_r)` if one grazes,
 //!   or are touched within `tau G L_r` of a node, at most.
 //! * events: fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle, or, if the event was
-//!   bracketed only, of where its multiplier was said to lie, up to 1e-2 off; grazing: `; s; <= 1e-5 L_r`.
+//!   bracketed only, of where its multiplier was said to lie, up to 1e-2 off; grazing: `|s| <= 1e-5 L_r`.
 //!
 //! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and
 //! elements by `L_r` with the velocity `V_r`; `W` bounds the acceleration with which they approach, by state,
