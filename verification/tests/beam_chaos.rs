@@ -89,7 +89,7 @@ fn orbit_at(
     start_hz: f64,
     frequency_hz: f64,
 ) -> PeriodicSolution {
-    let settings = OrbitSettings { max_step_hz: 0.02, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.02, ..OrbitSettings::default() };
     let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
     let (rows, _, _) = walk(rig, &start, Side::Up, (start_hz - 0.01, frequency_hz), &settings);
     let at = rows.into_iter().map(|row| row.solution).find(|orbit| orbit.frequency_hz == frequency_hz);

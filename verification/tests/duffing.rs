@@ -35,7 +35,7 @@ impl Duffing {
 
     /// Circular frequencies and amplitudes of the folds, ascending, by the walk along the branch.
     fn folds(self, range: (f64, f64), step: f64) -> Vec<[f64; 2]> {
-        let settings = OrbitSettings { max_step_hz: step / TAU, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: step / TAU, ..OrbitSettings::default() };
         let range_hz = (range.0 / TAU, range.1 / TAU);
         let branch = walk_both(&self.rig(), 0.5 * (range_hz.0 + range_hz.1), range_hz, &settings);
         let rows = branch.rows.iter().filter(|row| row.events.fold).map(|row| &row.solution);

@@ -168,7 +168,7 @@ fn sagging_mass_reaches_its_stop_at_the_frequency_of_the_closed_form() {
     };
     let rig = forced(stop, Some(weight));
     let branch =
-        walk_both(&rig, 0.6, (0.5, 2.0), &OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() });
+        walk_both(&rig, 0.6, (0.5, 2.0), &OrbitSettings { max_step: 0.01, ..OrbitSettings::default() });
     // |X|^2 = F^2 / ((k - m s)^2 + c^2 s) with s = W^2: a quadratic in s, whose smaller root is met first.
     let (a, b) = (MASS * MASS, DAMPER * DAMPER - 2.0 * STIFFNESS * MASS);
     let c = STIFFNESS * STIFFNESS - (FORCE / (gap - sag)).powi(2);

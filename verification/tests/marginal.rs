@@ -21,7 +21,7 @@ fn rig(model: ReducedModel, (at, law): (&str, Law), force: f64) -> ObservedSyste
 }
 
 fn settings(range_hz: (f64, f64)) -> OrbitSettings {
-    OrbitSettings { max_step_hz: (range_hz.1 - range_hz.0) / 200.0, ..OrbitSettings::default() }
+    OrbitSettings { max_step: (range_hz.1 - range_hz.0) / 200.0, ..OrbitSettings::default() }
 }
 
 /// Two masses of 1 kg, `k = 1` to the ground and `0.7 N/m` between: `w^2 = (2.4 -+ sqrt(2.96))/2`. Over

@@ -116,7 +116,7 @@ fn state(model: &Model, motion: [[f64; 2]; 2], frame: [f64; 2]) -> Vec<f64> {
 fn motion(model: &Model, state: &[f64], frame: [f64; 2]) -> [[f64; 2]; 2] {
     ["first", "second"].map(|name| {
         let point = model.system.model().point(name).unwrap();
-        let moved = model.system.point_motion(FREQUENCY_HZ, &point.shape, &point.support_ratios);
+        let moved = PointMotion::of(&model.system, FREQUENCY_HZ, &point.shape, &point.support_ratios);
         let [y, v, _] = moved.at(0.0, state, &[]);
         [y + frame[0], v + frame[1]]
     })

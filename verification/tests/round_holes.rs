@@ -114,7 +114,7 @@ fn sum_of(solution: &PeriodicSolution) -> f64 {
 #[test]
 fn branch_of_whirls_in_contact_is_the_closed_form() {
     let rig = rotor();
-    let settings = OrbitSettings { max_step_hz: 0.5, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.5, ..OrbitSettings::default() };
     let branch = walk_both(&rig, 3.0, (1.5, 14.5), &settings);
     assert!(branch.rows.len() > 25, "{} rows, {:?}", branch.rows.len(), branch.reasons);
     for row in &branch.rows {

@@ -272,7 +272,7 @@ fn orbits_and_multipliers_are_those_of_two_linear_stops() {
 /// peak, and the force there, are those of the two linear stops.
 #[test]
 fn a_branch_passes_the_kink_as_that_of_two_linear_stops_does() {
-    let settings = OrbitSettings { max_step_hz: 0.002, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.002, ..OrbitSettings::default() };
     let range_hz = (1.05 / TAU, 1.9 / TAU);
     let [one, sum] = [oscillator(&[STIFFENING.law()], 0.2, 0.3), oscillator(&STIFFENING.as_sum(), 0.2, 0.3)];
     let [found, expected] = [&one, &sum].map(|rig| walk_both(rig, 1.06 / TAU, range_hz, &settings));

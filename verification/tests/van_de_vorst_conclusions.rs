@@ -17,7 +17,7 @@ use hammerbeam_orbit::{BranchRow, OrbitSettings, PeriodicSolution, Response, Sid
 
 /// A branch in steps of 0.05 Hz, from the lower end of a range to the upper one.
 fn branch(rig: &ObservedSystem, start_hz: f64, period_multiple: u32, range_hz: (f64, f64)) -> Vec<BranchRow> {
-    let settings = OrbitSettings { max_step_hz: 0.05, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.05, ..OrbitSettings::default() };
     let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
     let (mut rows, _, _) = walk(rig, &start, Side::Down, range_hz, &settings);
     rows.reverse();

@@ -26,7 +26,7 @@ fn rig() -> &'static ObservedSystem {
 }
 
 fn walked_at(max_step_hz: f64) -> Walked {
-    walk_both(rig(), 30.0, RANGE_HZ, &OrbitSettings { max_step_hz, ..OrbitSettings::default() })
+    walk_both(rig(), 30.0, RANGE_HZ, &OrbitSettings { max_step, ..OrbitSettings::default() })
 }
 
 /// The walk at the default steps.
@@ -47,7 +47,7 @@ fn frequency(row: &BranchRow) -> f64 {
 #[test]
 fn both_ends_of_the_range_are_reached_exactly() {
     let branch = branch();
-    let end = |frequency_hz: f64| StopReason::RangeEnd { frequency_hz };
+    let end = |frequency_hz: f64| StopReason::RangeEnd { place: frequency_hz };
     assert_eq!(branch.reasons, [end(RANGE_HZ.0), end(RANGE_HZ.1)]);
     let (first, last) = (&branch.rows[0], &branch.rows[branch.rows.len() - 1]);
     assert_eq!(frequency(first).to_bits(), RANGE_HZ.0.to_bits());
@@ -224,14 +224,14 @@ fn folds_do_not_depend_on_a_step_of_0_001_hz() {
         assert_same_folds(&walked_at(0.001).folds(), &branch().folds(), "0.001 Hz");
         return;
     }
-    let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.001, ..OrbitSettings::default() };
     let rows = &branch().rows;
     let mut total = 0;
     for (low_hz, high_hz) in [(19.19, 20.36), (22.74, 23.31), (27.83, 27.93), (34.72, 34.75)] {
         let above = rows.iter().rposition(|row| frequency(row) < high_hz).unwrap();
         let start = &rows[above].solution;
         let (found, reason, _) = walk(rig(), start, Side::Down, (low_hz, high_hz), &settings);
-        assert_eq!(reason, StopReason::RangeEnd { frequency_hz: low_hz });
+        assert_eq!(reason, StopReason::RangeEnd { place: low_hz });
         let within: Vec<f64> =
             branch().folds().into_iter().filter(|fold| (low_hz..high_hz).contains(fold)).collect();
         assert_same_folds(&folds(&found), &within, "0.001 Hz");

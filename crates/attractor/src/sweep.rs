@@ -188,7 +188,7 @@ impl Sweeper {
                 state = drawn();
             }
             let system = self.map.integrator().system();
-            states.push(system.in_front_of_contacts(frequency_hz, 0.0, &state).unwrap_or(state));
+            states.push(in_front_of_contacts(system, frequency_hz, 0.0, &state).unwrap_or(state));
         }
         states.truncate(count);
         Ok(states)

@@ -332,7 +332,7 @@ fn a_branch_ends_early_in_chatter_alone_and_none_is_stored_again_some_periods_la
     let (_, branches) = stored(&workshop);
     let ends = ends(&branches);
     let chattering = ends.iter().filter_map(|(branch, end)| match end {
-        BranchEnd::Walk(StopReason::Chatter { element, frequency_hz, .. }) if element == "stop" => {
+        BranchEnd::Walk(StopReason::Chatter { element, place: frequency_hz, .. }) if element == "stop" => {
             Some((*branch, *frequency_hz))
         }
         _ => None,

@@ -195,7 +195,7 @@ fn a_branch_that_comes_to_free_vibrations_ends_there() {
     let mut free = 0;
     for side in sides {
         match side.end.as_ref().unwrap() {
-            BranchEnd::Walk(StopReason::FreeVibration { frequency_hz, mode }) => {
+            BranchEnd::Walk(StopReason::FreeVibration { place: frequency_hz, mode }) => {
                 assert!((frequency_hz - third).abs() < 1e-9 * third && mode.number == 1, "{mode:?}");
                 free += 1;
             }

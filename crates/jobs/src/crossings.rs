@@ -252,7 +252,7 @@ fn walked(model: &Model, row: &PeriodicSolution, frequency_hz: f64) -> Option<Pe
     }
     let side = if frequency_hz < row.frequency_hz { Side::Down } else { Side::Up };
     let range_hz = (frequency_hz.min(row.frequency_hz), frequency_hz.max(row.frequency_hz));
-    let settings = OrbitSettings { max_step_hz: range_hz.1 - range_hz.0, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: range_hz.1 - range_hz.0, ..OrbitSettings::default() };
     let mut walk = BranchWalk::new(&model.system, &model.response, row, side, range_hz, &settings).ok()?;
     let mut rows = Vec::new();
     for _ in 0..MOST_STEPS {

@@ -156,7 +156,7 @@ const CLOSEST_MOTION: f64 = 1e-13;
 pub(crate) fn settings(continuation: &file::ContinuationTable) -> OrbitSettings {
     let usual = OrbitSettings::default();
     OrbitSettings {
-        max_step_hz: continuation.max_step_hz,
+        max_step: continuation.max_step_hz,
         tolerance: continuation.tolerance,
         motion_tolerance: (0.05 * continuation.tolerance).clamp(CLOSEST_MOTION, usual.motion_tolerance),
         segments: match continuation.segments {

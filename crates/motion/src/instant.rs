@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use crate::{LocalElement, System};
+use crate::{LocalElement, System, vectors::dot};
 
 impl System {
     /// Displacement of each support and its first two derivatives by time at a phase.
@@ -184,8 +184,4 @@ fn share_of(support_ratios: &[f64], motions: impl Fn() -> Vec<[f64; 3]>) -> [f64
 fn rotation(order: u32, phase: f64) -> c64 {
     let (sin, cos) = (TAU * f64::from(order) * (phase - phase.floor())).sin_cos();
     c64::new(cos, sin)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

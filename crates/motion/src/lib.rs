@@ -108,26 +108,28 @@
 
 mod amplitude;
 pub mod exact;
-mod family;
 mod frequency_factor;
 pub mod general;
 mod in_front;
 mod instant;
 pub mod law;
 mod load;
+mod local_element;
 mod parameter;
 mod point_motion;
 mod start_reach;
 mod stretch;
 mod system;
+mod vectors;
 
 pub use amplitude::{AmplitudeCurve, AmplitudeError};
-pub use family::{Family, Member};
 pub use frequency_factor::FrequencyFactor;
+pub use in_front::in_front_of_contacts;
 pub use law::{Contact, Force, Law, LawConstant, LawError};
 pub use load::{Harmonic, HarmonicForce, Load, SupportHarmonic};
-pub use parameter::{DampingPart, Parameter, ParameterError};
+pub use local_element::LocalElement;
+pub use parameter::{Parameter, ParameterError};
 pub use point_motion::PointMotion;
 pub use start_reach::start_reach;
 pub use stretch::{Flow, Stretch};
-pub use system::{LocalElement, ModalLoad, System, SystemError};
+pub use system::{DampingPart, Family, Member, ModalLoad, System, SystemError};

@@ -7,15 +7,11 @@
 //!   equal; the restitution of a rigid stop its impacts; any other its force at the levels that its contacts
 //!   have ([`LawConstant`]).
 //! * number of a family: value in its unit; what it changes the whole structure, its modes and their
-//!   coordinates ([`Family`]).
+//!   coordinates ([`Family`](crate::Family)).
 //! * added damping `z_k`: value 0 as built; what it changes the damping, `C = C(0) + sum_k z_k D_k`, `d =
 //!   d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)`.
 
-use std::sync::Arc;
-
-use faer::Mat;
-
-use crate::{Family, Law, LawConstant, LawError, Member, System};
+use crate::{LawConstant, LawError};
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -142,19 +138,6 @@ impl Parameter {
     }
 }
 
-/// A part of the damping that can be added: what a unit of it adds to the equations of motion.
-///
-/// Every system has part 0, a ratio to critical damping of all modes; [`System::with_damping_part`] gives it
-/// others, as a damper between two masses.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DampingPart {
-    /// `D` [1/s per unit], n x n, symmetric.
-    pub matrix: Mat<f64>,
-    /// `d_s` [kg^1/2/s per unit] of each support that moves, length n: how it transmits the velocity of that
-    /// support; see [`SupportInput`](hammerbeam_structure::SupportInput).
-    pub supports: Vec<Vec<f64>>,
-}
-
 /// Why a parameter cannot have a value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -208,140 +191,4 @@ pub enum ParameterError {
     /// What both sides of a stop have in common is one value.
     #[error("\"{}\" and \"{}\" have different values of it", names[0], names[1])]
     SidesDiffer { names: [String; 2] },
-}
-
-impl System {
-    /// Value of a parameter.
-    ///
-    /// # Errors
-    /// That the system does not have it, see [`ParameterError`].
-    pub fn parameter(&self, parameter: Parameter) -> Result<f64, ParameterError> {
-        match parameter {
-            Parameter::ExcitationScale => Ok(self.excitation_scale()),
-            Parameter::AddedDamping { part } => {
-                let missing = ParameterError::NoDampingPart { part, count: self.added_damping().len() };
-                self.added_damping().get(part).copied().ok_or(missing)
-            }
-            Parameter::OfFamily { family } => Ok(self.family(family)?.value),
-            Parameter::OfLaw { element, both_sides, constant } => {
-                let value = self.law_constant(element, constant)?;
-                if both_sides && self.law_constant(element + 1, constant)? != value {
-                    let names = [element, element + 1].map(|side| self.elements()[side].name.clone());
-                    return Err(ParameterError::SidesDiffer { names });
-                }
-                Ok(value)
-            }
-        }
-    }
-
-    /// The system with another value of a parameter.
-    ///
-    /// # Errors
-    /// See [`ParameterError`].
-    pub fn with_parameter(mut self, parameter: Parameter, value: f64) -> Result<Self, ParameterError> {
-        self.set_parameter(parameter, value)?;
-        Ok(self)
-    }
-
-    /// Gives a parameter another value; on an error nothing changes.
-    ///
-    /// # Errors
-    /// See [`ParameterError`].
-    pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), ParameterError> {
-        match parameter {
-            Parameter::ExcitationScale => self.set_excitation_scale(value),
-            Parameter::AddedDamping { part } => {
-                self.parameter(parameter)?;
-                self.set_added_damping(part, value)
-            }
-            Parameter::OfFamily { family } => {
-                *self = self.member(family, value)?.system;
-                Ok(())
-            }
-            Parameter::OfLaw { element, both_sides, constant } => {
-                // Says whether there is such an element, and such a constant.
-                self.parameter(parameter)?;
-                let places = element..=element + usize::from(both_sides);
-                let laws = self.elements()[places.clone()].iter().map(|element| {
-                    let name = || element.name.clone();
-                    if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {
-                        return Err(ParameterError::ContactDamping { name: name(), found: value });
-                    }
-                    let law = element.law.with_constant(constant, value);
-                    law.map_err(|source| ParameterError::Law { name: name(), source })
-                });
-                let laws = laws.collect::<Result<Vec<Law>, ParameterError>>()?;
-                let elements = self.elements_mut()[places].iter_mut();
-                elements.zip(laws).for_each(|(element, law)| element.law = law);
-                Ok(())
-            }
-        }
-    }
-
-    fn law_constant(&self, element: usize, constant: LawConstant) -> Result<f64, ParameterError> {
-        let element = self.element(element)?;
-        let varies = |value: &f64| constant != LawConstant::Damping || *value > 0.0;
-        let value = element.law.constant(constant).filter(varies);
-        value.ok_or_else(|| missing(element.name.clone(), constant))
-    }
-
-    fn element(&self, element: usize) -> Result<&crate::LocalElement, ParameterError> {
-        let missing = ParameterError::NoElement { element, count: self.elements().len() };
-        self.elements().get(element).ok_or(missing)
-    }
-
-    /// Makes a number that the structure depends on a parameter, by the next number: [`Parameter::OfFamily`].
-    ///
-    /// * `value`: of this system, which must be the member there.
-    /// * `size`: change of the number that counts as large, for differences.
-    #[must_use]
-    pub fn with_family(mut self, family: Arc<dyn Family>, value: f64, size: f64) -> Self {
-        self.families_mut().push(Kin { family, value, size });
-        self
-    }
-
-    /// The member of a family with a value; laws of elements that have been changed are so in it, too.
-    ///
-    /// # Errors
-    /// [`ParameterError::NoFamily`], [`ParameterError::NoMember`].
-    pub(crate) fn member(&self, family: usize, value: f64) -> Result<Member, ParameterError> {
-        let mut member = self.family(family)?.family.member(value).map_err(ParameterError::NoMember)?;
-        if !member.system.is_like(self) {
-            let message = format!("with {value} the modes or the contacts are others");
-            return Err(ParameterError::NoMember(message));
-        }
-        member.system.take_after(self);
-        member.system.families_mut()[family].value = value;
-        Ok(member)
-    }
-
-    /// The family of that number.
-    ///
-    /// # Errors
-    /// [`ParameterError::NoFamily`].
-    pub(crate) fn family(&self, family: usize) -> Result<&Kin, ParameterError> {
-        let missing = ParameterError::NoFamily { family, count: self.families().len() };
-        self.families().get(family).ok_or(missing)
-    }
-}
-
-/// What is said of an element without a constant.
-fn missing(name: String, constant: LawConstant) -> ParameterError {
-    match constant {
-        LawConstant::Gap => ParameterError::NoGap { name },
-        LawConstant::Stiffness => ParameterError::NoStiffness { name },
-        LawConstant::Restitution => ParameterError::NoRestitution { name },
-        LawConstant::Damping => ParameterError::NoContactDamping { name },
-        LawConstant::Further(_) => ParameterError::NoConstant { name },
-    }
-}
-
-/// A family that a system is a member of.
-#[derive(Debug, Clone)]
-pub(crate) struct Kin {
-    pub family: Arc<dyn Family>,
-    /// Value of the member.
-    pub value: f64,
-    /// Change that counts as large.
-    pub size: f64,
 }

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use crate::System;
+use crate::{System, vectors::dot};
 
 /// How a point moves at a frequency.
 #[derive(Debug, Clone)]
@@ -35,36 +35,34 @@ struct Drive {
     amplitudes: [c64; 3],
 }
 
-impl System {
-    /// Reads the motion of a point off states at a frequency.
+impl PointMotion {
+    /// Of a system, to be read off states at a frequency.
     ///
     /// * `shape`, `support_ratios`: the displacement of the point is `shape . q + support_ratios . u`;
     ///   `shape` of length n.
     #[must_use]
-    pub fn point_motion(&self, frequency_hz: f64, shape: &[f64], support_ratios: &[f64]) -> PointMotion {
-        let (n, model) = (self.dof(), self.model());
+    pub fn of(system: &System, frequency_hz: f64, shape: &[f64], support_ratios: &[f64]) -> Self {
+        let (n, model) = (system.dof(), system.model());
         let stiffness =
             shape.iter().zip(&model.natural_frequencies).map(|(p, w)| -p * w * w).collect::<Vec<f64>>();
         let damping = (0..n).map(|j| -(0..n).map(|i| shape[i] * model.damping[(i, j)]).sum::<f64>());
         let drive = |(index, &order): (usize, &u32)| {
             let order = f64::from(order);
-            let moved = self.support_amplitudes(index, TAU * frequency_hz);
+            let moved = system.support_amplitudes(index, TAU * frequency_hz);
             let support: c64 = moved.iter().zip(support_ratios).map(|((u, _), ratio)| *u * *ratio).sum();
             let rate = c64::new(0.0, TAU * order * frequency_hz);
-            let load = self.modal_load(index, TAU * frequency_hz).amplitude;
+            let load = system.modal_load(index, TAU * frequency_hz).amplitude;
             let loaded: c64 = load.iter().zip(shape).map(|(load, p)| load * *p).sum();
             Drive { order, amplitudes: [support, support * rate, support * rate * rate + loaded] }
         };
-        PointMotion {
+        Self {
             shape: shape.to_vec(),
             rows: [stiffness, damping.collect()],
-            drives: self.orders().iter().enumerate().map(drive).collect(),
-            mobilities: self.elements().iter().map(|element| dot(&element.shape, shape)).collect(),
+            drives: system.orders().iter().enumerate().map(drive).collect(),
+            mobilities: system.elements().iter().map(|element| dot(&element.shape, shape)).collect(),
         }
     }
-}
 
-impl PointMotion {
     /// Displacement [m], velocity [m/s] and acceleration [m/s^2] at a phase.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
@@ -85,8 +83,4 @@ impl PointMotion {
         }
         motion
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

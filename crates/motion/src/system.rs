@@ -7,80 +7,20 @@
 //! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
 
 mod driven;
+mod error;
 mod symmetry;
 mod varied;
+
+use std::sync::Arc;
 
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
 use driven::{DrivenLoad, DrivenLoads};
 
-use crate::{
-    DampingPart, FrequencyFactor, Harmonic, Law, Load, SupportHarmonic,
-    law::{AcrossHole, RoundHole},
-    parameter::Kin,
-};
+pub use error::SystemError;
 
-/// Why a model, a load and elements do not make a system.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SystemError {
-    /// A vector over the modes has the wrong length.
-    #[error("{what} has {found} entries, the model has {expected} modes")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    Length { what: String, found: usize, expected: usize },
-    /// Support motion is prescribed, but the model has no moving support.
-    #[error("support motion is prescribed, but no support of the structure can move")]
-    NoMovingSupport,
-    /// A motion, or an element, is of a support that the model does not have.
-    #[error("{what} is of support {number}, the model has {count} that move")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    NoSuchSupport { what: String, number: usize, count: usize },
-    /// A number of the model, the load or an element is infinite or not a number.
-    #[error("{what} holds {found}, must be finite")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    NotFinite { what: String, found: f64 },
-    /// The two directions of a hole are two elements, one after the other.
-    #[error("element {name} is one direction of a round hole without the other beside it")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    HalfHole { name: String },
-    /// Rigid stops, and forces that depend on the velocity, cannot act beside a hole.
-    #[error("element {name} is rigid or loses energy, which does not go beside the round hole {hole}")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    BesideHole { name: String, hole: String },
-    /// A constant load has no amplitude over the frequency.
-    #[error("a load of order 0 cannot have an amplitude over the frequency")]
-    ConstantOverFrequency,
-}
-
-/// A local element: a law between two points, or between a point and its surroundings.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LocalElement {
-    /// Name for reports.
-    pub name: String,
-    /// `phi_e`: relative displacement per modal coordinate, and modal load per unit force, length n.
-    pub shape: Vec<f64>,
-    /// `s_es`: relative displacement per unit displacement of each support: 0 for a stop on a structure that
-    /// follows its one support rigidly and carries the stop; those that are left out are 0.
-    pub support_ratios: Vec<f64>,
-    /// The force law.
-    pub law: Law,
-}
-
-impl LocalElement {
-    /// The two elements of a round hole, from the displacements of a point in two directions across its axis.
-    ///
-    /// * `directions`: shape and support ratios of each.
-    #[must_use]
-    pub fn round_hole(name: &str, directions: [(Vec<f64>, Vec<f64>); 2], hole: RoundHole) -> [Self; 2] {
-        let [first, second] = directions;
-        let element = |name: String, (shape, support_ratios), law| Self { name, shape, support_ratios, law };
-        [
-            element(name.to_owned(), first, hole.into()),
-            element(format!("{name} (across)"), second, AcrossHole.into()),
-        ]
-    }
-}
+use crate::{FrequencyFactor, Harmonic, Law, Load, LocalElement, SupportHarmonic};
 
 /// A reduced structure with its load and its local elements.
 #[derive(Debug, Clone)]
@@ -105,6 +45,48 @@ pub struct System {
     given_laws: Vec<Law>,
     /// Families of systems that it belongs to.
     families: Vec<Kin>,
+}
+
+/// A part of the damping that can be added: what a unit of it adds to the equations of motion.
+///
+/// Every system has part 0, a ratio to critical damping of all modes; [`System::with_damping_part`] gives it
+/// others, as a damper between two masses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DampingPart {
+    /// `D` [1/s per unit], n x n, symmetric.
+    pub matrix: Mat<f64>,
+    /// `d_s` [kg^1/2/s per unit] of each support that moves, length n: how it transmits the velocity of that
+    /// support; see [`SupportInput`](hammerbeam_structure::SupportInput).
+    pub supports: Vec<Vec<f64>>,
+}
+
+/// Systems over a number. Their modal coordinates depend on it smoothly: modes keep their order and their
+/// signs, and elements and loads theirs.
+pub trait Family: std::fmt::Debug + Send + Sync {
+    /// The system with a value of the number.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    fn member(&self, value: f64) -> Result<Member, String>;
+}
+
+/// A system of a family.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// The system.
+    pub system: System,
+    /// The response point in its coordinates: shape, length n, and support ratios.
+    pub response: (Vec<f64>, Vec<f64>),
+}
+
+/// A family that a system is a member of.
+#[derive(Debug, Clone)]
+pub(crate) struct Kin {
+    pub family: Arc<dyn Family>,
+    /// Value of the member.
+    pub value: f64,
+    /// Change that counts as large.
+    pub size: f64,
 }
 
 /// Modal load of one order and its derivative by the circular frequency.

@@ -18,7 +18,7 @@ fn error(system: &System, (shape, ratios): (&[f64], &[f64]), frequency_hz: f64) 
     let state = settled(system, frequency_hz, 60, 0.3);
     let phases: Vec<f64> = (0..SAMPLES).map(|k| 0.3 + k as f64 / SAMPLES as f64).collect();
     let trace = integrator(system).trace(&stretch, &state, &phases).unwrap();
-    let point = system.point_motion(frequency_hz, shape, ratios);
+    let point = PointMotion::of(&system, frequency_hz, shape, ratios);
     let of = |k: usize| point.at(phases[k], &trace.samples[k], &trace.forces[k]);
     let motion: Vec<[f64; 3]> = (0..SAMPLES).map(of).collect();
     let time = |k: usize| k as f64 / (SAMPLES as f64 * frequency_hz);
@@ -77,7 +77,7 @@ fn held_mass_has_no_acceleration() {
     let system = System::new(model, &load, vec![element(&[1.0], 0.0, rigid(0.3, 0.2))]).unwrap();
     let stretch = Stretch { frequency_hz: 0.01, start: 0.0, end: 1.0 };
     let trace = integrator(&system).trace(&stretch, &[0.0, 0.0], &[0.9]).unwrap();
-    let at = |forces: &[f64]| system.point_motion(0.01, &[1.0], &[0.0]).at(0.9, &trace.samples[0], forces);
+    let at = |forces: &[f64]| PointMotion::of(&system, 0.01, &[1.0], &[0.0]).at(0.9, &trace.samples[0], forces);
     let [displacement, velocity, acceleration] = at(&trace.forces[0]);
     assert!((displacement - 0.2).abs() < 1e-12 && velocity.abs() < 1e-12 && acceleration.abs() < 1e-12);
     // 0.9 N less the spring's 0.2 N on a mass of 1 kg.

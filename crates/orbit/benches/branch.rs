@@ -72,9 +72,9 @@ fn evaluation(criterion: &mut Criterion) {
 }
 
 /// Walks from the first frequency to the second.
-fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), max_step_hz: f64) {
+fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), max_step: f64) {
     let beam = beam();
-    let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = orbit_at(&beam, from_hz);
     let side = if to_hz > from_hz { Side::Up } else { Side::Down };
     let range = (from_hz.min(to_hz), from_hz.max(to_hz));
@@ -82,19 +82,19 @@ fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), ma
     let (rows, evaluations) = go();
     let solutions = rows.len() - 1;
     println!(
-        "{from_hz} to {to_hz} Hz at {max_step_hz} Hz: {solutions} solutions, {:.3} evaluations each",
+        "{from_hz} to {to_hz} Hz at {max_step} Hz: {solutions} solutions, {:.3} evaluations each",
         evaluations as f64 / solutions as f64
     );
     let mut group = criterion.benchmark_group("solutions");
     group.sample_size(10).throughput(Throughput::Elements(solutions as u64));
-    group.bench_function(format!("{from_hz} to {to_hz} Hz at {max_step_hz} Hz"), |bencher| bencher.iter(go));
+    group.bench_function(format!("{from_hz} to {to_hz} Hz at {max_step} Hz"), |bencher| bencher.iter(go));
     group.finish();
 }
 
 /// Walks once over a whole range, from `from_hz` to both ends, and prints the solutions per second.
-fn whole_range((from_hz, range): (f64, (f64, f64)), max_step_hz: f64) {
+fn whole_range((from_hz, range): (f64, (f64, f64)), max_step: f64) {
     let beam = beam();
-    let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = orbit_at(&beam, from_hz);
     let begun = std::time::Instant::now();
     let (mut solutions, mut evaluations) = (0, 0);
@@ -105,7 +105,7 @@ fn whole_range((from_hz, range): (f64, (f64, f64)), max_step_hz: f64) {
     }
     let seconds = begun.elapsed().as_secs_f64();
     println!(
-        "{} to {} Hz at {max_step_hz} Hz: {solutions} solutions, {:.3} evaluations each, {:.0} per second",
+        "{} to {} Hz at {max_step} Hz: {solutions} solutions, {:.3} evaluations each, {:.0} per second",
         range.0,
         range.1,
         evaluations as f64 / solutions as f64,
@@ -125,9 +125,9 @@ fn branch(criterion: &mut Criterion) {
     stretch_of_branch(criterion, (50.0, 52.0), 0.001);
     stretch_of_branch(criterion, (37.0, 35.0), 0.001);
     stretch_of_branch(criterion, (20.5, 19.9), 0.001);
-    for max_step_hz in [0.0182, 0.001] {
-        whole_range((30.0, (25.0, 110.0)), max_step_hz);
-        whole_range((21.0, (19.0, 25.0)), max_step_hz);
+    for max_step in [0.0182, 0.001] {
+        whole_range((30.0, (25.0, 110.0)), max_step);
+        whole_range((21.0, (19.0, 25.0)), max_step);
     }
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn backbone_states(
         state
     };
     let states: Vec<Vec<f64>> = (0..most).map(state).collect();
-    let in_front = |state: Vec<f64>| system.in_front_of_contacts(frequency_hz, 0.0, &state);
+    let in_front = |state: Vec<f64>| in_front_of_contacts(system, frequency_hz, 0.0, &state);
     states.into_iter().filter_map(in_front).collect()
 }
 

@@ -48,5 +48,5 @@ pub(crate) fn in_front(system: &System, frequency_hz: f64, state: &[f64]) -> Vec
     if !within(&mirrored) {
         return mirrored;
     }
-    system.in_front_of_contacts(frequency_hz, 0.0, state).unwrap_or_else(|| state.to_vec())
+    in_front_of_contacts(system, frequency_hz, 0.0, state).unwrap_or_else(|| state.to_vec())
 }

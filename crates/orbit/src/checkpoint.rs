@@ -18,7 +18,7 @@ use crate::{
     solve::integrator,
     state_scale::{StateScale, state_of_rest},
     walk::{
-        Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations, hertz_per_norm,
+        Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations, length_per_norm,
         path_settings,
     },
 };
@@ -105,20 +105,20 @@ impl BranchWalk {
         system: &System,
         response: &Response,
         (checkpoint, journal): (&[u8], &[u8]),
-        range_hz: (f64, f64),
+        range: (f64, f64),
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let mut reader = Reader { bytes: checkpoint };
-        let length = hertz_per_norm(range_hz);
+        let length = length_per_norm(range);
         let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
         let beside = read_walk(&mut reader, problem.node_size() + 1).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
-        let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+        let within = ParameterRange::new(range.0, range.1)?;
         let mut follower =
-            Follower::resume(&mut problem, state, range, path_settings(settings, system, length));
+            Follower::resume(&mut problem, state, within, path_settings(settings, system, length));
         let mut reader = Reader { bytes: journal };
         let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
@@ -134,7 +134,7 @@ impl BranchWalk {
         }
         let (journal, settings) = (Vec::new(), *settings);
         let Beside { touches, outside, begins_with_present, origin, growth, effort } = beside;
-        let path = OrbitPath { problem, follower, settings, range_hz, journal, origin, measures_anew: false };
+        let path = OrbitPath { problem, follower, settings, range, journal, origin, measures_anew: false };
         let record =
             RowRecord { touches, outside, last_rows, shape: response.shape.clone(), evaluations_between };
         let mut walk = Self { path, record, growth, effort, begins_with_present };

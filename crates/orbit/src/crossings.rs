@@ -119,7 +119,7 @@ impl Branches {
             .count();
         let share = self.solutions_left / (open + 1);
         OrbitSettings {
-            max_step_hz: COARSER * catalogue.settings.max_step_hz,
+            max_step: COARSER * catalogue.settings.max_step,
             max_solutions: share.clamp(LEAST_ON_A_SIDE, MOST_ON_A_SIDE).min(self.solutions_left),
             locates_stability_changes: doubles,
             ..*catalogue.settings

@@ -132,7 +132,7 @@ fn critical(events: hammerbeam_path::PathEvents, multipliers: &[[f64; 2]]) -> (O
 
 /// Whether an orbit is its own mirror image.
 fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> bool {
-    let mirrored = MIRRORED * problem.hertz_per_norm();
+    let mirrored = MIRRORED * problem.length_per_norm();
     problem.has_symmetric_orbits() && problem.distance_to_symmetric(&point.point) < mirrored
 }
 

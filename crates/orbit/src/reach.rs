@@ -42,7 +42,7 @@ pub fn reach_orbit(
         let (range, side) =
             if factor < 1.0 { ((from, frequency_hz), Side::Up) } else { ((frequency_hz, from), Side::Down) };
         let coarse = OrbitSettings {
-            max_step_hz: (range.1 - range.0) / 1000.0,
+            max_step: (range.1 - range.0) / 1000.0,
             max_solutions: MOST_ON_A_SIDE,
             locates_stability_changes: false,
             ..*settings

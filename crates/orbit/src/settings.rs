@@ -12,16 +12,16 @@ pub enum Segments {
 
 /// Settings of orbits and branches.
 ///
-/// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f in hertz, `|dz|` the change of the orbit's
-/// state in the norm `sqrt(sum r_i^2 q_i^2 + q_i'^2)`, `r_i = max(w_i, 2 pi f)`, relative to that of the
-/// orbit, and F a hundredth of the frequency range: a change as large as the motion counts like a hundredth
-/// of the range. Relative means in units that fit the start. Where the orbit or its frequency outgrows the
-/// unit of one displacement or of the velocities by a factor of four either way, all get the power of two
-/// that fits.
+/// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f what varies, mostly the frequency, `|dz|`
+/// the change of the orbit's state in the norm `sqrt(sum r_i^2 q_i^2 + q_i'^2)`, `r_i = max(w_i, 2 pi f)`,
+/// relative to that of the orbit, and F a hundredth of the range of f: a change as large as the motion counts
+/// like a hundredth of the range. Relative means in units that fit the start. Where the orbit or its
+/// frequency outgrows the unit of one displacement or of the velocities by a factor of four either way, all
+/// get the power of two that fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrbitSettings {
-    /// Largest change of frequency from one solution to the next [Hz].
-    pub max_step_hz: f64,
+    /// Largest change of what varies from one solution to the next, in its unit; of the frequency in hertz.
+    pub max_step: f64,
     /// An orbit is accepted when Newton's correction that is still due is at most this, in the relative
     /// energy norm.
     pub tolerance: f64,
@@ -39,14 +39,14 @@ impl OrbitSettings {
     /// The defaults with the longest step that suits a frequency range: a five-thousandth of it.
     #[must_use]
     pub fn for_range((low, high): (f64, f64)) -> Self {
-        Self { max_step_hz: (high - low) / 5000.0, ..Self::default() }
+        Self { max_step: (high - low) / 5000.0, ..Self::default() }
     }
 }
 
 impl Default for OrbitSettings {
     fn default() -> Self {
         Self {
-            max_step_hz: 0.02,
+            max_step: 0.02,
             tolerance: 1e-10,
             motion_tolerance: 5e-12,
             segments: Segments::Automatic,

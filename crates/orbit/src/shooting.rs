@@ -83,7 +83,7 @@ pub(crate) struct ShootingProblem {
     /// Phase of the first node [cycles], from 0 to N.
     phase: f64,
     scale: StateScale,
-    hertz_per_norm: f64,
+    length_per_norm: f64,
     weights: Vec<f64>,
     residual: Vec<f64>,
     /// `G_k` by rows, scaled.
@@ -125,12 +125,12 @@ pub(crate) struct ShootingProblem {
 }
 
 impl ShootingProblem {
-    /// * `hertz_per_norm`: how many hertz of arc length a change of the orbit by its own size counts.
+    /// * `length_per_norm`: arc length of a change of the orbit by its own size, in the unit of what varies.
     pub fn new(
         integrator: ExactIntegrator,
         (period_multiple, segments): (u32, usize),
         scale: StateScale,
-        hertz_per_norm: f64,
+        length_per_norm: f64,
     ) -> Self {
         let contacts = integrator.touches().len();
         let mut problem = Self {
@@ -139,7 +139,7 @@ impl ShootingProblem {
             segments,
             phase: 0.0,
             scale,
-            hertz_per_norm,
+            length_per_norm,
             weights: Vec::new(),
             residual: Vec::new(),
             segment_matrices: Vec::new(),
@@ -230,8 +230,8 @@ impl ShootingProblem {
     }
 
     /// How many hertz of arc length a change of the orbit by its own size counts.
-    pub fn hertz_per_norm(&self) -> f64 {
-        self.hertz_per_norm
+    pub fn length_per_norm(&self) -> f64 {
+        self.length_per_norm
     }
 
     /// Size that the last unknown has at a point, for relative accuracies.
@@ -239,7 +239,7 @@ impl ShootingProblem {
         let value = point[point.len() - 1].abs();
         // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, tells its
         // size.
-        if self.varied.parameter().is_some() { value.max(100.0 * self.hertz_per_norm) } else { value }
+        if self.varied.parameter().is_some() { value.max(100.0 * self.length_per_norm) } else { value }
     }
 
     /// Cuts the orbit anew; the problem must be evaluated again.
@@ -248,7 +248,7 @@ impl ShootingProblem {
         let mut identity = vec![0.0; size * size];
         (0..size).for_each(|i| identity[i * size + i] = 1.0);
         // The orbit counts once, whatever the number of nodes.
-        let weight = self.hertz_per_norm * self.hertz_per_norm / segments as f64;
+        let weight = self.length_per_norm * self.length_per_norm / segments as f64;
         self.segments = segments;
         self.weights = (0..segments * size).map(|_| weight).chain([1.0]).collect();
         self.residual = vec![0.0; segments * size];

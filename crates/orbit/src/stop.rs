@@ -7,24 +7,24 @@
 pub enum StopReason {
     /// The branch left the frequency range and was cut exactly at its end.
     RangeEnd {
-        /// End of the range [Hz].
-        frequency_hz: f64,
+        /// End of the range, in the unit of what varies.
+        place: f64,
     },
     /// The branch came back to its start.
     Closed,
     /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy,
     /// shifted by excitation periods; or to a grazing beyond which it is one of shorter period.
     ShorterPeriod {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Whether it is a grazing.
         grazes: bool,
     },
     /// The branch, of asymmetric orbits, came to symmetric ones, beyond which it returns as its own mirror
     /// image, and so near to the branch point that rounding holds up its steps.
     Symmetric {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
     },
     /// The budget of solutions is used up.
     Budget {
@@ -33,8 +33,8 @@ pub enum StopReason {
     },
     /// No step, however short, led to an acceptable solution.
     StepTooShort {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Last step tried, in the arc length of the path.
         step: f64,
         /// Residual of the last attempt.
@@ -47,8 +47,8 @@ pub enum StopReason {
     },
     /// No step, however short, led to an acceptable solution, and the last motion chatters at a rigid stop.
     Chatter {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Name of the local element.
         element: String,
         /// Impacts in a row, each slower than the one before, in the last motion.
@@ -57,8 +57,8 @@ pub enum StopReason {
     /// Two rigid stops are struck at one instant, and either impact changes the speed of the other. The
     /// motion beyond depends on which comes first, and so jumps.
     ImpactsTogether {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Names of both local elements, with "and" between them.
         elements: String,
         /// Phase of the excitation at which that happens [cycles].
@@ -66,8 +66,8 @@ pub enum StopReason {
     },
     /// However short the step, the path went on along a stretch that was already walked.
     RunsBack {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Arc length of the stretch that was met.
         met_arc_length: f64,
         /// As where the step is too short.
@@ -76,8 +76,8 @@ pub enum StopReason {
     /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a
     /// contact began, its force jumps there, and so does the motion: the branch ends.
     ContactReopens {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Name of the local element.
         element: String,
         /// Phase of the excitation at which that happens [cycles].
@@ -85,8 +85,8 @@ pub enum StopReason {
     },
     /// Thousands of steps did not get anywhere.
     NoProgress {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// So many steps.
         solutions: u64,
         /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the
@@ -99,23 +99,23 @@ pub enum StopReason {
     /// lies beyond is another one; or nothing takes energy out of the motion, which went so far beyond all
     /// gaps that no step was found.
     Unbounded {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// The mode that resonates, where that is one of the structure alone.
         mode: Option<ResonantMode>,
     },
     /// A mode without damping, which is not driven, vibrates freely at a multiple of the frequency of the
     /// motion: motions of every amplitude of it are periodic there, and none of them leads on.
     FreeVibration {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// The mode.
         mode: ResonantMode,
     },
     /// The walk took more work than it may, or than it may without getting on.
     TooMuchWork {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// Solutions until then.
         solutions: u64,
         /// Whether it still got on.
@@ -123,8 +123,8 @@ pub enum StopReason {
     },
     /// The motion could not be computed.
     Motion {
-        /// Where [Hz].
-        frequency_hz: f64,
+        /// Where, in the unit of what varies.
+        place: f64,
         /// What the integrator said.
         message: String,
     },
@@ -149,19 +149,19 @@ impl StopReason {
 
     fn place_mut(&mut self) -> Option<&mut f64> {
         match self {
-            Self::RangeEnd { frequency_hz }
-            | Self::ShorterPeriod { frequency_hz, .. }
-            | Self::Symmetric { frequency_hz }
-            | Self::StepTooShort { frequency_hz, .. }
-            | Self::Chatter { frequency_hz, .. }
-            | Self::ImpactsTogether { frequency_hz, .. }
-            | Self::RunsBack { frequency_hz, .. }
-            | Self::ContactReopens { frequency_hz, .. }
-            | Self::NoProgress { frequency_hz, .. }
-            | Self::Unbounded { frequency_hz, .. }
-            | Self::FreeVibration { frequency_hz, .. }
-            | Self::TooMuchWork { frequency_hz, .. }
-            | Self::Motion { frequency_hz, .. } => Some(frequency_hz),
+            Self::RangeEnd { place }
+            | Self::ShorterPeriod { place, .. }
+            | Self::Symmetric { place }
+            | Self::StepTooShort { place, .. }
+            | Self::Chatter { place, .. }
+            | Self::ImpactsTogether { place, .. }
+            | Self::RunsBack { place, .. }
+            | Self::ContactReopens { place, .. }
+            | Self::NoProgress { place, .. }
+            | Self::Unbounded { place, .. }
+            | Self::FreeVibration { place, .. }
+            | Self::TooMuchWork { place, .. }
+            | Self::Motion { place, .. } => Some(place),
             Self::Closed | Self::Budget { .. } => None,
         }
     }

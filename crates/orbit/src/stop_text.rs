@@ -7,55 +7,55 @@ use crate::{ResonantMode, StopReason};
 impl Display for StopReason {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         match self {
-            Self::RangeEnd { frequency_hz } => write!(formatter, "end of the range at {frequency_hz}"),
+            Self::RangeEnd { place } => write!(formatter, "end of the range at {place}"),
             Self::Closed => write!(formatter, "the branch came back to its start"),
-            Self::ShorterPeriod { frequency_hz, grazes } => {
+            Self::ShorterPeriod { place, grazes } => {
                 let what = if *grazes { "grazing" } else { "flip" };
-                write!(formatter, "met the {what} of a branch of shorter period at {frequency_hz}")
+                write!(formatter, "met the {what} of a branch of shorter period at {place}")
             }
-            Self::Symmetric { frequency_hz } => {
-                write!(formatter, "met a branch of symmetric orbits at {frequency_hz}")
+            Self::Symmetric { place } => {
+                write!(formatter, "met a branch of symmetric orbits at {place}")
             }
             Self::Budget { solutions } => write!(formatter, "the budget of {solutions} solutions is used up"),
-            Self::StepTooShort { frequency_hz, step, residual, doubt, .. } => write!(
+            Self::StepTooShort { place, step, residual, doubt, .. } => write!(
                 formatter,
-                "no solution was accepted beyond {frequency_hz} (last step {step:.1e}, residual \
+                "no solution was accepted beyond {place} (last step {step:.1e}, residual \
                 {residual:.1e}: {doubt})"
             ),
-            Self::Chatter { frequency_hz, element, impacts } => write!(
+            Self::Chatter { place, element, impacts } => write!(
                 formatter,
-                "chatter at {element} beyond {frequency_hz}: {impacts} impacts in a row, each slower"
+                "chatter at {element} beyond {place}: {impacts} impacts in a row, each slower"
             ),
-            Self::ImpactsTogether { frequency_hz, elements, phase } => write!(
+            Self::ImpactsTogether { place, elements, phase } => write!(
                 formatter,
-                "beyond {frequency_hz} {elements} are struck in another order at the phase of {phase:.4} \
+                "beyond {place} {elements} are struck in another order at the phase of {phase:.4} \
                 cycles"
             ),
-            Self::RunsBack { frequency_hz, met_arc_length, .. } => write!(
+            Self::RunsBack { place, met_arc_length, .. } => write!(
                 formatter,
-                "beyond {frequency_hz} every step led back to the branch (at arc length {met_arc_length:.6})"
+                "beyond {place} every step led back to the branch (at arc length {met_arc_length:.6})"
             ),
-            Self::ContactReopens { frequency_hz, element, phase } => write!(
+            Self::ContactReopens { place, element, phase } => write!(
                 formatter,
-                "beyond {frequency_hz} {element} opens and is pressed on again at the phase of {phase:.4} \
+                "beyond {place} {element} opens and is pressed on again at the phase of {phase:.4} \
                 cycles"
             ),
-            Self::NoProgress { frequency_hz, solutions, largest_multiplier, .. } => write!(
+            Self::NoProgress { place, solutions, largest_multiplier, .. } => write!(
                 formatter,
-                "no progress at {frequency_hz} in {solutions} solutions, with a multiplier of \
+                "no progress at {place} in {solutions} solutions, with a multiplier of \
                 {largest_multiplier:.1e}"
             ),
-            Self::Unbounded { frequency_hz, .. } => {
-                write!(formatter, "the amplitude has no bound at {frequency_hz}")
+            Self::Unbounded { place, .. } => {
+                write!(formatter, "the amplitude has no bound at {place}")
             }
-            Self::FreeVibration { frequency_hz, mode } => {
-                write!(formatter, "{mode} and vibrates freely besides at {frequency_hz}")
+            Self::FreeVibration { place, mode } => {
+                write!(formatter, "{mode} and vibrates freely besides at {place}")
             }
-            Self::TooMuchWork { frequency_hz, solutions, .. } => {
-                write!(formatter, "too much work at {frequency_hz}, after {solutions} solutions")
+            Self::TooMuchWork { place, solutions, .. } => {
+                write!(formatter, "too much work at {place}, after {solutions} solutions")
             }
-            Self::Motion { frequency_hz, message } => {
-                write!(formatter, "the motion could not be computed at {frequency_hz}: {message}")
+            Self::Motion { place, message } => {
+                write!(formatter, "the motion could not be computed at {place}: {message}")
             }
         }
     }

@@ -18,7 +18,7 @@ use crate::{
     shooting::ShootingProblem,
     size::orbit_scale,
     solve::{evaluate, integrator, solution},
-    walk::{OrbitPath, hertz_per_norm, path_settings},
+    walk::{OrbitPath, length_per_norm, path_settings},
 };
 
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
@@ -52,7 +52,7 @@ impl BranchWalk {
         response: &Response,
         crossing: &Crossing,
         side: Side,
-        range_hz: (f64, f64),
+        range: (f64, f64),
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let frequency_hz = crossing.orbit.frequency_hz;
@@ -63,7 +63,7 @@ impl BranchWalk {
         let mut other: Option<(f64, Self)> = None;
         for amplitude in AMPLITUDES {
             let signed = if side == Side::Up { amplitude } else { -amplitude };
-            match leave(system, response, crossing, signed, range_hz, settings)? {
+            match leave(system, response, crossing, signed, range, settings)? {
                 Some((walk, true)) => return Ok(walk),
                 // The nearer it is, the less else was stepped over.
                 Some((walk, false))
@@ -132,7 +132,7 @@ fn leave(
     response: &Response,
     crossing: &Crossing,
     amplitude: f64,
-    range_hz: (f64, f64),
+    range: (f64, f64),
     settings: &OrbitSettings,
 ) -> Result<Option<(BranchWalk, bool)>, OrbitError> {
     let orbit = &crossing.orbit;
@@ -143,7 +143,7 @@ fn leave(
         Cut { frequency_hz: orbit.frequency_hz, phase: orbit.phase, period_multiple: multiple, segments };
     let Carried { nodes, slopes } = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
     let scale = orbit_scale(&mut integrator, orbit)?;
-    let length = hertz_per_norm(range_hz);
+    let length = length_per_norm(range);
     let mut problem =
         ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(orbit.phase);
     if settings.locates_stability_changes {
@@ -159,10 +159,10 @@ fn leave(
     let unit = 1.0 / norm(problem.weights(), &direction);
     let start: Vec<f64> = base.iter().zip(&direction).map(|(z, d)| z + reach * unit * d).collect();
     let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
-    let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+    let within = ParameterRange::new(range.0, range.1)?;
     let along = StartDirection::Along(&away);
     let Ok(follower) =
-        Follower::start(&mut problem, &start, along, range, path_settings(settings, system, length))
+        Follower::start(&mut problem, &start, along, within, path_settings(settings, system, length))
     else {
         return Ok(None);
     };
@@ -185,7 +185,7 @@ fn leave(
         return Ok(None);
     }
     problem.note_symmetry(current);
-    let path = OrbitPath::new(problem, follower, (settings, range_hz));
+    let path = OrbitPath::new(problem, follower, (settings, range));
     let mut walk = BranchWalk::of(path, orbit.maxima.displacement, response);
     walk.begins_with_present = true;
     Ok(Some((walk, same_contacts)))

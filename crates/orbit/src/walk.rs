@@ -39,7 +39,7 @@ pub(crate) use last_rows::{LastRows, RowPlace};
 pub(crate) use orbit_path::{OrbitPath, Origin};
 pub(crate) use row::RowRecord;
 use settings::segment_count;
-pub(crate) use settings::{hertz_per_norm, path_settings};
+pub(crate) use settings::{length_per_norm, path_settings};
 
 /// One side of a branch, followed from its start.
 ///
@@ -74,7 +74,7 @@ impl Walked {
 }
 
 impl BranchWalk {
-    /// Begins at `start` and walks to `side` within `range_hz`.
+    /// Begins at `start` and walks to `side` within `range`.
     ///
     /// # Errors
     /// [`OrbitError::Path`] if the start is outside the range or does not converge.
@@ -83,18 +83,18 @@ impl BranchWalk {
         response: &Response,
         start: &PeriodicSolution,
         side: Side,
-        range_hz: (f64, f64),
+        range: (f64, f64),
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let varied = ContinuationParameter::Frequency;
-        Self::varying(system, response, start, (varied, side, range_hz), settings)
+        Self::varying(system, response, start, (varied, side, range), settings)
     }
 
     /// Begins at `start`, an orbit of `system` as it is, and walks in another parameter than the frequency
     /// within its range.
     ///
     /// * `(varied, side, range)`: what varies, whether it increases or decreases at first, and its range, in
-    ///   its own unit. Where settings, stop reasons and events speak of hertz, they mean that unit.
+    ///   its own unit.
     ///
     /// # Errors
     /// [`OrbitError::Path`] if the start is outside the range or does not converge, [`OrbitError::Motion`] if
@@ -103,7 +103,7 @@ impl BranchWalk {
         system: &System,
         response: &Response,
         start: &PeriodicSolution,
-        (varied, side, range_hz): (ContinuationParameter, Side, (f64, f64)),
+        (varied, side, range): (ContinuationParameter, Side, (f64, f64)),
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
@@ -111,7 +111,7 @@ impl BranchWalk {
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(system, start, settings);
         let nodes = nodes_of(&mut integrator, &Cut::of(start), segments)?;
-        let length = hertz_per_norm(range_hz);
+        let length = length_per_norm(range);
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(start.phase);
         if settings.locates_stability_changes {
@@ -127,12 +127,12 @@ impl BranchWalk {
             Side::Up => StartDirection::Increasing,
             Side::Down => StartDirection::Decreasing,
         };
-        let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+        let within = ParameterRange::new(range.0, range.1)?;
         let path = path_settings(settings, system, length);
-        let started = Follower::start(&mut problem, &point, direction, range, path);
+        let started = Follower::start(&mut problem, &point, direction, within, path);
         let follower = started.map_err(|error| problem.failure_or(error))?;
         problem.note_symmetry(&follower.current().point);
-        let path = OrbitPath::new(problem, follower, (settings, range_hz));
+        let path = OrbitPath::new(problem, follower, (settings, range));
         Ok(Self::of(path, start.maxima.displacement, response))
     }
 

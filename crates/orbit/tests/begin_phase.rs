@@ -92,13 +92,13 @@ fn events(rows: &[BranchRow]) -> Vec<(String, f64, f64)> {
 #[test]
 fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
     let (plain, reason) = walk(&oscillator(PLAIN), usize::MAX);
-    assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.1 });
+    assert_eq!(reason, StopReason::RangeEnd { place: RANGE.1 });
     assert_eq!(phases(&plain), [0.0], "nothing comes near phase 0");
     let expected = events(&plain);
     assert!(expected.iter().filter(|event| event.0.contains("fold")).count() >= 2, "{expected:?}");
     for load in [0.0, 0.5 * PI, PI, -0.5 * PI, 0.3] {
         let (rows, reason) = walk(&oscillator(load), usize::MAX);
-        assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.1 }, "{load}");
+        assert_eq!(reason, StopReason::RangeEnd { place: RANGE.1 }, "{load}");
         println!("{load}: phases {:?}, {} rows, {} plain", phases(&rows), rows.len(), plain.len());
         let found = events(&rows);
         assert_eq!(found.len(), expected.len(), "{load}: {found:?}, {expected:?}");

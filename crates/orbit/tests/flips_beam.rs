@@ -37,7 +37,7 @@ fn a_multiplier_is_minus_one_by_the_variational_equations_too() {
 fn flips_do_not_depend_on_step_start_or_segments() {
     let expected = frequencies(&flips(36.0, &step_of(0.02)));
     for (start_hz, step, segments) in [(36.0, 0.05, 1), (37.0, 0.01, 1), (36.0, 0.02, 4)] {
-        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
+        let settings = OrbitSettings { max_step: step, ..crate::common::with_segments(segments) };
         assert_same(&frequencies(&flips(start_hz, &settings)), &expected, 1e-8, "steps and segments");
     }
 }

@@ -66,7 +66,7 @@ fn flips_do_not_depend_on_step_start_or_segments() {
     assert_same(&frequencies(0.3, &step_of(0.01)), &expected, 1e-8, "longer steps");
     assert_same(&frequencies(0.47, &step_of(0.002)), &expected, 1e-8, "another start");
     for segments in [1, 3, 8] {
-        let settings = OrbitSettings { max_step_hz: 0.002, ..with_segments(segments) };
+        let settings = OrbitSettings { max_step: 0.002, ..with_segments(segments) };
         assert_same(&frequencies(0.3, &settings), &expected, 1e-8, "segments");
     }
 }
@@ -98,7 +98,7 @@ fn branch_of_doubled_period_is_met_again_from_its_other_side() {
     let events = |rows: &[BranchRow]| sorted(&with(rows, |events| events.flip || events.fold));
     assert_same(&events(&up), &events(&down), 1e-8, "both sides");
     for end in [up_end, down_end] {
-        let StopReason::ShorterPeriod { frequency_hz, .. } = end else { panic!("{end:?}") };
+        let StopReason::ShorterPeriod { place: frequency_hz, .. } = end else { panic!("{end:?}") };
         let other = flips.iter().map(|flip| (flip.solution.frequency_hz / frequency_hz - 1.0).abs());
         // Where the doubled orbit merges, the flip is met to the square of a thousandth of the orbit.
         assert!(other.fold(f64::INFINITY, f64::min) < 1e-6, "{frequency_hz} Hz");
@@ -134,13 +134,13 @@ fn a_doubled_branch_ends_in_a_flip_however_long_its_steps_are() {
         let settings = step_of(2e-4 * f64::from(step));
         for flip in &found {
             let (rows, reason) = leaving(&subject, flip, Side::Up, RANGE, &settings);
-            let StopReason::ShorterPeriod { frequency_hz, .. } = reason else { continue };
+            let StopReason::ShorterPeriod { place: frequency_hz, .. } = reason else { continue };
             let off =
                 flips.iter().map(|flip| (flip / frequency_hz - 1.0).abs()).fold(f64::INFINITY, f64::min);
-            assert!(off < 1e-10, "steps of {} Hz: {off:.1e} off", settings.max_step_hz);
+            assert!(off < 1e-10, "steps of {} Hz: {off:.1e} off", settings.max_step);
             let is_there = |row: &&BranchRow| (row.solution.frequency_hz / frequency_hz - 1.0).abs() < 2e-8;
             let there = rows.iter().filter(is_there).count();
-            assert!(there <= 12, "steps of {} Hz: {there} rows beside the flip", settings.max_step_hz);
+            assert!(there <= 12, "steps of {} Hz: {there} rows beside the flip", settings.max_step);
             ends += 1;
         }
     }

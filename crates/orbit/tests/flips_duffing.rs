@@ -59,7 +59,7 @@ fn a_multiplier_is_minus_one_by_the_variational_equations_too() {
 fn flips_do_not_depend_on_step_start_or_segments() {
     let expected = frequencies(&flips(0.28, &step_of(5e-4)));
     for (start_hz, step, segments) in [(0.28, 2e-3, 1), (0.27, 2e-4, 1), (0.28, 5e-4, 4), (0.29, 5e-4, 3)] {
-        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
+        let settings = OrbitSettings { max_step: step, ..crate::common::with_segments(segments) };
         assert_same(&frequencies(&flips(start_hz, &settings)), &expected, 1e-8, "steps and segments");
     }
 }

@@ -47,9 +47,9 @@ fn oscillator(share: f64, is_pressed_at_rest: bool) -> (System, [f64; 2]) {
     (System::new(model, &load, vec![stop]).unwrap(), frequencies)
 }
 
-fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step_hz: f64) -> Vec<f64> {
+fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step: f64) -> Vec<f64> {
     let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
-    let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = find_start(system, &response, from_hz, 1, &settings).unwrap();
     let (rows, _) = walk(system, &response, &start, Side::Up, (from_hz, to_hz), &settings);
     rows.iter().filter(|row| row.events.grazing).map(|row| row.solution.frequency_hz).collect()
@@ -59,9 +59,9 @@ fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step_hz: f64) -> 
 fn assert_pair_is_found(is_pressed_at_rest: bool, range_hz: (f64, f64)) {
     for share in [1e-3, 1e-5, 1e-7] {
         let (system, expected) = oscillator(share, is_pressed_at_rest);
-        for max_step_hz in [1e-3, 1e-4] {
-            let found = grazings(&system, range_hz, max_step_hz);
-            assert_eq!(found.len(), 2, "{share:e}, {max_step_hz} Hz: {found:?}, expected {expected:?}");
+        for max_step in [1e-3, 1e-4] {
+            let found = grazings(&system, range_hz, max_step);
+            assert_eq!(found.len(), 2, "{share:e}, {max_step} Hz: {found:?}, expected {expected:?}");
             for (found, expected) in found.iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-8, "{share:e}: {found} instead of {expected}");
             }

@@ -75,7 +75,7 @@ fn a_branch_goes_on_where_its_impact_passes_phase_0() {
     for side in [Side::Up, Side::Down] {
         let (rows, reason) = walk(phases[1], side);
         let end = if matches!(side, Side::Up) { HIGH } else { LOW };
-        assert_eq!(reason, StopReason::RangeEnd { frequency_hz: end / TAU }, "{side:?}");
+        assert_eq!(reason, StopReason::RangeEnd { place: end / TAU }, "{side:?}");
         assert!(rows.len() > 20, "{}", rows.len());
         for row in &rows {
             let orbit = &row.solution;
@@ -93,7 +93,7 @@ fn a_branch_goes_on_where_its_impact_passes_phase_0() {
 /// of the speed `V = (g - s)/C`.
 #[test]
 fn an_orbit_with_its_impact_at_phase_0_is_found_once_and_followed() {
-    let (gap, settings) = (0.5, OrbitSettings { max_step_hz: 1e-4, ..OrbitSettings::default() });
+    let (gap, settings) = (0.5, OrbitSettings { max_step: 1e-4, ..OrbitSettings::default() });
     let (system, response) = oscillator_at(1.0, gap, 0.0);
     let range = (1.4 / TAU, 1.7 / TAU);
     for w in [1.47, 1.5, 1.55, 1.6] {

@@ -56,7 +56,7 @@ fn rate(one: &PeriodicSolution, other: &PeriodicSolution) -> f64 {
 fn subjects() -> &'static [Subject] {
     static SUBJECTS: OnceLock<Vec<Subject>> = OnceLock::new();
     SUBJECTS.get_or_init(|| {
-        let settings = OrbitSettings { max_step_hz: 0.05, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 0.05, ..OrbitSettings::default() };
         let (rows, _) = walk_both(subject(), 30.0, (19.0, 110.0), &settings);
         let inner = 1..rows.len() - 1;
         let special = |k: usize| rows[k].events.fold || rows[k].events.grazing;

@@ -41,7 +41,7 @@ fn neimark_sacker_points_do_not_depend_on_step_or_segments() {
         |settings: &OrbitSettings| sorted(&with(&rows(settings), |events| events.neimark_sacker));
     let expected = frequencies(&step_of(0.02));
     for (step, segments) in [(0.05, 1), (0.02, 4)] {
-        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
+        let settings = OrbitSettings { max_step: step, ..crate::common::with_segments(segments) };
         assert_same(&frequencies(&settings), &expected, 1e-8, "steps and segments");
     }
 }

@@ -73,11 +73,11 @@ fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
             assert!(alternation(&subject.0, &row.solution) > least, "{} Hz", row.solution.frequency_hz);
         }
         match reason {
-            StopReason::ShorterPeriod { frequency_hz, .. } => {
+            StopReason::ShorterPeriod { place: frequency_hz, .. } => {
                 assert_ends_in_flip(&rows[rows.len() - 1], frequency_hz, &flips);
                 frequency_hz
             }
-            StopReason::RangeEnd { frequency_hz } => frequency_hz,
+            StopReason::RangeEnd { place: frequency_hz } => frequency_hz,
             other => panic!("{other:?}"),
         }
     });

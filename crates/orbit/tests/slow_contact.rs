@@ -40,7 +40,7 @@ fn bouncing() -> (System, Response) {
 #[test]
 fn a_contact_that_begins_too_slowly_to_be_computed_ends_the_branch_where_it_splits() {
     let (system, response) = bouncing();
-    let settings = OrbitSettings { max_step_hz: 0.1, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.1, ..OrbitSettings::default() };
     let start = find_start(&system, &response, 6.1, 1, &settings).unwrap();
     let mut walk = BranchWalk::new(&system, &response, &start, Side::Down, (2.0, 60.0), &settings).unwrap();
     let mut rows = Vec::new();
@@ -77,7 +77,7 @@ fn above_a_stop() -> (System, Response) {
 #[test]
 fn rows_beside_a_splitting_are_those_that_can_be_told_from_the_other_side() {
     let subject = above_a_stop();
-    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
     let start = find_start(&subject.0, &subject.1, 0.38, 2, &settings).unwrap();
     let (rows, end) = side(&subject, &start, Side::Down, (0.29677, 0.44867), &settings);
     assert!(matches!(&end, StopReason::ContactReopens { element, .. } if element == "stop"), "{end:?}");

@@ -64,14 +64,14 @@ fn subject() -> (System, Response) {
 fn a_branch_ends_where_its_contact_splits_and_not_a_step_before() {
     let (subject, border) = (subject(), border());
     let step = 2e-5;
-    let settings = OrbitSettings { max_step_hz: step, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: step, ..OrbitSettings::default() };
     for (way, start_hz, range) in [
         (Side::Up, border - 20.3 * step, (border - 40.0 * step, border + 40.0 * step)),
         (Side::Down, border + 20.3 * step, (border - 40.0 * step, border + 40.0 * step)),
     ] {
         let start = find_start(&subject.0, &subject.1, start_hz, 1, &settings).unwrap();
         let (rows, end) = side(&subject, &start, way, range, &settings);
-        let StopReason::ContactReopens { frequency_hz, phase, .. } = end else { panic!("{end:?}") };
+        let StopReason::ContactReopens { place: frequency_hz, phase, .. } = end else { panic!("{end:?}") };
         assert!((phase - 0.5).abs() < 0.05, "{phase}");
         assert!((frequency_hz - border).abs() < 1e-9 * border, "{way:?}: {frequency_hz} is not {border}");
         let last = &rows[rows.len() - 1].solution;

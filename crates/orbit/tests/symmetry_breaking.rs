@@ -73,7 +73,7 @@ fn a_multiplier_is_plus_one_at_the_branch_points_and_the_orbit_symmetric() {
 fn branch_points_do_not_depend_on_step_or_segments() {
     let expected = frequencies(&branch_points(&symmetric(&step_of(5e-4))));
     for (segments, step) in [(1, 1e-4), (4, 5e-4), (1, 2e-3)] {
-        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
+        let settings = OrbitSettings { max_step: step, ..crate::common::with_segments(segments) };
         let found = frequencies(&branch_points(&symmetric(&settings)));
         assert_same(&found, &expected, 2e-7, "segments and steps");
     }

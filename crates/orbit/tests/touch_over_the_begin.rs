@@ -114,7 +114,7 @@ fn a_contact_that_is_deepest_on_phase_0_is_one() {
     let law = Law::Linear(LinearStop::with_gap(20.0, 0.05).unwrap());
     let subject = oscillator_driven_at(PI, 1.0, 0.0, 0.4, law);
     let start = find_start(&subject.0, &subject.1, 0.35, 1, &settings()).unwrap();
-    let settings = OrbitSettings { max_solutions: 300, max_step_hz: 1e-3, ..settings() };
+    let settings = OrbitSettings { max_solutions: 300, max_step: 1e-3, ..settings() };
     let rows = whole(&subject, &start, (0.33, 0.37), &settings);
     let ends = [rows[0].solution.frequency_hz, rows[rows.len() - 1].solution.frequency_hz];
     assert_eq!(ends, [0.33, 0.37]);

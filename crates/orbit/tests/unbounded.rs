@@ -44,7 +44,7 @@ fn walk(
     (from_hz, side): (f64, Side),
     at_once: usize,
 ) -> (Vec<BranchRow>, StopReason) {
-    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
     let start = find_start(system, response, from_hz, 1, &settings).unwrap();
     let mut walk = BranchWalk::new(system, response, &start, side, RANGE, &settings).unwrap();
     let (mut rows, mut journal) = (Vec::new(), Vec::new());
@@ -76,7 +76,7 @@ fn both_sides_of_an_undamped_resonance_are_the_closed_form_and_end_at_it() {
             let error = solution.maxima.displacement * (1.0 - w * w).abs() - 1.0;
             assert!(error.abs() < resolved, "{error:.1e} at {} Hz", solution.frequency_hz);
         }
-        let StopReason::Unbounded { frequency_hz, mode } = reason else { panic!("{reason:?}") };
+        let StopReason::Unbounded { place: frequency_hz, mode } = reason else { panic!("{reason:?}") };
         assert!((frequency_hz / NATURAL - 1.0).abs() < 1e-7, "{frequency_hz}");
         let Some(ResonantMode { number, frequency_hz, damping_ratio }) = mode else { panic!("no mode") };
         assert_eq!((number, damping_ratio), (1, 0.0));
@@ -111,7 +111,7 @@ fn the_orbit_beside_an_undamped_resonance_is_found_on_both_sides() {
 #[test]
 fn a_weakly_damped_resonance_is_passed() {
     let (rows, reason) = walk(&oscillator(2e-5, None), (0.1, Side::Up), usize::MAX);
-    assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.1 });
+    assert_eq!(reason, StopReason::RangeEnd { place: RANGE.1 });
     let largest = rows.iter().map(|row| row.solution.maxima.displacement).fold(0.0, f64::max);
     assert!((largest / 5e4 - 1.0).abs() < 1e-2, "{largest}");
 }
@@ -121,7 +121,7 @@ fn a_weakly_damped_resonance_is_passed() {
 #[test]
 fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
     let (system, response) = oscillator(0.0, Some(10.0));
-    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
     for free in [0.2, 3.0] {
         let state = [4.0 / 3.0 + free, 0.0];
         let orbit = (0.5 * NATURAL, 1);
@@ -130,7 +130,7 @@ fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
             let mut walk = BranchWalk::new(&system, &response, &start, side, RANGE, &settings).unwrap();
             let mut rows = Vec::new();
             let reason = (0..100).find_map(|_| walk.step(&mut rows).unwrap());
-            let Some(StopReason::FreeVibration { frequency_hz, mode }) = reason else { panic!("{reason:?}") };
+            let Some(StopReason::FreeVibration { place: frequency_hz, mode }) = reason else { panic!("{reason:?}") };
             assert!((frequency_hz / NATURAL - 0.5).abs() < 1e-15 && mode.number == 1);
         }
     }
@@ -140,7 +140,7 @@ fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
 /// At twice the eigenfrequency they take two excitation periods.
 #[test]
 fn of_orbits_that_differ_in_a_free_vibration_a_search_keeps_one() {
-    let settings = OrbitSettings { max_step_hz: 1e-2, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 1e-2, ..OrbitSettings::default() };
     let search = |damping: f64, gap: Option<f64>, orbit: (f64, u32)| {
         let (system, response) = oscillator(damping, gap);
         find_orbits(&system, &response, orbit, RANGE, &settings, &mut || false).unwrap()
@@ -163,7 +163,7 @@ fn of_orbits_that_differ_in_a_free_vibration_a_search_keeps_one() {
 #[test]
 fn a_walk_down_to_half_the_eigenfrequency_ends_at_its_free_vibrations() {
     let (system, response) = oscillator(0.0, None);
-    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
     let start = find_start(&system, &response, 0.75 * NATURAL, 1, &settings).unwrap();
     let range_hz = (0.5 * NATURAL, 0.8 * NATURAL);
     let mut walk = BranchWalk::new(&system, &response, &start, Side::Down, range_hz, &settings).unwrap();

@@ -69,8 +69,8 @@ fn neimark_sacker_points_lie_within_their_uncertainty() {
     let (frequency_hz, range) = (0.25, (-0.02, 0.02));
     for (frequency, damper) in [(1.3, 0.01), (0.7, 0.02), (2.9, 0.003)] {
         let case = together(&[oscillator(1.0, 0.2, 1.0, stop(3.0, 0.5)), resting_pair(frequency, damper)]);
-        for max_step_hz in [1e-4, 1e-3, 5e-3] {
-            let settings = step_of(max_step_hz);
+        for max_step in [1e-4, 1e-3, 5e-3] {
+            let settings = step_of(max_step);
             let start = find_start(&case.0, &case.1, frequency_hz, 1, &settings).unwrap();
             let varied =
                 ContinuationParameter::Other { parameter: Parameter::ADDED_DAMPING_RATIO, frequency_hz };
@@ -81,7 +81,7 @@ fn neimark_sacker_points_lie_within_their_uncertainty() {
             while walk.step(&mut rows).unwrap().is_none() {}
             let points = with(&rows, |events| events.neimark_sacker);
             let [point] = points.as_slice() else { panic!("one point, not {}", points.len()) };
-            let what = format!("pair of {frequency} rad/s, steps of {max_step_hz}");
+            let what = format!("pair of {frequency} rad/s, steps of {max_step}");
             check(point, point.parameter.unwrap(), -0.5 * damper / frequency, &what);
         }
     }

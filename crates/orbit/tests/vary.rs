@@ -41,7 +41,7 @@ fn rows(
     range: (f64, f64),
 ) -> Vec<BranchRow> {
     let settings = OrbitSettings::for_range(range);
-    let settings = OrbitSettings { max_step_hz: 20.0 * settings.max_step_hz, ..settings };
+    let settings = OrbitSettings { max_step: 20.0 * settings.max_step, ..settings };
     let start = find_start(system, response, frequency_hz, 1, &settings).unwrap();
     let varied = ContinuationParameter::Other { parameter, frequency_hz };
     let mut walk = BranchWalk::varying(system, response, &start, (varied, side, range), &settings).unwrap();

@@ -64,7 +64,7 @@ fn a_resumed_walk_has_the_bits_of_an_undisturbed_one() {
 /// change, each by its own factors.
 #[test]
 fn a_walk_that_is_resumed_in_other_units_has_the_same_bits() {
-    let settings = OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.01, ..OrbitSettings::default() };
     let walk = |pieces| walk_from((8.0, Side::Down, (0.02, 10.0)), &settings, pieces);
     let undisturbed = walk(usize::MAX);
     assert!(undisturbed.last().unwrap().solution.frequency_hz < 0.021);
@@ -74,7 +74,7 @@ fn a_walk_that_is_resumed_in_other_units_has_the_same_bits() {
 /// With long steps rows are put between the points of the path, from what is known of the rows before.
 #[test]
 fn a_resumed_walk_puts_the_same_rows_between() {
-    let settings = OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step: 0.01, ..OrbitSettings::default() };
     let undisturbed = walk(&settings, usize::MAX);
     for pieces in 1..4 {
         assert!(undisturbed == walk(&settings, pieces), "{pieces} steps a piece");

@@ -17,7 +17,7 @@ fn an_orbit_far_below_the_frequency_of_the_start_closes_as_well() {
     let settings = step_of(0.01);
     let start = find_start(&subject.0, &subject.1, 8.0, 1, &settings).unwrap();
     let (rows, reason) = side(&subject, &start, Side::Down, RANGE, &settings);
-    assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.0 });
+    assert_eq!(reason, StopReason::RangeEnd { place: RANGE.0 });
     let slow: Vec<_> =
         rows.iter().map(|row| &row.solution).filter(|orbit| orbit.frequency_hz < 0.12).collect();
     assert!(slow.len() > 50, "{} orbits", slow.len());

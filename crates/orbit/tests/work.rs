@@ -9,10 +9,10 @@ use crate::common::{beam, orbit_at, walk};
 use hammerbeam_orbit::{OrbitSettings, Side};
 
 /// Evaluations per accepted solution on the way from one frequency to the other.
-fn evaluations_per_solution(from_hz: f64, to_hz: f64, max_step_hz: f64) -> f64 {
+fn evaluations_per_solution(from_hz: f64, to_hz: f64, max_step: f64) -> f64 {
     let subject = beam();
     let (system, response) = &subject;
-    let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
+    let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = orbit_at(&subject, from_hz);
     let side = if to_hz > from_hz { Side::Up } else { Side::Down };
     let range = (from_hz.min(to_hz), from_hz.max(to_hz));

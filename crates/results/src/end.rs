@@ -164,47 +164,47 @@ impl BranchEnd {
 
 fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
     match reason {
-        StopReason::RangeEnd { frequency_hz } => StoredEnd::at("range-end", *frequency_hz),
+        StopReason::RangeEnd { place } => StoredEnd::at("range-end", *place),
         StopReason::Closed => StoredEnd::plain("closed"),
-        StopReason::ShorterPeriod { frequency_hz, grazes } => {
-            StoredEnd::at("shorter-period", *frequency_hz).with([f64::from(u8::from(*grazes))])
+        StopReason::ShorterPeriod { place, grazes } => {
+            StoredEnd::at("shorter-period", *place).with([f64::from(u8::from(*grazes))])
         }
-        StopReason::Symmetric { frequency_hz } => StoredEnd::at("symmetric", *frequency_hz),
+        StopReason::Symmetric { place } => StoredEnd::at("symmetric", *place),
         StopReason::Budget { solutions } => StoredEnd::plain("budget").with([*solutions as f64]),
-        StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
+        StopReason::StepTooShort { place, step, residual, doubt, has_no_losses } => {
             let numbers = [*step, *residual, f64::from(u8::from(*has_no_losses))];
-            StoredEnd::at("step-too-short", *frequency_hz).with(numbers).saying(doubt)
+            StoredEnd::at("step-too-short", *place).with(numbers).saying(doubt)
         }
-        StopReason::Chatter { frequency_hz, element, impacts } => {
-            StoredEnd::at("chatter", *frequency_hz).with([*impacts as f64]).saying(element)
+        StopReason::Chatter { place, element, impacts } => {
+            StoredEnd::at("chatter", *place).with([*impacts as f64]).saying(element)
         }
-        StopReason::ImpactsTogether { frequency_hz, elements, phase } => {
-            StoredEnd::at("impacts-together", *frequency_hz).with([*phase]).saying(elements)
+        StopReason::ImpactsTogether { place, elements, phase } => {
+            StoredEnd::at("impacts-together", *place).with([*phase]).saying(elements)
         }
-        StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => {
+        StopReason::RunsBack { place, met_arc_length, has_no_losses } => {
             let numbers = [*met_arc_length, f64::from(u8::from(*has_no_losses))];
-            StoredEnd::at("runs-back", *frequency_hz).with(numbers)
+            StoredEnd::at("runs-back", *place).with(numbers)
         }
-        StopReason::ContactReopens { frequency_hz, element, phase } => {
-            StoredEnd::at("contact-reopens", *frequency_hz).with([*phase]).saying(element)
+        StopReason::ContactReopens { place, element, phase } => {
+            StoredEnd::at("contact-reopens", *place).with([*phase]).saying(element)
         }
-        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses } => {
+        StopReason::NoProgress { place, solutions, largest_multiplier, has_no_losses } => {
             let numbers = [*solutions as f64, *largest_multiplier, f64::from(u8::from(*has_no_losses))];
-            StoredEnd::at("no-progress", *frequency_hz).with(numbers)
+            StoredEnd::at("no-progress", *place).with(numbers)
         }
-        StopReason::Unbounded { frequency_hz, mode } => {
+        StopReason::Unbounded { place, mode } => {
             let of_mode = mode.as_ref().map_or_else(Vec::new, |mode| numbers_of(mode).to_vec());
-            StoredEnd::at("unbounded", *frequency_hz).with(of_mode)
+            StoredEnd::at("unbounded", *place).with(of_mode)
         }
-        StopReason::FreeVibration { frequency_hz, mode } => {
-            StoredEnd::at("free-vibration", *frequency_hz).with(numbers_of(mode))
+        StopReason::FreeVibration { place, mode } => {
+            StoredEnd::at("free-vibration", *place).with(numbers_of(mode))
         }
-        StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
+        StopReason::TooMuchWork { place, solutions, gets_on } => {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
-            StoredEnd::at("too-much-work", *frequency_hz).with(numbers)
+            StoredEnd::at("too-much-work", *place).with(numbers)
         }
-        StopReason::Motion { frequency_hz, message } => {
-            StoredEnd::at("motion", *frequency_hz).saying(message)
+        StopReason::Motion { place, message } => {
+            StoredEnd::at("motion", *place).saying(message)
         }
     }
 }
@@ -225,44 +225,44 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
         (kind, numbers) => (kind, numbers, stored.place?),
     };
     Some(match reason {
-        ("range-end", [], frequency_hz) => StopReason::RangeEnd { frequency_hz },
-        ("shorter-period", [grazes], frequency_hz) => {
-            StopReason::ShorterPeriod { frequency_hz, grazes: *grazes != 0.0 }
+        ("range-end", [], place) => StopReason::RangeEnd { place },
+        ("shorter-period", [grazes], place) => {
+            StopReason::ShorterPeriod { place, grazes: *grazes != 0.0 }
         }
-        ("symmetric", [], frequency_hz) => StopReason::Symmetric { frequency_hz },
-        ("step-too-short", [step, residual, lossless], frequency_hz) => {
+        ("symmetric", [], place) => StopReason::Symmetric { place },
+        ("step-too-short", [step, residual, lossless], place) => {
             let (step, residual, doubt, has_no_losses) = (*step, *residual, text()?, *lossless != 0.0);
-            StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
+            StopReason::StepTooShort { place, step, residual, doubt, has_no_losses }
         }
-        ("chatter", [impacts], frequency_hz) => {
-            StopReason::Chatter { frequency_hz, element: text()?, impacts: *impacts as usize }
+        ("chatter", [impacts], place) => {
+            StopReason::Chatter { place, element: text()?, impacts: *impacts as usize }
         }
-        ("impacts-together", [phase], frequency_hz) => {
-            StopReason::ImpactsTogether { frequency_hz, elements: text()?, phase: *phase }
+        ("impacts-together", [phase], place) => {
+            StopReason::ImpactsTogether { place, elements: text()?, phase: *phase }
         }
-        ("runs-back", [met, lossless], frequency_hz) => {
-            StopReason::RunsBack { frequency_hz, met_arc_length: *met, has_no_losses: *lossless != 0.0 }
+        ("runs-back", [met, lossless], place) => {
+            StopReason::RunsBack { place, met_arc_length: *met, has_no_losses: *lossless != 0.0 }
         }
-        ("contact-reopens", [phase], frequency_hz) => {
-            StopReason::ContactReopens { frequency_hz, element: text()?, phase: *phase }
+        ("contact-reopens", [phase], place) => {
+            StopReason::ContactReopens { place, element: text()?, phase: *phase }
         }
-        ("no-progress", [solutions, largest, lossless], frequency_hz) => {
+        ("no-progress", [solutions, largest, lossless], place) => {
             let (solutions, largest_multiplier) = (*solutions as u64, *largest);
             let has_no_losses = *lossless != 0.0;
-            StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses }
+            StopReason::NoProgress { place, solutions, largest_multiplier, has_no_losses }
         }
-        ("unbounded", [], frequency_hz) => StopReason::Unbounded { frequency_hz, mode: None },
-        ("unbounded", &[number, at_hz, ratio], frequency_hz) => {
-            StopReason::Unbounded { frequency_hz, mode: Some(mode_of([number, at_hz, ratio])) }
+        ("unbounded", [], place) => StopReason::Unbounded { place, mode: None },
+        ("unbounded", &[number, at_hz, ratio], place) => {
+            StopReason::Unbounded { place, mode: Some(mode_of([number, at_hz, ratio])) }
         }
-        ("free-vibration", &[number, at_hz, ratio], frequency_hz) => {
-            StopReason::FreeVibration { frequency_hz, mode: mode_of([number, at_hz, ratio]) }
+        ("free-vibration", &[number, at_hz, ratio], place) => {
+            StopReason::FreeVibration { place, mode: mode_of([number, at_hz, ratio]) }
         }
-        ("too-much-work", [solutions, gets_on], frequency_hz) => {
+        ("too-much-work", [solutions, gets_on], place) => {
             let solutions = *solutions as u64;
-            StopReason::TooMuchWork { frequency_hz, solutions, gets_on: *gets_on != 0.0 }
+            StopReason::TooMuchWork { place, solutions, gets_on: *gets_on != 0.0 }
         }
-        ("motion", [], frequency_hz) => StopReason::Motion { frequency_hz, message: text()? },
+        ("motion", [], place) => StopReason::Motion { place, message: text()? },
         _ => return None,
     })
 }
@@ -332,36 +332,36 @@ pub(crate) mod tests {
         let text = || "x".to_owned();
         let mode = ResonantMode { number: 2, frequency_hz: 12.0, damping_ratio: 0.0 };
         let too_short = |has_no_losses: bool| StopReason::StepTooShort {
-            frequency_hz,
+            place: frequency_hz,
             step: 1e-9,
             residual: f64::INFINITY,
             doubt: text(),
             has_no_losses,
         };
         let walks = [
-            StopReason::RangeEnd { frequency_hz },
+            StopReason::RangeEnd { place: frequency_hz },
             StopReason::Closed,
-            StopReason::ShorterPeriod { frequency_hz, grazes: true },
-            StopReason::ShorterPeriod { frequency_hz, grazes: false },
-            StopReason::Symmetric { frequency_hz },
+            StopReason::ShorterPeriod { place: frequency_hz, grazes: true },
+            StopReason::ShorterPeriod { place: frequency_hz, grazes: false },
+            StopReason::Symmetric { place: frequency_hz },
             StopReason::Budget { solutions: 3 },
             too_short(false),
             too_short(true),
-            StopReason::Chatter { frequency_hz, element: "stop".to_owned(), impacts: 12 },
-            StopReason::ImpactsTogether { frequency_hz, elements: "s1 and s2".to_owned(), phase: 0.25 },
-            StopReason::RunsBack { frequency_hz, met_arc_length: 3.0, has_no_losses: true },
-            StopReason::ContactReopens { frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
+            StopReason::Chatter { place: frequency_hz, element: "stop".to_owned(), impacts: 12 },
+            StopReason::ImpactsTogether { place: frequency_hz, elements: "s1 and s2".to_owned(), phase: 0.25 },
+            StopReason::RunsBack { place: frequency_hz, met_arc_length: 3.0, has_no_losses: true },
+            StopReason::ContactReopens { place: frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
             StopReason::NoProgress {
-                frequency_hz,
+                place: frequency_hz,
                 solutions: 2000,
                 largest_multiplier: f64::INFINITY,
                 has_no_losses: false,
             },
-            StopReason::Unbounded { frequency_hz, mode: Some(mode) },
-            StopReason::Unbounded { frequency_hz, mode: None },
-            StopReason::FreeVibration { frequency_hz, mode },
-            StopReason::TooMuchWork { frequency_hz, solutions: 5, gets_on: false },
-            StopReason::Motion { frequency_hz, message: text() },
+            StopReason::Unbounded { place: frequency_hz, mode: Some(mode) },
+            StopReason::Unbounded { place: frequency_hz, mode: None },
+            StopReason::FreeVibration { place: frequency_hz, mode },
+            StopReason::TooMuchWork { place: frequency_hz, solutions: 5, gets_on: false },
+            StopReason::Motion { place: frequency_hz, message: text() },
         ];
         let curves = [
             CurveEnd::RangeEnd,

@@ -104,79 +104,79 @@ fn of_walk(reason: &StopReason, along: BranchOver<'_>) -> String {
     let (at, look) = (|value: f64| along.place(value), along.look());
     let advice = |has_no_losses: bool| if has_no_losses { NO_LOSSES } else { look };
     match reason {
-        StopReason::RangeEnd { frequency_hz } => {
+        StopReason::RangeEnd { place } => {
             // The end of the range is what the study says, with all its digits.
             let place = match along {
-                BranchOver::Frequency => format!("{frequency_hz} Hz"),
-                along => along.place(*frequency_hz),
+                BranchOver::Frequency => format!("{place} Hz"),
+                along => along.place(*place),
             };
             format!("end of {} at {place}", along.range())
         }
         StopReason::Closed => "the branch came back to its start".to_owned(),
-        StopReason::ShorterPeriod { frequency_hz, grazes: true } => format!(
+        StopReason::ShorterPeriod { place, grazes: true } => format!(
             "met the grazing of a branch of shorter period at {}, beyond which the motion is that one",
-            at(*frequency_hz)
+            at(*place)
         ),
-        StopReason::ShorterPeriod { frequency_hz, grazes: false } => format!(
+        StopReason::ShorterPeriod { place, grazes: false } => format!(
             "met the flip of a branch of shorter period at {}, beyond which the same motions come again, \
                 some excitation periods later",
-            at(*frequency_hz)
+            at(*place)
         ),
-        StopReason::Symmetric { frequency_hz } => format!(
+        StopReason::Symmetric { place } => format!(
             "met a branch of symmetric motions at {}, beyond which it repeats as its mirror image",
-            at(*frequency_hz)
+            at(*place)
         ),
         StopReason::Budget { solutions } => format!(
             "the budget of {solutions} solutions is used up; with a larger budget_solutions \
                 ([continuation]) {}",
             along.larger_budget()
         ),
-        StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses } => {
+        StopReason::StepTooShort { place, step, residual, doubt, has_no_losses } => {
             format!(
                 "no periodic motion next to the last one was found beyond {}, however near it was looked \
                 for; {} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
-                at(*frequency_hz),
+                at(*place),
                 advice(*has_no_losses)
             )
         }
-        StopReason::Chatter { frequency_hz, element, impacts } => format!(
+        StopReason::Chatter { place, element, impacts } => format!(
             "beyond {} {element} chatters: in the last motion {impacts} impacts follow one another, each \
                 slower than the one before, and no motion next to it was found; {look}",
-            at(*frequency_hz)
+            at(*place)
         ),
-        StopReason::ImpactsTogether { frequency_hz, elements, phase } => format!(
+        StopReason::ImpactsTogether { place, elements, phase } => format!(
             "at {} {elements} are struck at one instant, at the phase of {phase:.4} cycles, and the motion \
                 beyond depends on which comes first; {look}",
-            at(*frequency_hz)
+            at(*place)
         ),
-        StopReason::RunsBack { frequency_hz, met_arc_length, has_no_losses } => format!(
+        StopReason::RunsBack { place, met_arc_length, has_no_losses } => format!(
             "beyond {} every step led back to motions that the branch already has; {} (met again at arc \
                 length {met_arc_length:.6})",
-            at(*frequency_hz),
+            at(*place),
             advice(*has_no_losses)
         ),
-        StopReason::ContactReopens { frequency_hz, element, phase } => {
-            format!("beyond {} {}", at(*frequency_hz), splits(element, *phase, look))
+        StopReason::ContactReopens { place, element, phase } => {
+            format!("beyond {} {}", at(*place), splits(element, *phase, look))
         }
-        StopReason::NoProgress { frequency_hz, solutions, largest_multiplier, has_no_losses } => format!(
+        StopReason::NoProgress { place, solutions, largest_multiplier, has_no_losses } => format!(
             "at {} the last {solutions} solutions brought the branch no further: in a period of the \
                 motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {}",
-            at(*frequency_hz),
+            at(*place),
             advice(*has_no_losses)
         ),
-        StopReason::Unbounded { frequency_hz, mode } => {
-            format!("at {} {}", at(*frequency_hz), unbounded(*mode))
+        StopReason::Unbounded { place, mode } => {
+            format!("at {} {}", at(*place), unbounded(*mode))
         }
-        StopReason::FreeVibration { frequency_hz, mode } => format!(
+        StopReason::FreeVibration { place, mode } => format!(
             "at {} {mode} and vibrates freely at a multiple of the frequency of the motion: motions of every \
                 amplitude of it are periodic there; with damping ([damping]) there is one",
-            at(*frequency_hz)
+            at(*place)
         ),
-        StopReason::TooMuchWork { frequency_hz, solutions, gets_on } => {
-            format!("at {} {}", at(*frequency_hz), too_much_work(*solutions, *gets_on))
+        StopReason::TooMuchWork { place, solutions, gets_on } => {
+            format!("at {} {}", at(*place), too_much_work(*solutions, *gets_on))
         }
-        StopReason::Motion { frequency_hz, message } => {
-            format!("the motion could not be computed at {}: {message}", at(*frequency_hz))
+        StopReason::Motion { place, message } => {
+            format!("the motion could not be computed at {}: {message}", at(*place))
         }
     }
 }

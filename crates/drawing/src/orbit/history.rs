@@ -81,7 +81,7 @@ fn holes(model: &Model, frequency_hz: f64) -> Vec<(usize, [PointMotion; 2])> {
     let motions = of_hole.map(|first| {
         let motion = |element: usize| {
             let LocalElement { shape, support_ratios, .. } = &elements[element];
-            model.system.point_motion(frequency_hz, shape, support_ratios)
+            PointMotion::of(&model.system, frequency_hz, shape, support_ratios)
         };
         (first, [motion(first), motion(first + 1)])
     });

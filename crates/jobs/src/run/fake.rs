@@ -220,7 +220,7 @@ impl Walk for FakeWalk<'_> {
         if is_lost_on_ring || self.solver.lost_hz.is_some_and(|lost| self.is_lost(frequency_hz, lost)) {
             let doubt = "lost where it was to be".to_owned();
             let reason = StopReason::StepTooShort {
-                frequency_hz,
+                place: frequency_hz,
                 step: 1e-9,
                 residual: 1.0,
                 doubt,
@@ -236,7 +236,7 @@ impl Walk for FakeWalk<'_> {
             return Ok(Some(StopReason::Closed.into()));
         }
         let is_end = frequency_hz <= low || frequency_hz >= high;
-        Ok(is_end.then_some(StopReason::RangeEnd { frequency_hz }.into()))
+        Ok(is_end.then_some(StopReason::RangeEnd { place: frequency_hz }.into()))
     }
 
     fn checkpoint(&self) -> Option<Vec<u8>> {

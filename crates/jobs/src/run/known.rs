@@ -268,9 +268,9 @@ mod tests {
             [(2.995, 200.0), (2.995, 50.0), (2.98, 200.0), (3.1, 200.0)].map(|at| goes_on_at(start, at))
         };
         assert_eq!(goes_on(&start), [false; 4], "it has not ended");
-        start.up.end = Some(StopReason::Unbounded { frequency_hz: 2.99, mode: None }.into());
+        start.up.end = Some(StopReason::Unbounded { place: 2.99, mode: None }.into());
         assert_eq!(goes_on(&start), [true, false, false, false]);
-        start.up.end = Some(StopReason::RangeEnd { frequency_hz: 2.99 }.into());
+        start.up.end = Some(StopReason::RangeEnd { place: 2.99 }.into());
         assert_eq!(goes_on(&start), [false; 4]);
     }
 }

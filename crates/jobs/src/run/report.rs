@@ -256,6 +256,27 @@ struct PieceBranchDocument {
     parameter: [f64; 2],
     up: String,
     down: String,
+    up_stop: StopDocument,
+    down_stop: StopDocument,
+}
+
+/// How a side ended, for programs.
+#[derive(Serialize)]
+struct StopDocument {
+    solutions: u64,
+    stop_reason: Option<&'static str>,
+    stop_parameter: Option<f64>,
+}
+
+impl From<&WalkRecord> for StopDocument {
+    fn from(walk: &WalkRecord) -> Self {
+        let end = walk.end.as_ref();
+        Self {
+            solutions: walk.solutions,
+            stop_reason: end.map(|end| end.word()),
+            stop_parameter: end.and_then(|end| end.place()),
+        }
+    }
 }
 
 impl<'a> From<&'a PieceSummary> for PieceDocument<'a> {
@@ -283,6 +304,8 @@ fn branch_document(piece: &PieceRecord, branch: &BranchSummary) -> PieceBranchDo
         parameter: branch.range,
         up: end_of_side(piece, branch, Side::Up),
         down: end_of_side(piece, branch, Side::Down),
+        up_stop: StopDocument::from(&branch.record.up),
+        down_stop: StopDocument::from(&branch.record.down),
     }
 }
 

@@ -324,10 +324,10 @@ fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
 fn a_branch_that_is_given_up_leaves_the_others_whole() {
     let study = study_with("[response]\nperiod_multiples = [1, 2]\n[search]\nfrequencies = 2\n");
     let given_up = [
-        StopReason::TooMuchWork { frequency_hz: 14.0, solutions: 5, gets_on: false },
-        StopReason::TooMuchWork { frequency_hz: 14.0, solutions: 5, gets_on: true },
+        StopReason::TooMuchWork { place: 14.0, solutions: 5, gets_on: false },
+        StopReason::TooMuchWork { place: 14.0, solutions: 5, gets_on: true },
         StopReason::NoProgress {
-            frequency_hz: 14.0,
+            place: 14.0,
             solutions: 5,
             largest_multiplier: 1e9,
             has_no_losses: false,

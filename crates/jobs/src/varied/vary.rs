@@ -41,7 +41,7 @@ impl<'a> VarySolver<'a> {
 
     fn walking(&self) -> OrbitSettings {
         let (low, high) = self.range();
-        OrbitSettings { max_step_hz: (high - low) / f64::from(self.vary.steps), ..self.searching() }
+        OrbitSettings { max_step: (high - low) / f64::from(self.vary.steps), ..self.searching() }
     }
 
     fn walk(&self, walk: BranchWalk, is_at_start: bool) -> Box<dyn Walk + '_> {

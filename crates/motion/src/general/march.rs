@@ -12,7 +12,8 @@ use super::{
     Counts, FieldFlow, GeneralError, GeneralSettings, VectorField,
     dense::Dense,
     stepper::Stepper,
-    switching::{Region, Verdict},
+    search::Verdict,
+    switching::Region,
     watch::{Accepted, Place, Watcher},
 };
 

@@ -11,14 +11,18 @@
 mod extrema;
 
 use super::{
-    Counts, GeneralError, GeneralSettings, Point, VectorField, check, check_frequency,
+    Counts, GeneralError, GeneralSettings, Point, VectorField,
     march::March,
-    rigid::Impact,
+    settings::{check, check_frequency},
     stepper::Stepper,
-    system_field::{SystemField, dot, region::force_in_region, switches_of},
+    stops::Impact,
+    system_field::{
+        SystemField,
+        region::{force_in_region, switches_of},
+    },
     watch::{Accepted, Place, Watcher},
 };
-use crate::{Contact, Flow, Stretch, System};
+use crate::{Contact, Flow, Stretch, System, vectors::dot};
 
 /// A motion over a stretch, with its maxima and contacts.
 #[derive(Debug, Clone)]

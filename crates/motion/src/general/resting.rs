@@ -8,47 +8,15 @@
 //! least force with which a stop presses that has a part in it. Then `r_j` falls, and with `c_j > 0` the
 //! contact is open from there on. One with `c_j < 0`, on the other side, closes there.
 
-use super::system_field::{SystemField, dot, switches_of};
+use super::{
+    stops::Resting,
+    system_field::{SystemField, region::switches_of},
+};
+use crate::vectors::dot;
 
 /// What a shape or a level may differ from that of held stops, relative to its parts, and be the same but for
 /// rounding.
 const SAME: f64 = 1e-10;
-
-/// A contact whose penetration held stops keep at zero.
-#[derive(Debug, Clone)]
-pub(super) struct Resting {
-    pub(super) element: usize,
-    /// Switching function of the penetration.
-    penetration: usize,
-    /// Switching function of the pressure, and what that is at rest.
-    pressure: Option<(usize, f64)>,
-    /// Held stops that have a part in it, and its penetration by their displacements.
-    holders: Vec<(usize, f64)>,
-}
-
-impl Resting {
-    /// Its switching functions on the side on which it is, from what the stops press with.
-    pub(super) fn write(&self, pressing: &[f64], inside: &[bool], values: &mut [f64]) {
-        let least = self.holders.iter().map(|&(stop, _)| pressing[stop]).fold(f64::INFINITY, f64::min);
-        let on_its_side = |switch: usize| if inside[switch] { least } else { -least };
-        values[self.penetration] = on_its_side(self.penetration);
-        if let Some((switch, at_rest)) = self.pressure {
-            values[switch] = if at_rest > 0.0 { at_rest } else { on_its_side(switch) };
-        }
-    }
-
-    /// Whether it opens where that stop is left.
-    fn opens_with(&self, stop: usize) -> bool {
-        self.holders.iter().any(|&(holder, part)| holder == stop && part > 0.0)
-    }
-
-    fn open(&self, inside: &mut [bool]) {
-        inside[self.penetration] = false;
-        if let Some((switch, at_rest)) = self.pressure {
-            inside[switch] = at_rest > 0.0;
-        }
-    }
-}
 
 impl SystemField<'_> {
     /// Whether a contact of the element rests.

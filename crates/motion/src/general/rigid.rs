@@ -23,61 +23,15 @@ use faer::{Mat, linalg::solvers::Solve};
 
 use super::{
     Point, VectorField,
-    resting::Resting,
-    system_field::{SystemField, add_scaled, dot, switches_of},
+    stops::{AT_REST, Impact},
+    system_field::{SystemField, region::switches_of},
 };
+use crate::vectors::{add_scaled, dot};
 
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
-/// What a state at the start, or one that was held, may be off a stop, relative to the same.
-pub(super) const AT_START: f64 = 1e-10;
 /// What a state that leaves a stop may be beyond it, relative to the same: as far as orbits are compared.
 const LEAVING: f64 = 1e-9;
-/// Speed, relative to the usual one, below which it is rounding.
-pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
-
-/// What is known of the rigid stops of a system.
-#[derive(Debug, Clone, Default)]
-pub(super) struct RigidStops {
-    /// Element and switching function of each.
-    pub(super) stops: Vec<(usize, usize)>,
-    /// Elements that are held.
-    pub(super) held: Vec<usize>,
-    /// Contacts whose penetration these keep at zero.
-    pub(super) resting: Vec<Resting>,
-    /// Fastest impact so far [m/s].
-    fastest: f64,
-    /// Impacts since they were asked for last.
-    pub(super) impacts: Vec<Impact>,
-    /// Touches since then of contacts that close and open in one instant, of elements, with their speeds
-    /// [m/s].
-    pub(super) touches: Vec<(usize, f64)>,
-}
-
-/// An impact that happened.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Impact {
-    pub(super) element: usize,
-    pub(super) speed: f64,
-    pub(super) impulse: f64,
-    pub(super) sticks: bool,
-    /// How far the motion would have gone beyond the stop, as far as its acceleration then tells; infinite
-    /// where that pressed on [m].
-    pub(super) depth: f64,
-}
-
-impl RigidStops {
-    pub(super) fn of(system: &crate::System) -> Self {
-        let (mut first, mut stops) = (0, Vec::new());
-        for (e, element) in system.elements().iter().enumerate() {
-            if element.law.rigid().is_some() {
-                stops.push((e, first));
-            }
-            first += switches_of(element);
-        }
-        Self { stops, ..Self::default() }
-    }
-}
 
 impl SystemField<'_> {
     /// `D^-1 right` for the held elements.

@@ -11,9 +11,11 @@ use super::{
     dense::Dense,
     dip,
     stepper::Stepper,
-    switching::{SAMPLES, Verdict, fraction, minimum, zero},
+    zero::{minimum, zero},
 };
 
+/// Parts of a step between samples.
+const SAMPLES: usize = 16;
 /// Share of what a switching function goes through in a step within which its dense output does not tell a
 /// sign.
 const NEAR: f64 = 1e-2;
@@ -24,6 +26,28 @@ const NEARBY: f64 = 1.0 / 128.0;
 /// Places and weights of the difference of fourth order.
 const DIFFERENCES: [(f64, f64); 4] =
     [(-2.0, 1.0 / 12.0), (-1.0, -2.0 / 3.0), (1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)];
+
+/// What a step does about the boundaries of its region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Verdict {
+    /// It stays inside.
+    Clear,
+    /// It leaves first at this fraction of its length, through the zero of that switching function.
+    Crossing { fraction: f64, switch: usize },
+    /// It began on the boundary and is beyond it already at the first sample.
+    TooLong { switch: usize },
+}
+
+impl Verdict {
+    /// Of two switching functions.
+    pub(super) fn or_earlier(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::TooLong { .. }, _) | (_, Self::Clear) => self,
+            (Self::Crossing { fraction: a, .. }, Self::Crossing { fraction: b, .. }) if a <= b => self,
+            _ => other,
+        }
+    }
+}
 
 /// A step whose dense output is searched.
 pub(super) struct Search<'a, F> {
@@ -144,4 +168,8 @@ impl<F: VectorField> Search<'_, F> {
         let begin = [from, inside].into_iter().find(|&x| self.distance(switch, x) + error > 0.0);
         Err(begin.map(|begin| zero(&mut |x| self.distance(switch, x) + error, begin, lowest)))
     }
+}
+
+fn fraction(sample: usize) -> f64 {
+    sample as f64 / SAMPLES as f64
 }

@@ -15,9 +15,10 @@
 
 use super::{
     Point,
-    rigid::{AT_REST, AT_START, Impact},
-    system_field::{SystemField, add_scaled, dot, switches_of},
+    stops::{AT_REST, AT_START, Impact},
+    system_field::{SystemField, region::switches_of},
 };
+use crate::vectors::{add_scaled, dot};
 
 /// Force of an element, with its relative displacement and velocity; `None` where the law does not depend on
 /// that velocity, or does not press.

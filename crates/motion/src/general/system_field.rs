@@ -28,10 +28,14 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use region::force_in_region;
+use region::{force_in_region, switches_of};
 
-use super::{Point, rigid::RigidStops};
-use crate::{Law, LocalElement, ModalLoad, System, law::HoleForce};
+use super::{Point, stops::RigidStops};
+use crate::{
+    Law, LocalElement, ModalLoad, System,
+    law::HoleForce,
+    vectors::{add_scaled, dot},
+};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
@@ -259,13 +263,6 @@ impl<'a> SystemField<'a> {
     }
 }
 
-/// Switching functions of an element: its contacts, and the pressure of a law that has one, or the kink of
-/// its force, beside one contact.
-pub(super) fn switches_of(element: &LocalElement) -> usize {
-    let law = &element.law;
-    law.contacts().len() + usize::from(law.has_pressure()) + usize::from(law.has_kinks())
-}
-
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the
 /// supports move it; zero if there are none.
 fn shortest_length(system: &System, frequency_hz: f64) -> f64 {
@@ -339,23 +336,7 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
     }
 }
 
-#[inline]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (a, b) in a.iter().zip(b) {
-        sum += a * b;
-    }
-    sum
-}
-
 fn rotation_at(order: u32, phase: f64) -> c64 {
     let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
     c64::new(cos, sin)
-}
-
-#[inline]
-pub(super) fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
 }

@@ -6,9 +6,10 @@
 //! damper's own jump comes next, and with the one after it behind an impact.
 
 use super::{
-    rigid::AT_START,
-    system_field::{SystemField, add_scaled, dot, switches_of},
+    stops::AT_START,
+    system_field::{SystemField, region::switches_of},
 };
+use crate::vectors::{add_scaled, dot};
 
 impl SystemField<'_> {
     /// Held stops that an impact on an element would pull are let go.

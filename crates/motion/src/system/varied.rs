@@ -1,12 +1,127 @@
-//! What of a system varies with its parameters (`parameter.rs`): the scale of its load, parts of its damping,
-//! laws, and the families that it belongs to.
+//! A system with other values of its parameters ([`Parameter`]): of the scale of its load, of parts of its
+//! damping, of constants of its laws, and of the numbers over which it is one of a family.
+
+use std::sync::Arc;
 
 use faer::Mat;
 
-use super::System;
-use crate::{DampingPart, LocalElement, ParameterError, parameter::Kin};
+use super::{DampingPart, Family, Kin, Member, System};
+use crate::{Law, LawConstant, LocalElement, Parameter, ParameterError};
 
 impl System {
+    /// Value of a parameter.
+    ///
+    /// # Errors
+    /// That the system does not have it, see [`ParameterError`].
+    pub fn parameter(&self, parameter: Parameter) -> Result<f64, ParameterError> {
+        match parameter {
+            Parameter::ExcitationScale => Ok(self.excitation_scale()),
+            Parameter::AddedDamping { part } => {
+                let missing = ParameterError::NoDampingPart { part, count: self.added_damping().len() };
+                self.added_damping().get(part).copied().ok_or(missing)
+            }
+            Parameter::OfFamily { family } => Ok(self.family(family)?.value),
+            Parameter::OfLaw { element, both_sides, constant } => {
+                let value = self.law_constant(element, constant)?;
+                if both_sides && self.law_constant(element + 1, constant)? != value {
+                    let names = [element, element + 1].map(|side| self.elements()[side].name.clone());
+                    return Err(ParameterError::SidesDiffer { names });
+                }
+                Ok(value)
+            }
+        }
+    }
+
+    /// The system with another value of a parameter.
+    ///
+    /// # Errors
+    /// See [`ParameterError`].
+    pub fn with_parameter(mut self, parameter: Parameter, value: f64) -> Result<Self, ParameterError> {
+        self.set_parameter(parameter, value)?;
+        Ok(self)
+    }
+
+    /// Gives a parameter another value; on an error nothing changes.
+    ///
+    /// # Errors
+    /// See [`ParameterError`].
+    pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), ParameterError> {
+        match parameter {
+            Parameter::ExcitationScale => self.set_excitation_scale(value),
+            Parameter::AddedDamping { part } => {
+                self.parameter(parameter)?;
+                self.set_added_damping(part, value)
+            }
+            Parameter::OfFamily { family } => {
+                *self = self.member(family, value)?.system;
+                Ok(())
+            }
+            Parameter::OfLaw { element, both_sides, constant } => {
+                // Says whether there is such an element, and such a constant.
+                self.parameter(parameter)?;
+                let places = element..=element + usize::from(both_sides);
+                let laws = self.elements()[places.clone()].iter().map(|element| {
+                    let name = || element.name.clone();
+                    if constant == LawConstant::Damping && !(value.is_finite() && value > 0.0) {
+                        return Err(ParameterError::ContactDamping { name: name(), found: value });
+                    }
+                    let law = element.law.with_constant(constant, value);
+                    law.map_err(|source| ParameterError::Law { name: name(), source })
+                });
+                let laws = laws.collect::<Result<Vec<Law>, ParameterError>>()?;
+                let elements = self.elements[places].iter_mut();
+                elements.zip(laws).for_each(|(element, law)| element.law = law);
+                Ok(())
+            }
+        }
+    }
+
+    fn law_constant(&self, element: usize, constant: LawConstant) -> Result<f64, ParameterError> {
+        let element = self.element(element)?;
+        let varies = |value: &f64| constant != LawConstant::Damping || *value > 0.0;
+        let value = element.law.constant(constant).filter(varies);
+        value.ok_or_else(|| missing(element.name.clone(), constant))
+    }
+
+    fn element(&self, element: usize) -> Result<&LocalElement, ParameterError> {
+        let missing = ParameterError::NoElement { element, count: self.elements().len() };
+        self.elements().get(element).ok_or(missing)
+    }
+
+    /// Makes a number that the structure depends on a parameter, by the next number: [`Parameter::OfFamily`].
+    ///
+    /// * `value`: of this system, which must be the member there.
+    /// * `size`: change of the number that counts as large, for differences.
+    #[must_use]
+    pub fn with_family(mut self, family: Arc<dyn Family>, value: f64, size: f64) -> Self {
+        self.families.push(Kin { family, value, size });
+        self
+    }
+
+    /// The member of a family with a value; laws of elements that have been changed are so in it, too.
+    ///
+    /// # Errors
+    /// [`ParameterError::NoFamily`], [`ParameterError::NoMember`].
+    pub(crate) fn member(&self, family: usize, value: f64) -> Result<Member, ParameterError> {
+        let mut member = self.family(family)?.family.member(value).map_err(ParameterError::NoMember)?;
+        if !member.system.is_like(self) {
+            let message = format!("with {value} the modes or the contacts are others");
+            return Err(ParameterError::NoMember(message));
+        }
+        member.system.take_after(self);
+        member.system.families[family].value = value;
+        Ok(member)
+    }
+
+    /// The family of that number.
+    ///
+    /// # Errors
+    /// [`ParameterError::NoFamily`].
+    pub(crate) fn family(&self, family: usize) -> Result<&Kin, ParameterError> {
+        let missing = ParameterError::NoFamily { family, count: self.families.len() };
+        self.families.get(family).ok_or(missing)
+    }
+
     /// Factor of the harmonics of order 1 and above, see
     /// [`Parameter::ExcitationScale`](crate::Parameter::ExcitationScale).
     #[must_use]
@@ -49,16 +164,8 @@ impl System {
         &self.added_damping
     }
 
-    pub(crate) fn families(&self) -> &[Kin] {
-        &self.families
-    }
-
-    pub(crate) fn families_mut(&mut self) -> &mut Vec<Kin> {
-        &mut self.families
-    }
-
     /// Whether it has as many modes, and the same elements with as many contacts.
-    pub(crate) fn is_like(&self, other: &Self) -> bool {
+    fn is_like(&self, other: &Self) -> bool {
         let same = |(a, b): (&LocalElement, &LocalElement)| {
             a.name == b.name && a.law.contacts().len() == b.law.contacts().len()
         };
@@ -68,7 +175,7 @@ impl System {
     }
 
     /// Takes over the families of a relative, and its laws where they are not as given.
-    pub(crate) fn take_after(&mut self, other: &Self) {
+    fn take_after(&mut self, other: &Self) {
         self.families.clone_from(&other.families);
         let laws = other.elements.iter().zip(&other.given_laws);
         for (own, (theirs, given)) in self.elements.iter_mut().zip(laws) {
@@ -78,11 +185,7 @@ impl System {
         }
     }
 
-    pub(crate) fn elements_mut(&mut self) -> &mut [LocalElement] {
-        &mut self.elements
-    }
-
-    pub(crate) fn set_excitation_scale(&mut self, scale: f64) -> Result<(), ParameterError> {
+    fn set_excitation_scale(&mut self, scale: f64) -> Result<(), ParameterError> {
         if !(scale.is_finite() && scale > 0.0) {
             return Err(ParameterError::ExcitationScale { found: scale });
         }
@@ -97,7 +200,7 @@ impl System {
         Ok(())
     }
 
-    pub(crate) fn set_added_damping(&mut self, part: usize, value: f64) -> Result<(), ParameterError> {
+    fn set_added_damping(&mut self, part: usize, value: f64) -> Result<(), ParameterError> {
         let n = self.dof();
         let added: Vec<f64> = (0..self.added_damping.len())
             .map(|other| if other == part { value } else { self.added_damping[other] })
@@ -117,5 +220,16 @@ impl System {
         self.model.damping = damping;
         self.added_damping = added;
         Ok(())
+    }
+}
+
+/// What is said of an element without a constant.
+fn missing(name: String, constant: LawConstant) -> ParameterError {
+    match constant {
+        LawConstant::Gap => ParameterError::NoGap { name },
+        LawConstant::Stiffness => ParameterError::NoStiffness { name },
+        LawConstant::Restitution => ParameterError::NoRestitution { name },
+        LawConstant::Damping => ParameterError::NoContactDamping { name },
+        LawConstant::Further(_) => ParameterError::NoConstant { name },
     }
 }

@@ -134,8 +134,8 @@ impl<'a> TouchEquations<'a> {
     }
 
     /// How many hertz of arc length a change of the orbit by its own size counts.
-    pub fn hertz_per_norm(&self) -> f64 {
-        self.problem.hertz_per_norm()
+    pub fn length_per_norm(&self) -> f64 {
+        self.problem.length_per_norm()
     }
 
     pub(super) fn size(&self) -> usize {
@@ -216,7 +216,7 @@ impl<'a> TouchEquations<'a> {
 
     /// Largest change of a state, a phase and the last unknown, relative to the orbit.
     fn length(&self, correction: &[f64]) -> f64 {
-        let last = correction[correction.len() - 1].abs() / self.problem.hertz_per_norm();
+        let last = correction[correction.len() - 1].abs() / self.problem.length_per_norm();
         correction[..correction.len() - 1].iter().fold(last, |most, change| most.max(change.abs()))
     }
 

@@ -185,7 +185,7 @@ impl Search {
         let (faster, farther) =
             if equations.elements.len() > 1 { (AT_ONCE_FASTER, AT_ONCE_FARTHER) } else { (1.0, 1.0) };
         let (slow, near) = (faster * self.slow, farther * NEAR);
-        let hertz_per_norm = equations.hertz_per_norm();
+        let length_per_norm = equations.length_per_norm();
         let mut point = |speed: f64| {
             let beside = Beside::WithImpact { speed };
             let solution = equations.solve(unknowns, beside, f64::INFINITY)?;
@@ -194,7 +194,7 @@ impl Search {
         // A touch near by may not leave room for the first.
         let slower = |share: f64| (share * slow).max(SLOWEST);
         let (speed, first) = SLOWER.into_iter().map(slower).find_map(|speed| Some((speed, point(speed)?)))?;
-        let far = relative_distance(&first, corner, hertz_per_norm);
+        let far = relative_distance(&first, corner, length_per_norm);
         let slow = (speed * (near / far).min(1.0)).max(SLOWEST);
         let mut with_farther = |speed: f64| {
             let nearer = point(speed)?;
@@ -239,10 +239,10 @@ fn impacts_behind(slow: &[Touch], all: &[Touch], cycles: f64) -> Vec<Touch> {
 }
 
 /// How far two points of the path with one node are apart, relative to the orbit.
-fn relative_distance(a: &[f64], b: &[f64], hertz_per_norm: f64) -> f64 {
+fn relative_distance(a: &[f64], b: &[f64], length_per_norm: f64) -> f64 {
     let last = a.len() - 1;
     let squares: f64 = a[..last].iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-    squares.sqrt().hypot((a[last] - b[last]) / hertz_per_norm)
+    squares.sqrt().hypot((a[last] - b[last]) / length_per_norm)
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ impl Approach {
     ///
     /// * `problem`, `due`: at the event, and the norm of the correction that is still due there.
     pub fn over(chord: f64, test: Option<TestValue>, (problem, due): (&ShootingProblem, f64)) -> Self {
-        let unit = problem.hertz_per_norm();
+        let unit = problem.length_per_norm();
         let errors = [problem.motion_tolerance(), due / unit];
         Self { chord, bend: 0.0, before: None, near: None, test, errors, unit }
     }

@@ -27,7 +27,7 @@ const MOST_MAGNIFIED: f64 = 1e3;
 impl Judge for ShootingProblem {
     /// The first node stays, however the orbit is cut.
     fn memory_weights(&self) -> Option<Vec<f64>> {
-        let weight = self.hertz_per_norm() * self.hertz_per_norm();
+        let weight = self.length_per_norm() * self.length_per_norm();
         Some(std::iter::repeat_n(weight, self.node_size()).chain([1.0]).collect())
     }
 
@@ -87,7 +87,7 @@ impl Judge for ShootingProblem {
         reach: f64,
         lies_ahead: &dyn Fn(&[f64]) -> bool,
     ) -> Option<RootCorner> {
-        let reach = reach / self.hertz_per_norm();
+        let reach = reach / self.length_per_norm();
         corner::grazing_near(self, point, reach, lies_ahead)
     }
 
@@ -127,7 +127,7 @@ impl ShootingProblem {
     /// Notes whether the orbits to be followed are asymmetric ones that may meet symmetric ones, by the one
     /// at this point. In doubt they are not: then nothing is known of what they meet.
     pub(crate) fn note_symmetry(&mut self, point: &[f64]) {
-        let symmetric = SYMMETRIC * self.hertz_per_norm();
+        let symmetric = SYMMETRIC * self.length_per_norm();
         let is_asymmetric = self.has_symmetric_orbits()
             && (symmetric..f64::INFINITY).contains(&self.distance_to_symmetric(point));
         self.set_asymmetric(is_asymmetric);
@@ -149,7 +149,7 @@ impl ShootingProblem {
         let states = &point[..self.unknowns()];
         let later = states.iter().cycle().skip(nodes * self.node_size());
         let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - sign * b) * (a - sign * b)).sum();
-        self.hertz_per_norm() * (squares / self.segments() as f64).sqrt()
+        self.length_per_norm() * (squares / self.segments() as f64).sqrt()
     }
 
     /// Distance of a point from simpler orbits by its motion; infinite where that cannot be computed.
@@ -165,7 +165,7 @@ impl ShootingProblem {
         };
         let distance = beside.distance(begin, from);
         self.beside = Some(beside);
-        self.hertz_per_norm * distance
+        self.length_per_norm * distance
     }
 
     /// The motions beside; whoever takes them puts them back.

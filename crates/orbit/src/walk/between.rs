@@ -236,7 +236,7 @@ mod tests {
     #[test]
     fn an_event_of_which_only_the_numbers_tell_is_found() {
         let (system, response) = bilinear();
-        let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
         let start = find_start(&system, &response, 0.6, 1, &settings).unwrap();
         let mut walk =
             BranchWalk::new(&system, &response, &start, Side::Down, (0.2, 0.6), &settings).unwrap();

@@ -51,13 +51,13 @@ impl Effort {
         self.spent = self.operations(counted);
         self.counted = counted;
         let arc_length = path.current().arc_length;
-        let (low, high) = path.range_hz;
+        let (low, high) = path.range;
         if (arc_length - self.mark.1).abs() >= PROGRESS * (high - low) {
             self.mark = (self.spent, arc_length);
         }
         let gets_on = self.spent - self.mark.0 <= MOST / PARTS;
         (!gets_on || self.spent > MOST).then(|| StopReason::TooMuchWork {
-            frequency_hz: path.parameter(),
+            place: path.parameter(),
             solutions: path.follower.counters().accepted,
             gets_on,
         })
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn work_is_counted_from_the_start_and_grows_with_every_step() {
-        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 0.001, ..OrbitSettings::default() };
         let mut walk = walk(&settings);
         let before = walk.operations();
         assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);
@@ -99,13 +99,13 @@ mod tests {
 
     #[test]
     fn a_side_ends_when_its_work_is_used_up() {
-        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 0.001, ..OrbitSettings::default() };
         let mut walk = walk(&settings);
         walk.effort.spent = MOST;
         walk.effort.mark.0 = MOST;
         let end = walk.step(&mut Vec::new()).unwrap();
         let at = walk.path.parameter();
-        let wanted = StopReason::TooMuchWork { frequency_hz: at, solutions: 5, gets_on: true };
+        let wanted = StopReason::TooMuchWork { place: at, solutions: 5, gets_on: true };
         assert_eq!(end, Some(wanted));
     }
 
@@ -114,7 +114,7 @@ mod tests {
     fn a_side_ends_where_a_part_of_its_work_does_not_move_it() {
         for (step, ends) in [(1e-6, true), (1e-3, false)] {
             let settings =
-                OrbitSettings { max_step_hz: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
+                OrbitSettings { max_step: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
             let mut walk = walk(&settings);
             let before = walk.operations();
             assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);

@@ -22,12 +22,12 @@ const HARDLY_FOLLOWED: f64 = 1e5;
 pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason {
     match reason {
         PathStop::StepTooShort { parameter, .. } if is_near_shorter_period(path) => {
-            StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }
+            StopReason::ShorterPeriod { place: parameter, grazes: false }
         }
         PathStop::StepTooShort { parameter, .. } | PathStop::RunsBack { parameter, .. }
             if has_come_to_symmetric(path) =>
         {
-            StopReason::Symmetric { frequency_hz: parameter }
+            StopReason::Symmetric { place: parameter }
         }
         reason => {
             let reason = stop_reason(path, reason);
@@ -39,55 +39,55 @@ pub(super) fn end_of_path(path: &mut OrbitPath, reason: PathStop) -> StopReason 
 /// What happens to the motion where a walk gets no further.
 fn in_words_of_mechanics(path: &mut OrbitPath, reason: &StopReason) -> Option<StopReason> {
     let gets_no_further = matches!(reason, StopReason::StepTooShort { .. } | StopReason::RunsBack { .. });
-    let frequency_hz = reason.place().filter(|_| gets_no_further)?;
-    if let Some(reason) = end_at_impacts(path, frequency_hz) {
+    let place = reason.place().filter(|_| gets_no_further)?;
+    if let Some(reason) = end_at_impacts(path, place) {
         return Some(reason);
     }
     let mode = free_mode(path);
     let has_no_bound = mode.is_some() || has_no_losses(path.problem.system()) && is_far_beyond_gaps(path);
-    has_no_bound.then(|| end_at_mode(path, frequency_hz, mode))
+    has_no_bound.then(|| end_at_mode(path, place, mode))
 }
 
 /// What the impacts of the last motion have to do with it.
-fn end_at_impacts(path: &mut OrbitPath, frequency_hz: f64) -> Option<StopReason> {
+fn end_at_impacts(path: &mut OrbitPath, place: f64) -> Option<StopReason> {
     if !path.problem.system().has_rigid_stops() {
         return None;
     }
     let motion = LastMotion::of(path)?;
     let system = path.problem.system();
     if let Some((elements, phase)) = struck_together(system, &motion) {
-        return Some(StopReason::ImpactsTogether { frequency_hz, elements, phase });
+        return Some(StopReason::ImpactsTogether { place, elements, phase });
     }
     let (element, impacts) = chatters(system, &motion)?;
-    Some(StopReason::Chatter { frequency_hz, element, impacts })
+    Some(StopReason::Chatter { place, element, impacts })
 }
 
 /// The reason of a path, in terms of orbits.
 pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason {
-    let frequency_hz = path.parameter();
+    let place = path.parameter();
     let has_no_losses = has_no_losses(path.problem.system());
     match reason {
-        PathStop::RangeEnd => StopReason::RangeEnd { frequency_hz },
+        PathStop::RangeEnd => StopReason::RangeEnd { place },
         PathStop::Closed => StopReason::Closed,
-        PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, frequency_hz)
+        PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, place)
             .unwrap_or_else(|| {
                 let doubt = doubt_in_unstable(path, doubt.to_string());
-                StopReason::StepTooShort { frequency_hz, step, residual, doubt, has_no_losses }
+                StopReason::StepTooShort { place, step, residual, doubt, has_no_losses }
             }),
         PathStop::NoProgress { steps, .. } => {
-            splits_here(path, frequency_hz).unwrap_or_else(|| StopReason::NoProgress {
-                frequency_hz,
+            splits_here(path, place).unwrap_or_else(|| StopReason::NoProgress {
+                place,
                 solutions: steps,
                 largest_multiplier: largest_multiplier(path),
                 has_no_losses,
             })
         }
         PathStop::RunsBack { parameter, met_arc_length } => {
-            StopReason::RunsBack { frequency_hz: parameter, met_arc_length, has_no_losses }
+            StopReason::RunsBack { place: parameter, met_arc_length, has_no_losses }
         }
         PathStop::EvaluationFailed { parameter, error, .. } => {
             let message = path.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
-            splits_here(path, frequency_hz).unwrap_or(StopReason::Motion { frequency_hz: parameter, message })
+            splits_here(path, place).unwrap_or(StopReason::Motion { place: parameter, message })
         }
         PathStop::Budget => StopReason::Budget { solutions: path.follower.counters().accepted as usize },
     }

@@ -70,7 +70,7 @@ impl Growth {
     /// * `touches`: of each contact at the row before.
     pub fn end_of(&mut self, path: &mut OrbitPath, size: f64, touches: &[u32]) -> Option<StopReason> {
         let parameter = path.parameter();
-        let (low, high) = path.range_hz;
+        let (low, high) = path.range;
         let of_itself = STILL * path.problem.parameter_size(&path.current().point);
         let still = of_itself.min(OF_RANGE * (high - low));
         let growth = self.note(size, parameter, still);
@@ -86,12 +86,12 @@ impl Growth {
 }
 
 /// Why a walk ends where the amplitude may be any: a mode that vibrates freely there, unless it is driven.
-pub(super) fn end_at_mode(path: &OrbitPath, frequency_hz: f64, mode: Option<ResonantMode>) -> StopReason {
+pub(super) fn end_at_mode(path: &OrbitPath, place: f64, mode: Option<ResonantMode>) -> StopReason {
     let driving_hz = path.problem.frequency(&path.follower.current().point);
     let is_driven = || free_vibration::resonance(path.problem.system(), driving_hz).is_some();
     match mode {
-        Some(mode) if !is_driven() => StopReason::FreeVibration { frequency_hz, mode },
-        mode => StopReason::Unbounded { frequency_hz, mode },
+        Some(mode) if !is_driven() => StopReason::FreeVibration { place, mode },
+        mode => StopReason::Unbounded { place, mode },
     }
 }
 

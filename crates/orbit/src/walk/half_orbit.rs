@@ -70,9 +70,9 @@ pub(super) fn end_in_flip(
         Ok(None) | Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(end),
         Err(error) => return Err(error),
     };
-    let frequency_hz = row.parameter.unwrap_or(row.solution.frequency_hz);
+    let place = row.parameter.unwrap_or(row.solution.frequency_hz);
     rows.push(row);
-    Ok(StopReason::ShorterPeriod { frequency_hz, grazes })
+    Ok(StopReason::ShorterPeriod { place, grazes })
 }
 
 /// Whether the branch of half the period flips nearby, but farther from the present orbit than this part of
@@ -139,7 +139,7 @@ fn nearest_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<Fl
 
 /// The orbit of half the period beside the present one; `None` where its periods cannot be halved.
 fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
-    let least = PART * path.settings.max_step_hz;
+    let least = PART * path.settings.max_step;
     let (present, problem) = (&path.follower.current().point, &mut path.problem);
     let (multiple, segments) = (problem.period_multiple(), problem.segments());
     if !multiple.is_multiple_of(2) {
@@ -153,7 +153,7 @@ fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
         nodes = nodes_from(problem.integrator(), begin, frequency_hz, multiple, 2)?;
     }
     let later = nodes.split_off(nodes.len() / 2);
-    let (scale, length) = (problem.scale().clone(), problem.hertz_per_norm());
+    let (scale, length) = (problem.scale().clone(), problem.length_per_norm());
     let squares: f64 = nodes.iter().zip(&later).map(|(a, b)| scale.distance(a, b).powi(2)).sum();
     let apart = length * (squares / nodes.len() as f64).sqrt();
     for (node, later) in nodes.iter_mut().zip(&later) {
@@ -176,9 +176,9 @@ fn flip_ahead(
     direction: StartDirection<'_>,
     evaluations: &mut u64,
 ) -> Option<Flip> {
-    let settings = OrbitSettings { max_step_hz: 0.25 * *reach, ..path.settings };
-    let settings = path_settings(&settings, problem.system(), problem.hertz_per_norm());
-    let range = ParameterRange::new(path.range_hz.0, path.range_hz.1).ok()?;
+    let settings = OrbitSettings { max_step: 0.25 * *reach, ..path.settings };
+    let settings = path_settings(&settings, problem.system(), problem.length_per_norm());
+    let range = ParameterRange::new(path.range.0, path.range.1).ok()?;
     let mut follower = Follower::start(problem, mean, direction, range, settings).ok()?;
     for _ in 0..STEPS_TO_FLIP {
         if distance(problem.weights(), &follower.current().point, mean) > *reach {
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn the_flip_is_found_from_the_branch_that_leaves_there() {
         for segments in [Segments::Automatic, Segments::Fixed(3)] {
-            let settings = OrbitSettings { max_step_hz: 0.001, segments, ..OrbitSettings::default() };
+            let settings = OrbitSettings { max_step: 0.001, segments, ..OrbitSettings::default() };
             let subject = bilinear();
             let flip = flip(&subject, &settings);
             let (system, response) = &subject;
@@ -274,7 +274,7 @@ mod tests {
     /// An orbit run through twice alternates nowhere; where it flips far away there is no end.
     #[test]
     fn a_flip_far_away_is_none() {
-        let settings = OrbitSettings { max_step_hz: 0.001, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 0.001, ..OrbitSettings::default() };
         let (system, response) = bilinear();
         let orbit = find_start(&system, &response, 0.3, 1, &settings).unwrap();
         let twice = Crossing { orbit, direction: Vec::new(), factor: 2 };

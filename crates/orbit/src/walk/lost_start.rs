@@ -58,8 +58,8 @@ fn orbit_at(
     let mut there = along_tangent(from, length);
     *there.point.last_mut()? = at;
     there.events = PathEvents::default();
-    // The problem measures corrections in hertz of arc length.
-    let tolerance = path.settings.tolerance * path.problem.hertz_per_norm();
+    // The problem measures corrections in arc length.
+    let tolerance = path.settings.tolerance * path.problem.length_per_norm();
     let settings = OrbitSettings { tolerance, ..path.settings };
     there.correction_norm = correct(&mut path.problem, &mut there.point, &settings).ok()?;
     Some(there)

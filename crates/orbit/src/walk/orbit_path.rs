@@ -3,7 +3,7 @@
 use hammerbeam_motion::exact::{ExactIntegrator, MotionError};
 use hammerbeam_path::{ContinuationPoint, Follower, Settings};
 
-use super::settings::{hertz_per_norm, path_settings};
+use super::settings::{length_per_norm, path_settings};
 use crate::{OrbitError, OrbitSettings, shooting::ShootingProblem, size::Cut, state_scale::StateScale};
 
 /// The start is brought back within so many longest steps of its frequency.
@@ -15,7 +15,7 @@ pub(crate) struct OrbitPath {
     pub problem: ShootingProblem,
     pub follower: Follower,
     pub settings: OrbitSettings,
-    pub range_hz: (f64, f64),
+    pub range: (f64, f64),
     /// Accepted points since the journal was taken last.
     pub journal: Vec<ContinuationPoint>,
     /// The start as it was, once the phase at which orbits start has moved.
@@ -38,11 +38,11 @@ impl OrbitPath {
     pub fn new(
         problem: ShootingProblem,
         follower: Follower,
-        (settings, range_hz): (&OrbitSettings, (f64, f64)),
+        (settings, range): (&OrbitSettings, (f64, f64)),
     ) -> Self {
         let journal = vec![follower.current().clone()];
         let (settings, origin, measures_anew) = (*settings, None, false);
-        Self { problem, follower, settings, range_hz, journal, origin, measures_anew }
+        Self { problem, follower, settings, range, journal, origin, measures_anew }
     }
 
     /// The present point.
@@ -56,13 +56,13 @@ impl OrbitPath {
     }
 
     /// How many hertz of arc length a change of the orbit by its own size counts.
-    pub fn hertz_per_norm(&self) -> f64 {
-        hertz_per_norm(self.range_hz)
+    pub fn length_per_norm(&self) -> f64 {
+        length_per_norm(self.range)
     }
 
     /// Settings with which points between others are solved for.
     pub fn settings_between(&self) -> Settings {
-        path_settings(&self.settings, self.problem.system(), self.hertz_per_norm())
+        path_settings(&self.settings, self.problem.system(), self.length_per_norm())
     }
 
     /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
@@ -92,7 +92,7 @@ impl OrbitPath {
 
     /// Whether the start has been lost to another phase, and the present point is near it.
     pub fn is_near_lost_start(&self) -> bool {
-        let near = STEPS_TO_START * self.settings.max_step_hz;
+        let near = STEPS_TO_START * self.settings.max_step;
         let lost = self.origin.as_ref().filter(|_| !self.follower.state().has_start());
         lost.is_some_and(|origin| (origin.point.parameter() - self.parameter()).abs() < near)
     }

@@ -60,7 +60,7 @@ mod tests {
     /// up again after `stored` steps.
     fn walk(cuts: &[usize], stored: usize) -> (Vec<BranchRow>, StopReason, usize) {
         let (system, response) = duffing();
-        let settings = OrbitSettings { max_step_hz: 0.005, ..OrbitSettings::default() };
+        let settings = OrbitSettings { max_step: 0.005, ..OrbitSettings::default() };
         let start = find_start(&system, &response, 0.7, 3, &settings).unwrap();
         let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, &settings).unwrap();
         let (mut rows, mut journal) = (vec![walk.start_row().unwrap()], Vec::new());

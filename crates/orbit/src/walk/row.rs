@@ -91,8 +91,8 @@ impl RowRecord {
 
 /// The row of a point of the path at which the problem was evaluated last.
 pub(super) fn row_at(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<BranchRow, OrbitError> {
-    // The path measures in hertz, the solution relative to the orbit.
-    let error_estimate = point.correction_norm / path.hertz_per_norm();
+    // The path measures in arc length, the solution relative to the orbit.
+    let error_estimate = point.correction_norm / path.length_per_norm();
     let solution = solution(&mut path.problem, &point.point, error_estimate)?;
     let events = Events {
         // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no

@@ -32,20 +32,20 @@ const PARAMETER: f64 = 0.1;
 const SHORT_BESIDE_IMPACTS: f64 = 10.0;
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
-pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
+pub(crate) fn length_per_norm((low, high): (f64, f64)) -> f64 {
     (high - low) / 100.0
 }
 
-/// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
+/// Settings of the path from those of the orbits; `length` is [`length_per_norm`].
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
     let short = if begins_with_care(system) { SHORT_BESIDE_IMPACTS } else { 1.0 };
     let (shortest, wanted) =
         if system.has_rigid_stops() { (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS) } else { (1.0, RESIDUAL) };
     Settings {
-        initial_step: 0.1 * settings.max_step_hz,
-        max_parameter_step: settings.max_step_hz,
-        max_step_length: 2.0 * settings.max_step_hz,
+        initial_step: 0.1 * settings.max_step,
+        max_parameter_step: settings.max_step,
+        max_step_length: 2.0 * settings.max_step,
         min_step: shortest * default.min_step * length,
         short_step: short * default.short_step * length,
         correction_tolerance: settings.tolerance * length,

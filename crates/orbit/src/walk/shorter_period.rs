@@ -40,11 +40,11 @@ const LITTLE: f64 = 0.02;
 /// changed and left an orbit of shorter period, as where the impacts of an orbit that touches a rigid
 /// stop in every second period vanish.
 pub(super) fn meets_shorter_period(path: &mut OrbitPath) -> Option<StopReason> {
-    let frequency_hz = path.parameter();
+    let place = path.parameter();
     let flips = path.follower.current().events.branch_point && is_near_shorter_period(path);
     let tends = !flips && tends_to_shorter_period(path) && !flips_elsewhere(path, FARTHEST);
     let grazes = !flips && (tends && grazes_if_it_tends(path) || grazes_shorter_period(path));
-    (flips || tends || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
+    (flips || tends || grazes).then_some(StopReason::ShorterPeriod { place, grazes })
 }
 
 /// Whether the contacts have just changed and left an orbit of shorter period.
@@ -64,7 +64,7 @@ fn grazes_if_it_tends(path: &mut OrbitPath) -> bool {
 fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
     let doubles = path.problem.period_multiple().is_multiple_of(2);
     let (near, still) = if doubles { (NO_PROGRESS_NEAR, STILL) } else { (NO_PROGRESS_AT, STILL_AT) };
-    let near = near * path.hertz_per_norm();
+    let near = near * path.length_per_norm();
     let OrbitPath { problem, follower, .. } = path;
     let history = &follower.state().history;
     let nodes = &history.nodes[..history.used];
@@ -73,7 +73,7 @@ fn tends_to_shorter_period(path: &mut OrbitPath) -> bool {
     }
     let left: Vec<f64> = nodes.iter().map(|node| problem.distance_to_shorter_period(&node.point)).collect();
     let approaches = left.len() > 2 && left.windows(2).all(|pair| pair[0] < pair[1]);
-    if problem.has_root_corners() && approaches && left[0] < ARRIVED * problem.hertz_per_norm() {
+    if problem.has_root_corners() && approaches && left[0] < ARRIVED * problem.length_per_norm() {
         return true;
     }
     let is_still = |(node, left): (&Node, &f64)| {
@@ -98,7 +98,7 @@ fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
         return by_motion < SAME;
     }
     let OrbitPath { problem, follower, .. } = path;
-    problem.distance_to_shorter_period(&follower.current().point) < SAME * problem.hertz_per_norm()
+    problem.distance_to_shorter_period(&follower.current().point) < SAME * problem.length_per_norm()
 }
 
 /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period

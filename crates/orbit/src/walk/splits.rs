@@ -221,9 +221,9 @@ fn passes_splitting(
 
 /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just
 /// begun to.
-pub(super) fn splits_here(path: &mut OrbitPath, frequency_hz: f64) -> Option<StopReason> {
+pub(super) fn splits_here(path: &mut OrbitPath, place: f64) -> Option<StopReason> {
     let present = may_split(path)?;
-    splitting_of(path, &present).map(|splitting| splits_at(frequency_hz, splitting))
+    splitting_of(path, &present).map(|splitting| splits_at(place, splitting))
 }
 
 /// Where the present orbit begins, if a contact of it may split.
@@ -257,6 +257,6 @@ fn move_to_orbit(path: &mut OrbitPath, orbit: &Departed) -> Option<(f64, f64)> {
 }
 
 /// Why a walk ends whose last orbit has this frequency.
-fn splits_at(frequency_hz: f64, Splitting { element, phase }: Splitting) -> StopReason {
-    StopReason::ContactReopens { frequency_hz, element, phase }
+fn splits_at(place: f64, Splitting { element, phase }: Splitting) -> StopReason {
+    StopReason::ContactReopens { place, element, phase }
 }

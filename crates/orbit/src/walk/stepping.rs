@@ -76,8 +76,8 @@ impl BranchWalk {
         let (at_corner, row) = match record.rows_here(path) {
             Ok(rows) => rows,
             Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
-                let frequency_hz = path.parameter();
-                return Ok(Some(StopReason::Motion { frequency_hz, message: error.to_string() }));
+                let place = path.parameter();
+                return Ok(Some(StopReason::Motion { place, message: error.to_string() }));
             }
             Err(error) => return Err(error),
         };
@@ -86,9 +86,9 @@ impl BranchWalk {
             return Ok(Some(splits));
         }
         if let Some(at_corner) = at_corner.as_ref().filter(|_| grazes_shorter_period(path)) {
-            let frequency_hz = at_corner.parameter.unwrap_or(at_corner.solution.frequency_hz);
+            let place = at_corner.parameter.unwrap_or(at_corner.solution.frequency_hz);
             rows.push(at_corner.clone());
-            return Ok(Some(StopReason::ShorterPeriod { frequency_hz, grazes: true }));
+            return Ok(Some(StopReason::ShorterPeriod { place, grazes: true }));
         }
         path.note_in_journal();
         match at_corner {

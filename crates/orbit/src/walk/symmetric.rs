@@ -14,7 +14,7 @@ const ARRIVED: f64 = 1e-6;
 
 /// Whether the last orbits of a walk came ever nearer to symmetric ones, up to [`ARRIVED`].
 pub(super) fn has_come_to_symmetric(path: &mut OrbitPath) -> bool {
-    let arrived = ARRIVED * path.hertz_per_norm();
+    let arrived = ARRIVED * path.length_per_norm();
     let OrbitPath { problem, follower, .. } = path;
     if !problem.is_asymmetric() || problem.move_to(&follower.current().point).is_err() {
         return false;

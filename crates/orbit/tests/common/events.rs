@@ -22,8 +22,8 @@ pub fn oscillator_driven_at(phase: f64, stiffness: f64, damper: f64, force: f64,
     systems::oscillator(stiffness, damper, (force, phase), law)
 }
 
-pub fn step_of(max_step_hz: f64) -> OrbitSettings {
-    OrbitSettings { max_step_hz, ..OrbitSettings::default() }
+pub fn step_of(max_step: f64) -> OrbitSettings {
+    OrbitSettings { max_step, ..OrbitSettings::default() }
 }
 
 /// One side of a branch with its start, and why it ended.

@@ -120,7 +120,7 @@ const PARAMETER_EVENTS: [TableColumn; 16] = [
 const ENDS: [TableColumn; 8] =
     [C::Branch, C::PeriodMultiple, C::Side, C::End, C::Frequency, C::Message, C::Phase, C::State];
 
-const PARAMETER_ENDS: [TableColumn; 10] = [
+const PARAMETER_ENDS: [TableColumn; 11] = [
     C::Piece,
     C::Branch,
     C::PeriodMultiple,
@@ -131,6 +131,7 @@ const PARAMETER_ENDS: [TableColumn; 10] = [
     C::Message,
     C::Phase,
     C::State,
+    C::End,
 ];
 
 const STATES: [TableColumn; 7] =

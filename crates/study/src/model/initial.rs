@@ -153,7 +153,7 @@ mod tests {
         let state = model.state_of_points(1.5, &starts).unwrap();
         let motion = |name: &str| {
             let point = model.system.model().point(name).unwrap();
-            model.system.point_motion(1.5, &point.shape, &point.support_ratios).at(0.0, &state, &[])
+            PointMotion::of(&model.system, 1.5, &point.shape, &point.support_ratios).at(0.0, &state, &[])
         };
         for (name, expected) in [("a", [1e-3, -0.3]), ("b", [0.02, 0.0])] {
             for (found, expected) in motion(name).into_iter().zip(expected) {

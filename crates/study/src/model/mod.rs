@@ -155,7 +155,7 @@ impl Model {
     /// then.
     #[must_use]
     pub fn response_motion(&self, frequency_hz: f64) -> PointMotion {
-        self.system.point_motion(frequency_hz, &self.response.shape, &self.response.support_ratios)
+        PointMotion::of(&self.system, frequency_hz, &self.response.shape, &self.response.support_ratios)
     }
 
     /// The directions in which the structure can drift; none for one that springs hold.

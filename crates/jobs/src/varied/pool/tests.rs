@@ -94,7 +94,7 @@ impl Walk for FakeWalk {
         });
         self.number += 1;
         let is_end = self.number > ROWS;
-        Ok(is_end.then(|| StopReason::RangeEnd { frequency_hz: value }.into()))
+        Ok(is_end.then(|| StopReason::RangeEnd { place: value }.into()))
     }
 
     fn checkpoint(&self) -> Option<Vec<u8>> {

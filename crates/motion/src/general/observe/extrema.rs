@@ -2,9 +2,9 @@
 
 use super::{Observer, Output, Watched};
 use crate::general::{
-    switching::{minimum, zero},
     system_field::SystemField,
     watch::{Accepted, Place},
+    zero::{minimum, zero},
 };
 
 const SAMPLES: usize = 8;

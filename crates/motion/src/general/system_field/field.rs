@@ -2,8 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::{SystemField, add_scaled, dot, linear_rates, region::kink_of};
-use crate::general::{Column, Point, VectorField};
+use super::{SystemField, linear_rates, region::kink_of};
+use crate::{
+    general::{Column, Point, VectorField},
+    vectors::{add_scaled, dot},
+};
 
 impl VectorField for SystemField<'_> {
     fn dimension(&self) -> usize {

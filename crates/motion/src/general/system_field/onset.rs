@@ -2,8 +2,11 @@
 
 use std::{f64::consts::TAU, ops::Range};
 
-use super::{SystemField, add_scaled, dot, switches_of};
-use crate::general::{GeneralError, Point, VectorField};
+use super::{SystemField, region::switches_of};
+use crate::{
+    general::{GeneralError, Point, VectorField},
+    vectors::{add_scaled, dot},
+};
 
 impl SystemField<'_> {
     /// A stretch cannot start in a contact whose law needs to know how it began.

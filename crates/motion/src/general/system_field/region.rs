@@ -1,6 +1,13 @@
 //! Forces of an element in a region where its contacts are held closed or open.
 
-use crate::{Contact, Force, Law};
+use crate::{Contact, Force, Law, LocalElement};
+
+/// Switching functions of an element: its contacts, and the pressure of a law that has one, or the kink of
+/// its force, beside one contact.
+pub(in crate::general) fn switches_of(element: &LocalElement) -> usize {
+    let law = &element.law;
+    law.contacts().len() + usize::from(law.has_pressure()) + usize::from(law.has_kinks())
+}
 
 /// Force of an element whose contacts are held closed or open.
 pub(in crate::general) fn force_in_region(law: &Law, (r, speed): (f64, f64), inside: &[bool]) -> Force {

@@ -4,8 +4,6 @@ use std::{fmt::Debug, str::FromStr};
 
 use exmex::{BinOp, MakeOperators, MatchLiteral, Operator};
 
-use super::notation::number_at;
-
 /// Sign that stands for the minus in front of a term, behind a zero: `0~x^2` is `-(x^2)`.
 pub(super) const NEGATIVE: &str = "~";
 
@@ -106,4 +104,20 @@ impl MatchLiteral for Literals {
     fn is_literal(text: &str) -> Option<&str> {
         number_at(text)
     }
+}
+
+/// The number with which a text starts, if it starts with one.
+pub(super) fn number_at(text: &str) -> Option<&str> {
+    let bytes = text.as_bytes();
+    let is = |place: usize, signs: &[u8]| bytes.get(place).is_some_and(|byte| signs.contains(byte));
+    let digits = |from: usize| bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
+    let whole = digits(0);
+    let parts = if is(whole, b".") { digits(whole + 1) } else { 0 };
+    if whole + parts == 0 {
+        return None;
+    }
+    let mantissa = whole + parts + usize::from(is(whole, b"."));
+    let power = mantissa + 1 + usize::from(is(mantissa + 1, b"+-"));
+    let has_power = is(mantissa, b"eE") && digits(power) > 0;
+    Some(&text[..if has_power { power + digits(power) } else { mantissa }])
 }

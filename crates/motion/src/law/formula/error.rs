@@ -1,6 +1,9 @@
 //! What can be wrong with a formula.
 
-use super::notation::{DEEPEST, LONGEST};
+/// Most characters of a formula.
+pub const LONGEST: usize = 1000;
+/// Most parentheses within one another.
+pub const DEEPEST: usize = 50;
 
 /// Why a text is no formula of a force. Places count characters from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -34,8 +34,8 @@ use super::{
 };
 
 pub use arithmetic::Function;
-pub use error::FormulaError;
-pub use notation::{CONSTANTS, DEEPEST, LONGEST, VARIABLES};
+pub use error::{DEEPEST, FormulaError, LONGEST};
+pub use notation::{CONSTANTS, VARIABLES};
 
 /// Roundings of a force that its formula may make.
 const ROUNDINGS: f64 = 64.0;

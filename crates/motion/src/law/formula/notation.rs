@@ -8,18 +8,14 @@
 //! makes of them.
 
 use super::{
-    FormulaError,
-    arithmetic::{Function, NEGATIVE},
+    arithmetic::{Function, NEGATIVE, number_at},
+    error::{DEEPEST, FormulaError, LONGEST},
 };
 
 /// Names of the variables: displacement and velocity.
 pub const VARIABLES: [&str; 2] = ["x", "v"];
 /// Names with a value.
 pub const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
-/// Most characters of a formula.
-pub const LONGEST: usize = 1000;
-/// Most parentheses within one another.
-pub const DEEPEST: usize = 50;
 
 /// What a piece of a formula is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,22 +26,6 @@ enum Token<'a> {
     Operator(char),
     Open,
     Close,
-}
-
-/// The number with which a text starts, if it starts with one.
-pub(super) fn number_at(text: &str) -> Option<&str> {
-    let bytes = text.as_bytes();
-    let is = |place: usize, signs: &[u8]| bytes.get(place).is_some_and(|byte| signs.contains(byte));
-    let digits = |from: usize| bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
-    let whole = digits(0);
-    let parts = if is(whole, b".") { digits(whole + 1) } else { 0 };
-    if whole + parts == 0 {
-        return None;
-    }
-    let mantissa = whole + parts + usize::from(is(whole, b"."));
-    let power = mantissa + 1 + usize::from(is(mantissa + 1, b"+-"));
-    let has_power = is(mantissa, b"eE") && digits(power) > 0;
-    Some(&text[..if has_power { power + digits(power) } else { mantissa }])
 }
 
 /// Its tokens with their places, and what of the text each is.
