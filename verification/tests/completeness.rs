@@ -78,7 +78,7 @@ fn every_periodic_attractor_of_the_beam_is_on_a_branch() {
 #[test]
 fn every_periodic_attractor_of_random_motions_is_on_a_branch() {
     let guard = results().lock().unwrap();
-    let (frequencies, states) = if extensive() { (200, 100) } else { (6, 8) };
+    let (frequencies, states) = if extensive() { (200, 100) } else { (10, 8) };
     let effort = SimulationEffort { states, longest: 6, patience: 1200 };
     let report = check(&guard.0, None, frequencies, &effort, 1).unwrap();
     assert!(report.attractors() > frequencies, "{report:?}");

@@ -12,7 +12,6 @@ use hammerbeam_motion::{
 };
 use hammerbeam_orbit::{FoundOrbits, OrbitSettings, PeriodicSolution, Response, find_orbits};
 use hammerbeam_structure::{Connection, Damping, GROUND, Lumped, LumpedMass, Reduction};
-use hammerbeam_testkit::extensive;
 
 /// A ball of 0.1 kg that falls on a vibrating table: no spring, so the linear response says nothing of where
 /// it moves.
@@ -114,14 +113,14 @@ fn missing(
     others.iter().filter(|other| !phases.iter().any(|phase| near(other, phase))).copied().collect()
 }
 
-/// Every orbit that brute force finds in the box must have been found: of 400 starts, or of 1000.
+/// Every orbit that brute force finds in the box must have been found.
 fn nothing_is_missed(
     (system, response): &(System, Response),
     orbit: (f64, u32),
     range_hz: (f64, f64),
     half_widths: [f64; 2],
 ) -> usize {
-    let all = by_brute_force(system, orbit, half_widths, if extensive() { 1000 } else { 400 });
+    let all = by_brute_force(system, orbit, half_widths, 1000);
     let settings = OrbitSettings::for_range(range_hz);
     let FoundOrbits { orbits: found, incomplete } =
         find_orbits(system, response, orbit, range_hz, &settings, &mut || false).unwrap();
