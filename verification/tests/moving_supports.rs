@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_motion::{
-    Stretch,
+    PointMotion, Stretch,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe},
 };

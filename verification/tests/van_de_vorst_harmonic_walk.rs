@@ -25,14 +25,14 @@ fn rig() -> &'static ObservedSystem {
     RIG.get_or_init(paper_beam)
 }
 
-fn walked_at(max_step_hz: f64) -> Walked {
+fn walked_at(max_step: f64) -> Walked {
     walk_both(rig(), 30.0, RANGE_HZ, &OrbitSettings { max_step, ..OrbitSettings::default() })
 }
 
 /// The walk at the default steps.
 fn branch() -> &'static Walked {
     static BRANCH: OnceLock<Walked> = OnceLock::new();
-    BRANCH.get_or_init(|| walked_at(OrbitSettings::default().max_step_hz))
+    BRANCH.get_or_init(|| walked_at(OrbitSettings::default().max_step))
 }
 
 fn coarse() -> &'static Walked {

@@ -8,7 +8,7 @@
 use hammerbeam_motion::{
     Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    start_reach,
+    in_front_of_contacts, start_reach,
 };
 
 use crate::{

@@ -104,7 +104,8 @@ fn a_branch_ends_where_one_body_strikes_two_stops_at_one_instant() {
     early.retain(|(_, end)| !end.is_complete());
     assert!(!early.is_empty());
     for (_, end) in &early {
-        let BranchEnd::Walk(StopReason::ImpactsTogether { place: frequency_hz, elements, phase }) = end else {
+        let BranchEnd::Walk(StopReason::ImpactsTogether { place: frequency_hz, elements, phase }) = end
+        else {
             panic!("{end:?}");
         };
         assert_eq!(elements, "between and below");

@@ -65,7 +65,7 @@ pub fn orbit_waveform(
         .model()
         .points
         .iter()
-        .map(|point| PointMotion::of(&system, frequency_hz, &point.shape, &point.support_ratios))
+        .map(|point| PointMotion::of(system, frequency_hz, &point.shape, &point.support_ratios))
         .collect();
     let mut found = empty(model);
     let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;

@@ -4,7 +4,7 @@
 
 use crate::common::{beam_with, element, force, hertz, integrator, rigid, settled};
 use hammerbeam_motion::{
-    Law, Load, Stretch, System,
+    Law, Load, PointMotion, Stretch, System,
     law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
 };
 
@@ -77,7 +77,8 @@ fn held_mass_has_no_acceleration() {
     let system = System::new(model, &load, vec![element(&[1.0], 0.0, rigid(0.3, 0.2))]).unwrap();
     let stretch = Stretch { frequency_hz: 0.01, start: 0.0, end: 1.0 };
     let trace = integrator(&system).trace(&stretch, &[0.0, 0.0], &[0.9]).unwrap();
-    let at = |forces: &[f64]| PointMotion::of(&system, 0.01, &[1.0], &[0.0]).at(0.9, &trace.samples[0], forces);
+    let at =
+        |forces: &[f64]| PointMotion::of(&system, 0.01, &[1.0], &[0.0]).at(0.9, &trace.samples[0], forces);
     let [displacement, velocity, acceleration] = at(&trace.forces[0]);
     assert!((displacement - 0.2).abs() < 1e-12 && velocity.abs() < 1e-12 && acceleration.abs() < 1e-12);
     // 0.9 N less the spring's 0.2 N on a mass of 1 kg.

@@ -14,7 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use hammerbeam_motion::{Contact, LocalElement, System};
+use hammerbeam_motion::{Contact, LocalElement, System, in_front_of_contacts};
 
 use crate::{noise::Noise, state_scale::state_of_rest};
 

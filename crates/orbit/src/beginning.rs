@@ -5,6 +5,7 @@
 use hammerbeam_motion::{
     Stretch, System,
     exact::{ExactIntegrator, MotionError},
+    in_front_of_contacts,
 };
 
 use crate::state_scale::state_of_rest;

@@ -18,8 +18,8 @@ use crate::{
     solve::integrator,
     state_scale::{StateScale, state_of_rest},
     walk::{
-        Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations, length_per_norm,
-        path_settings,
+        Effort, Growth, LastRows, OrbitPath, Origin, RowPlace, RowRecord, counted_operations,
+        length_per_norm, path_settings,
     },
 };
 use bytes::{Reader, Writer};

@@ -118,7 +118,7 @@ impl<'a> Reader<'a> {
     fn of(system: &System, frequency_hz: f64, signal: &'a OrbitSignal) -> Self {
         match signal {
             OrbitSignal::Motion { shape, support_ratios, derivative } => Self::Motion {
-                motion: PointMotion::of(&system, frequency_hz, shape, support_ratios),
+                motion: PointMotion::of(system, frequency_hz, shape, support_ratios),
                 shape,
                 derivative: *derivative,
             },

@@ -130,7 +130,9 @@ fn a_walk_among_free_vibrations_at_half_the_eigenfrequency_ends() {
             let mut walk = BranchWalk::new(&system, &response, &start, side, RANGE, &settings).unwrap();
             let mut rows = Vec::new();
             let reason = (0..100).find_map(|_| walk.step(&mut rows).unwrap());
-            let Some(StopReason::FreeVibration { place: frequency_hz, mode }) = reason else { panic!("{reason:?}") };
+            let Some(StopReason::FreeVibration { place: frequency_hz, mode }) = reason else {
+                panic!("{reason:?}")
+            };
             assert!((frequency_hz / NATURAL - 0.5).abs() < 1e-15 && mode.number == 1);
         }
     }

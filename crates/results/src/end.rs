@@ -203,9 +203,7 @@ fn of_walk(reason: &StopReason) -> StoredEnd<'static, '_> {
             let numbers = [*solutions as f64, f64::from(u8::from(*gets_on))];
             StoredEnd::at("too-much-work", *place).with(numbers)
         }
-        StopReason::Motion { place, message } => {
-            StoredEnd::at("motion", *place).saying(message)
-        }
+        StopReason::Motion { place, message } => StoredEnd::at("motion", *place).saying(message),
     }
 }
 
@@ -226,9 +224,7 @@ fn walk_of(stored: &StoredEnd<'_, '_>) -> Option<StopReason> {
     };
     Some(match reason {
         ("range-end", [], place) => StopReason::RangeEnd { place },
-        ("shorter-period", [grazes], place) => {
-            StopReason::ShorterPeriod { place, grazes: *grazes != 0.0 }
-        }
+        ("shorter-period", [grazes], place) => StopReason::ShorterPeriod { place, grazes: *grazes != 0.0 },
         ("symmetric", [], place) => StopReason::Symmetric { place },
         ("step-too-short", [step, residual, lossless], place) => {
             let (step, residual, doubt, has_no_losses) = (*step, *residual, text()?, *lossless != 0.0);
@@ -348,7 +344,11 @@ pub(crate) mod tests {
             too_short(false),
             too_short(true),
             StopReason::Chatter { place: frequency_hz, element: "stop".to_owned(), impacts: 12 },
-            StopReason::ImpactsTogether { place: frequency_hz, elements: "s1 and s2".to_owned(), phase: 0.25 },
+            StopReason::ImpactsTogether {
+                place: frequency_hz,
+                elements: "s1 and s2".to_owned(),
+                phase: 0.25,
+            },
             StopReason::RunsBack { place: frequency_hz, met_arc_length: 3.0, has_no_losses: true },
             StopReason::ContactReopens { place: frequency_hz, element: "stop s2".to_owned(), phase: 0.25 },
             StopReason::NoProgress {

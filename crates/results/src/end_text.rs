@@ -303,10 +303,10 @@ mod tests {
     #[test]
     fn the_advice_where_a_walk_gets_no_further_depends_on_losses() {
         for lossless in [false, true] {
-            let (frequency_hz, has_no_losses) = (12.5, lossless);
+            let (place, has_no_losses) = (12.5, lossless);
             for reason in [
-                StopReason::RunsBack { frequency_hz, met_arc_length: 3.0, has_no_losses },
-                StopReason::NoProgress { frequency_hz, solutions: 9, largest_multiplier: 1e9, has_no_losses },
+                StopReason::RunsBack { place, met_arc_length: 3.0, has_no_losses },
+                StopReason::NoProgress { place, solutions: 9, largest_multiplier: 1e9, has_no_losses },
             ] {
                 let end = BranchEnd::Walk(reason);
                 assert_eq!(BranchEnd::of_stored(&end.stored()).as_ref(), Some(&end));
@@ -318,9 +318,9 @@ mod tests {
 
     #[test]
     fn over_the_frequency_the_end_of_the_range_has_its_digits_and_other_places_six() {
-        let range_end = BranchEnd::Walk(StopReason::RangeEnd { frequency_hz: 12.5 });
+        let range_end = BranchEnd::Walk(StopReason::RangeEnd { place: 12.5 });
         assert_eq!(range_end.to_string(), "end of the frequency range at 12.5 Hz");
-        let splits = StopReason::ContactReopens { frequency_hz: 12.5, element: "s2".to_owned(), phase: 0.25 };
+        let splits = StopReason::ContactReopens { place: 12.5, element: "s2".to_owned(), phase: 0.25 };
         assert!(BranchEnd::Walk(splits).to_string().starts_with("beyond 12.500000 Hz s2 opens"));
     }
 

@@ -326,12 +326,7 @@ fn a_branch_that_is_given_up_leaves_the_others_whole() {
     let given_up = [
         StopReason::TooMuchWork { place: 14.0, solutions: 5, gets_on: false },
         StopReason::TooMuchWork { place: 14.0, solutions: 5, gets_on: true },
-        StopReason::NoProgress {
-            place: 14.0,
-            solutions: 5,
-            largest_multiplier: 1e9,
-            has_no_losses: false,
-        },
+        StopReason::NoProgress { place: 14.0, solutions: 5, largest_multiplier: 1e9, has_no_losses: false },
     ];
     for reason in given_up {
         let solver = FakeSolver { given_up: Some(reason.clone()), ..FakeSolver::default() };

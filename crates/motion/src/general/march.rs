@@ -11,8 +11,8 @@ use faer::Mat;
 use super::{
     Counts, FieldFlow, GeneralError, GeneralSettings, VectorField,
     dense::Dense,
-    stepper::Stepper,
     search::Verdict,
+    stepper::Stepper,
     switching::Region,
     watch::{Accepted, Place, Watcher},
 };

@@ -97,6 +97,11 @@ pub(super) fn check(
     ensure("the first step", step, "finite and positive", step.is_finite() && step > 0.0)
 }
 
-pub(super) fn ensure(what: &'static str, found: f64, allowed: &'static str, holds: bool) -> Result<(), GeneralError> {
+pub(super) fn ensure(
+    what: &'static str,
+    found: f64,
+    allowed: &'static str,
+    holds: bool,
+) -> Result<(), GeneralError> {
     if holds { Ok(()) } else { Err(GeneralError::Input { what, found, allowed }) }
 }

@@ -113,8 +113,7 @@ mod tests {
     #[test]
     fn a_side_ends_where_a_part_of_its_work_does_not_move_it() {
         for (step, ends) in [(1e-6, true), (1e-3, false)] {
-            let settings =
-                OrbitSettings { max_step: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
+            let settings = OrbitSettings { max_step: step * (RANGE.1 - RANGE.0), ..OrbitSettings::default() };
             let mut walk = walk(&settings);
             let before = walk.operations();
             assert_eq!(walk.step(&mut Vec::new()).unwrap(), None);

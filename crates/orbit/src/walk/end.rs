@@ -69,11 +69,12 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
     match reason {
         PathStop::RangeEnd => StopReason::RangeEnd { place },
         PathStop::Closed => StopReason::Closed,
-        PathStop::StepTooShort { step, residual, doubt, .. } => splits_here(path, place)
-            .unwrap_or_else(|| {
+        PathStop::StepTooShort { step, residual, doubt, .. } => {
+            splits_here(path, place).unwrap_or_else(|| {
                 let doubt = doubt_in_unstable(path, doubt.to_string());
                 StopReason::StepTooShort { place, step, residual, doubt, has_no_losses }
-            }),
+            })
+        }
         PathStop::NoProgress { steps, .. } => {
             splits_here(path, place).unwrap_or_else(|| StopReason::NoProgress {
                 place,

@@ -119,6 +119,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::StudyFile;
+    use hammerbeam_motion::PointMotion;
 
     fn two_masses() -> Model {
         let text = r#"
