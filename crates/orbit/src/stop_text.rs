@@ -1,8 +1,8 @@
-//! Why a walk ended, in a sentence for whoever drives it. Places are in the unit of what varies.
+//! Why a walk or a curve ended, in a sentence for whoever drives it. Places are in the unit of what varies.
 
 use std::fmt::{Display, Formatter, Result};
 
-use crate::{ResonantMode, StopReason};
+use crate::{CurveEnd, ResonantMode, StopReason};
 
 impl Display for StopReason {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
@@ -57,6 +57,37 @@ impl Display for StopReason {
             Self::Motion { place, message } => {
                 write!(formatter, "the motion could not be computed at {place}: {message}")
             }
+        }
+    }
+}
+
+impl Display for CurveEnd {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::RangeEnd => write!(formatter, "end of the range of the second parameter"),
+            Self::FrequencyRangeEnd => write!(formatter, "end of the frequency range"),
+            Self::Closed => write!(formatter, "the curve came back to its start"),
+            Self::Resonance => write!(formatter, "resonance 1:1 or 1:2 of a Neimark-Sacker point"),
+            Self::OwnImage { parameter, mirrored } => {
+                let what = if *mirrored { "symmetric" } else { "orbits of half their period" };
+                write!(formatter, "the orbits become {what} at {parameter}")
+            }
+            Self::Grazing { parameter, cause: None } => write!(formatter, "met a grazing at {parameter}"),
+            Self::Grazing { parameter, cause: Some(cause) } => {
+                write!(formatter, "met a grazing at {parameter} ({cause})")
+            }
+            Self::GrazedAsWell { parameter, element } => {
+                write!(formatter, "{element} is grazed as well at {parameter}")
+            }
+            Self::ContactReopens { parameter, element, phase } => write!(
+                formatter,
+                "beyond {parameter} {element} opens and is pressed on again at the phase of {phase:.4} cycles"
+            ),
+            Self::NoProgress { parameter, rows } => {
+                write!(formatter, "no progress at {parameter} in {rows} rows")
+            }
+            Self::Budget => write!(formatter, "the budget of rows is used up"),
+            Self::Stopped { parameter, message } => write!(formatter, "stopped at {parameter}: {message}"),
         }
     }
 }

@@ -59,6 +59,27 @@ pub enum TableColumn {
     OutputPhases,
 }
 
+/// What the entries of a column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// A number; without one it is not a number.
+    Number,
+    /// A whole number.
+    Whole,
+    /// Words.
+    Words,
+    /// True or false.
+    Flag,
+    /// Stable, marginal or unstable.
+    Stability,
+    /// Names of events.
+    Events,
+    /// A list of numbers.
+    Numbers,
+    /// A list of complex numbers.
+    Complex,
+}
+
 /// What a row has in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RowValue {
@@ -97,101 +118,128 @@ impl TableColumn {
         self.described().0
     }
 
-    /// What it holds, as the reference says it.
+    /// What its entries are.
     #[must_use]
-    pub fn meaning(self) -> &'static str {
+    pub fn kind(self) -> ColumnKind {
         self.described().1
     }
 
-    fn described(self) -> (&'static str, &'static str) {
+    /// What it holds, as the reference says it.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        self.described().2
+    }
+
+    fn described(self) -> (&'static str, ColumnKind, &'static str) {
+        use ColumnKind as K;
         match self {
-            Self::Of => ("of", "what a curve consists of: `fold`, `flip`, `neimark-sacker` or `grazing`"),
-            Self::Piece => ("piece", "which `[[vary]]` or `[[curve]]` of the study, from 1"),
-            Self::Branch => ("branch", "number of the branch; within its piece, where there is one"),
-            Self::PeriodMultiple => ("period_multiple", "orbit period over excitation period"),
-            Self::ParameterName => ("parameter_name", "the parameter, as the study file names it"),
-            Self::RowNumber => ("row", "number of the row, from 0 along the branch"),
-            Self::Side => ("side", "which end: `down` or `up`"),
-            Self::Parameter => ("parameter", "value of the parameter, in the unit of its name"),
-            Self::Frequency => ("frequency_hz", "excitation frequency"),
+            Self::Of => {
+                ("of", K::Words, "what a curve consists of: `fold`, `flip`, `neimark-sacker` or `grazing`")
+            }
+            Self::Piece => ("piece", K::Whole, "which `[[vary]]` or `[[curve]]` of the study, from 1"),
+            Self::Branch => {
+                ("branch", K::Whole, "number of the branch; within its piece, where there is one")
+            }
+            Self::PeriodMultiple => ("period_multiple", K::Whole, "orbit period over excitation period"),
+            Self::ParameterName => ("parameter_name", K::Words, "the parameter, as the study file names it"),
+            Self::RowNumber => ("row", K::Whole, "number of the row, from 0 along the branch"),
+            Self::Side => ("side", K::Words, "which end: `down` or `up`"),
+            Self::Parameter => ("parameter", K::Number, "value of the parameter, in the unit of its name"),
+            Self::Frequency => ("frequency_hz", K::Number, "excitation frequency"),
             Self::Displacement => {
-                ("max_abs_displacement_m", "of the response point, in space, over the orbit")
+                ("max_abs_displacement_m", K::Number, "of the response point, in space, over the orbit")
             }
             Self::Acceleration => {
-                ("max_abs_acceleration_m_s2", "of the response point, in space, over the orbit")
+                ("max_abs_acceleration_m_s2", K::Number, "of the response point, in space, over the orbit")
             }
-            Self::ContactForce => ("max_contact_force_n", "largest over all stops"),
-            Self::ImpactVelocity => ("max_impact_velocity_m_s", "largest over all stops"),
-            Self::Impulse => ("impulse_n_s", "sum of the impulses of all contacts"),
-            Self::Contacts => ("contacts", "number of contacts in an orbit period"),
+            Self::ContactForce => ("max_contact_force_n", K::Number, "largest over all stops"),
+            Self::ImpactVelocity => ("max_impact_velocity_m_s", K::Number, "largest over all stops"),
+            Self::Impulse => ("impulse_n_s", K::Number, "sum of the impulses of all contacts"),
+            Self::Contacts => ("contacts", K::Whole, "number of contacts in an orbit period"),
             Self::LeadingMultiplierRe => {
-                ("leading_multiplier_re", "Floquet multiplier of largest modulus, its real part")
+                ("leading_multiplier_re", K::Number, "Floquet multiplier of largest modulus, its real part")
             }
             Self::LeadingMultiplierIm => {
-                ("leading_multiplier_im", "its imaginary part, the positive one of a pair")
+                ("leading_multiplier_im", K::Number, "its imaginary part, the positive one of a pair")
             }
             Self::Stable => (
                 "stable",
+                K::Stability,
                 "`true`: all multipliers are known to lie inside the unit circle; `false`: one is known to \
                  lie outside; `marginal`: neither is known, as at a bifurcation, or where errors grow very \
                  much within a period",
             ),
             Self::Event => (
                 "event",
+                K::Events,
                 "empty, or `fold`, `flip`, `neimark-sacker`, `branch-point`, `grazing`, `start`, `end`, \
                  joined by `+`; on curves also points of codimension two",
             ),
-            Self::Residual => ("residual", "how far the orbit is from closing, relative to its size"),
-            Self::ErrorEstimate => {
-                ("error_estimate", "the correction that was still due when the solution was accepted")
+            Self::Residual => {
+                ("residual", K::Number, "how far the orbit is from closing, relative to its size")
             }
+            Self::ErrorEstimate => (
+                "error_estimate",
+                K::Number,
+                "the correction that was still due when the solution was accepted",
+            ),
             Self::Status => (
                 "status",
+                K::Words,
                 "`located`: to 1e-8 of the frequency or parameter; `bracketed`: within the uncertainty",
             ),
-            Self::UncertaintyHz => ("uncertainty_hz", "how far off the frequency may be"),
-            Self::Uncertainty => ("uncertainty", "how far off the parameter may be, in its unit"),
-            Self::MultiplierRe => ("multiplier_re", "the critical multiplier, its real part"),
-            Self::MultiplierIm => ("multiplier_im", "its imaginary part"),
+            Self::UncertaintyHz => ("uncertainty_hz", K::Number, "how far off the frequency may be"),
+            Self::Uncertainty => ("uncertainty", K::Number, "how far off the parameter may be, in its unit"),
+            Self::MultiplierRe => ("multiplier_re", K::Number, "the critical multiplier, its real part"),
+            Self::MultiplierIm => ("multiplier_im", K::Number, "its imaginary part"),
             Self::ContactChange => (
                 "contact_change",
+                K::Words,
                 "at grazing, numbers of the contacts with `+` if they appear and `-` if they vanish, in the \
                  order of the rows",
             ),
             Self::Direction => (
                 "direction",
+                K::Numbers,
                 "critical direction of the state; at the start of a branch on another one, the direction \
                  in which it leaves",
             ),
-            Self::SymmetryBreaking => {
-                ("symmetry_breaking", "of a branch point: whether the crossing branch has less symmetry")
-            }
-            Self::End => ("end", "a word for programs; [why a branch ends](ends.md) explains each"),
-            Self::Message => ("message", "why the branch ends there, in a sentence"),
-            Self::Phase => ("phase_cycles", "phase of the excitation at which the state is"),
+            Self::SymmetryBreaking => (
+                "symmetry_breaking",
+                K::Flag,
+                "of a branch point: whether the crossing branch has less symmetry",
+            ),
+            Self::End => ("end", K::Words, "a word for programs; [why a branch ends](ends.md) explains each"),
+            Self::Message => ("message", K::Words, "why the branch ends there, in a sentence"),
+            Self::Phase => ("phase_cycles", K::Number, "phase of the excitation at which the state is"),
             Self::State => (
                 "state",
+                K::Numbers,
                 "the state `q1 .. qn v1 .. vn` there; `simulate --initial` takes it where its phase is 0",
             ),
-            Self::Multipliers => ("multipliers", "all multipliers, as `re+imi` with blanks between them"),
-            Self::OutputName => ("output", "name of the `[[output]]`"),
-            Self::OutputQuantity => {
-                ("quantity", "what is read: `displacement`, `velocity`, `acceleration` or `force`")
+            Self::Multipliers => {
+                ("multipliers", K::Complex, "all multipliers, as `re+imi` with blanks between them")
             }
-            Self::OutputUnit => ("unit", "unit of the numbers from `maximum` to `amplitudes`"),
-            Self::OutputMaximum => ("maximum", "largest value over the orbit"),
-            Self::OutputMinimum => ("minimum", "smallest value over the orbit"),
-            Self::OutputLargest => ("max_abs", "largest absolute value"),
-            Self::OutputPeakToPeak => ("peak_to_peak", "largest value less smallest value"),
-            Self::OutputMean => ("mean", "mean over the orbit"),
-            Self::OutputRootMeanSquare => ("rms", "root of the mean square, the mean included"),
+            Self::OutputName => ("output", K::Words, "name of the `[[output]]`"),
+            Self::OutputQuantity => {
+                ("quantity", K::Words, "what is read: `displacement`, `velocity`, `acceleration` or `force`")
+            }
+            Self::OutputUnit => ("unit", K::Words, "unit of the numbers from `maximum` to `amplitudes`"),
+            Self::OutputMaximum => ("maximum", K::Number, "largest value over the orbit"),
+            Self::OutputMinimum => ("minimum", K::Number, "smallest value over the orbit"),
+            Self::OutputLargest => ("max_abs", K::Number, "largest absolute value"),
+            Self::OutputPeakToPeak => ("peak_to_peak", K::Number, "largest value less smallest value"),
+            Self::OutputMean => ("mean", K::Number, "mean over the orbit"),
+            Self::OutputRootMeanSquare => ("rms", K::Number, "root of the mean square, the mean included"),
             Self::OutputAmplitudes => (
                 "amplitudes",
+                K::Numbers,
                 "amplitudes of the orders `1/n`, `2/n`, ... of the excitation frequency, n being the period \
                  multiple",
             ),
             Self::OutputPhases => (
                 "phases_rad",
+                K::Numbers,
                 "their phases `p`: a harmonic is `amplitude cos(2 pi (j/n) x + p)` at the phase x of the \
                  excitation in cycles",
             ),

@@ -297,6 +297,12 @@ impl LawKey {
 }
 
 impl LawKey {
+    /// Whether it is a damper, without which the law loses no energy.
+    #[must_use]
+    pub fn is_damper(&self) -> bool {
+        self.varies == Some(VariesAs::UnlessZero(LawConstant::Damping))
+    }
+
     /// A value of a usual size.
     fn sample(&self) -> LawValue {
         let of_unit = |unit: &str| match unit {
@@ -329,6 +335,17 @@ impl LawDescription {
             values[key] = LawValue::Number(0.0);
         }
         values
+    }
+
+    /// Whether a round hole can have the law along its radius, where none of its values loses energy.
+    #[must_use]
+    pub fn fits_round_hole(&self) -> bool {
+        let LawSides::One { build, .. } = self.sides else { return false };
+        let mut values = self.sample_values();
+        let keys = self.keys.iter().zip(&mut values).filter(|(key, _)| key.is_damper());
+        keys.for_each(|(_, value)| *value = LawValue::Number(0.0));
+        let made = build(LawValues(&values), LawRest::Level(1e-3));
+        made.is_ok_and(|parts| parts.first().is_some_and(|part| part.law.in_round_hole().is_ok()))
     }
 
     /// The elements of a stop of this law at that gap [m], with values of usual sizes.

@@ -4,7 +4,7 @@ use hammerbeam_orbit::Stability;
 
 use super::{ArrayTable, ArrayValues};
 use crate::{
-    columns::TableColumn,
+    columns::{ColumnKind, TableColumn},
     export::{BranchTable, TableLines, TableOver},
     lines::{Branches, Cell, OwnedBranch},
     store::{Store, StoreError},
@@ -75,25 +75,14 @@ enum Entries {
 
 impl ColumnBuilder {
     fn of(column: TableColumn) -> Self {
-        use TableColumn as C;
-        let entries = match column {
-            C::Branch | C::PeriodMultiple | C::Piece | C::RowNumber | C::Contacts => Entries::Whole(vec![]),
-            C::Of
-            | C::ParameterName
-            | C::Side
-            | C::Event
-            | C::Status
-            | C::ContactChange
-            | C::End
-            | C::Message
-            | C::OutputName
-            | C::OutputQuantity
-            | C::OutputUnit => Entries::Words(vec![]),
-            C::SymmetryBreaking => Entries::Flags(vec![]),
-            C::Stable => Entries::Stability(vec![]),
-            C::Direction | C::State | C::OutputAmplitudes | C::OutputPhases => Entries::Vectors(vec![]),
-            C::Multipliers => Entries::Complex(vec![]),
-            _ => Entries::Numbers(vec![]),
+        let entries = match column.kind() {
+            ColumnKind::Number => Entries::Numbers(vec![]),
+            ColumnKind::Whole => Entries::Whole(vec![]),
+            ColumnKind::Words | ColumnKind::Events => Entries::Words(vec![]),
+            ColumnKind::Flag => Entries::Flags(vec![]),
+            ColumnKind::Stability => Entries::Stability(vec![]),
+            ColumnKind::Numbers => Entries::Vectors(vec![]),
+            ColumnKind::Complex => Entries::Complex(vec![]),
         };
         Self { column, entries }
     }

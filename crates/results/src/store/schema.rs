@@ -9,7 +9,7 @@ use hammerbeam_study::{
 use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
 
 use super::{StoreError, checksum};
-use crate::columns::TableColumn;
+use crate::columns::{ColumnKind, TableColumn};
 
 /// Version of the tables.
 pub const SCHEMA_VERSION: u32 = 14;
@@ -287,10 +287,7 @@ pub(super) fn writer(connection: &Connection) -> Result<u64, StoreError> {
 /// Makes all tables; that of solutions has the stored columns of rows.
 pub(super) fn create_tables(connection: &Connection) -> Result<(), StoreError> {
     let column = |column: TableColumn| {
-        let kind = match column {
-            TableColumn::Contacts | TableColumn::Event | TableColumn::Stable => "INTEGER",
-            _ => "REAL",
-        };
+        let kind = if column.kind() == ColumnKind::Number { "REAL" } else { "INTEGER" };
         format!("{} {kind} NOT NULL", column.name())
     };
     let columns: Vec<String> = TableColumn::STORED.into_iter().map(column).collect();

@@ -5,7 +5,7 @@ use rusqlite::{Row as SqlRow, types::Value};
 
 use super::{StoreError, blob, stability};
 use crate::{
-    columns::{RowValue, TableColumn},
+    columns::{ColumnKind, RowValue, TableColumn},
     end::{BranchEnd, StoredEnd},
     row::Row,
 };
@@ -30,10 +30,10 @@ pub(super) fn values_of_row(row: &Row) -> Vec<Value> {
 pub(super) fn read_row(found: &SqlRow<'_>, first: usize) -> Result<Row, StoreError> {
     let mut row = Row::default();
     for (place, column) in (first..).zip(TableColumn::STORED) {
-        let value = match column {
-            TableColumn::Contacts => RowValue::Count(found.get(place)?),
-            TableColumn::Stable => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),
-            TableColumn::Event => {
+        let value = match column.kind() {
+            ColumnKind::Whole => RowValue::Count(found.get(place)?),
+            ColumnKind::Stability => RowValue::Stability(found.get::<_, stability::Stored>(place)?.0),
+            ColumnKind::Events => {
                 let bits: u32 = found.get(place)?;
                 let unknown = || StoreError::Unknown { what: "event", found: bits.to_string() };
                 RowValue::Events(EventSet::of_bits(bits).ok_or_else(unknown)?)

@@ -1,6 +1,6 @@
 //! The law of a round hole: that of a one-sided stop, along its radius.
 
-use hammerbeam_motion::law::{LawDescription, LawSides, LawValue};
+use hammerbeam_motion::law::{DESCRIPTIONS, LawDescription, LawValue};
 
 use super::{
     read_stop_law::{ReadLaw, read_values},
@@ -8,19 +8,13 @@ use super::{
 };
 use crate::document::{TomlTable, Value, quantity};
 
-/// The laws that a hole may have, by their words.
-const LAWS: [&str; 2] = ["hertz", "linear"];
-
 /// Reads the law of a hole: of the radius, with the clearance as its gap.
 pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) -> Option<ReadLaw> {
-    let is_one_sided = matches!(description.sides, LawSides::One { .. });
-    if !is_one_sided || !LAWS.contains(&description.name) {
+    if !description.fits_round_hole() {
         let message = format!("`law` is \"{}\", but `at` names two points, a round hole", description.name);
-        table.refuse(
-            "law",
-            message,
-            vec![format!("allowed: \"{}\", which lose no energy", LAWS.join("\", \""))],
-        );
+        let allowed = DESCRIPTIONS.iter().filter(|law| law.fits_round_hole()).map(|law| law.name);
+        let allowed = allowed.collect::<Vec<_>>().join("\", \"");
+        table.refuse("law", message, vec![format!("allowed: \"{allowed}\", which lose no energy")]);
         ["side", "gap_m", "preload_n", "gap_measured"].iter().for_each(|key| drop(table.optional(key)));
         description.keys.iter().for_each(|key| drop(table.optional(key.name)));
         return None;
@@ -34,17 +28,15 @@ pub(super) fn read(table: &TomlTable<'_>, description: &'static LawDescription) 
     }
     let gap = table.required("gap_m").and_then(|value| read_clearance(&value));
     let values = read_values(table, description)?;
-    if description.keys.iter().zip(&values).any(|(key, value)| is_loss(key.name, value)) {
+    let mut keys = description.keys.iter().zip(&values);
+    let is_given = |value: &LawValue| *value != LawValue::Number(0.0);
+    if let Some((key, _)) = keys.find(|(key, value)| key.is_damper() && is_given(value)) {
         let help = vec!["allowed: none; damp the structure instead".to_owned()];
-        table.problem("damping_n_s_m", "`damping_n_s_m` is given for a round hole".to_owned(), help);
+        table.problem(key.name, format!("`{}` is given for a round hole", key.name), help);
         return None;
     }
     side?;
     Some(ReadLaw::One(StopLaw::new(description, values, StopRest::Around { gap_m: gap? })))
-}
-
-fn is_loss(key: &str, value: &LawValue) -> bool {
-    key == "damping_n_s_m" && *value != LawValue::Number(0.0)
 }
 
 fn read_clearance(value: &Value<'_>) -> Option<f64> {
