@@ -7,7 +7,7 @@ use hammerbeam_results::whole_file::subfolder;
 use hammerbeam_study::{Setting, StudyFile};
 use serde_json::{Map, Value, json};
 
-use super::one::{Summary, run_into};
+use super::summary::{Summary, run_into};
 use crate::{
     args::RunOptions,
     failure::Failure,

@@ -1,12 +1,12 @@
 //! `hammerbeam run`: everything a study asks for, into one results folder, or into one for each of a family.
 
 mod family;
-mod one;
+mod summary;
 
 use hammerbeam_jobs::PreparedStudy;
 
 use crate::{args::RunOptions, failure::Failure, interrupt::Interrupt, output::Output};
-use one::run_into;
+use summary::run_into;
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     if !options.vary_set.is_empty() {
