@@ -17,7 +17,16 @@ use hammerbeam_orbit::{BranchRow, OrbitSettings, PeriodicSolution, Response, Sid
 
 /// A branch in steps of 0.05 Hz, from the lower end of a range to the upper one.
 fn branch(rig: &ObservedSystem, start_hz: f64, period_multiple: u32, range_hz: (f64, f64)) -> Vec<BranchRow> {
-    let settings = OrbitSettings { max_step: 0.05, ..OrbitSettings::default() };
+    branch_in_steps(0.05, rig, (start_hz, period_multiple), range_hz)
+}
+
+fn branch_in_steps(
+    max_step: f64,
+    rig: &ObservedSystem,
+    (start_hz, period_multiple): (f64, u32),
+    range_hz: (f64, f64),
+) -> Vec<BranchRow> {
+    let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
     let (mut rows, _, _) = walk(rig, &start, Side::Down, range_hz, &settings);
     rows.reverse();
@@ -106,7 +115,8 @@ fn half_subharmonic_acceleration_near_53_hz_is_an_eighth_of_the_harmonic_one() {
     let near =
         rows.iter().map(|row| &row.solution).filter(|orbit| (52.8..53.2).contains(&orbit.frequency_hz));
     let least = near.min_by(|a, b| a.maxima.acceleration.total_cmp(&b.maxima.acceleration)).unwrap();
-    let harmonic = branch(&paper_beam(), 36.0, 1, (35.0, least.frequency_hz));
+    // Its end alone counts.
+    let harmonic = branch_in_steps(1.0, &paper_beam(), (36.0, 1), (35.9, least.frequency_hz));
     let harmonic = &harmonic[harmonic.len() - 1].solution;
     assert!(least.maxima.acceleration < harmonic.maxima.acceleration / 7.0);
     assert!(least.maxima.displacement > 1.4 * harmonic.maxima.displacement, "though it moves further");

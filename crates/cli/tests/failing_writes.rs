@@ -22,7 +22,7 @@ use rusqlite::{Connection, OpenFlags};
 
 use crate::common::{
     SeededNumbers, Workshop, extensive, stderr,
-    writers::{Cost, Writer, writers},
+    writers::{Writer, small_writers},
 };
 
 /// Calls of the system that fail, and how.
@@ -64,21 +64,21 @@ fn writes_that_fail_end_with_a_sentence_and_the_command_done_again_leaves_the_sa
     }
     let mut random = SeededNumbers(7);
     let start = std::env::var("HAMMERBEAM_COMMAND").unwrap_or_default();
-    let chosen_writers = writers(Cost::Small).into_iter().enumerate();
+    let chosen_writers = small_writers().iter().enumerate();
     for (place, writer) in chosen_writers.filter(|(_, writer)| writer.arguments.join(" ").starts_with(&start))
     {
         let largest = writer.expected.values().map(Vec::len).max().unwrap();
         for number in chosen(largest / 512, most.min(20), &mut random) {
-            fail_once(&writer, Fault::FileSize { blocks: number - 1 });
+            fail_once(writer, Fault::FileSize { blocks: number - 1 });
         }
         // By default the kinds take turns.
         let kinds = if most == 1 { &CALLS[place % CALLS.len()..][..1] } else { &CALLS[..] };
         for &(names, error) in kinds.iter().filter(|_| traces) {
-            let count = calls(&writer, names);
+            let count = calls(writer, names);
             let chosen = chosen(count, most, &mut random);
             let failures: usize = chosen
                 .iter()
-                .map(|&number| fail_once(&writer, Fault::Call { names, error, number }))
+                .map(|&number| fail_once(writer, Fault::Call { names, error, number }))
                 .filter(|failed| *failed)
                 .count();
             eprintln!(

@@ -73,7 +73,7 @@ fn work_that_takes_minutes_is_left_in_a_moment() {
     for (study, workshop) in slow.iter().enumerate() {
         for (arguments, signal) in commands.into_iter().zip(["-TERM", "-INT"]) {
             let mut child = workshop.spawn(arguments);
-            thread::sleep(Duration::from_secs(2));
+            thread::sleep(Duration::from_secs(1));
             // What is done before that is no matter for this test.
             if child.try_wait().unwrap().is_some() {
                 continue;

@@ -6,6 +6,7 @@ use std::{
     fmt::Write,
     fs,
     path::{Path, PathBuf},
+    sync::OnceLock,
     time::{Duration, Instant},
 };
 
@@ -133,6 +134,12 @@ pub struct Writer {
     pub expected: Files,
     /// Of the undisturbed command.
     pub duration: Duration,
+}
+
+/// The commands that cost little, each done once, for all tests.
+pub fn small_writers() -> &'static [Writer] {
+    static SMALL: OnceLock<Vec<Writer>> = OnceLock::new();
+    SMALL.get_or_init(|| writers(Cost::Small))
 }
 
 /// The commands that cost no more than that, each done once.
