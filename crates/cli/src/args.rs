@@ -203,6 +203,10 @@ pub struct RunOptions {
     #[arg(long, value_name = "DIR[:POINT]", value_parser = origin)]
     pub from: Vec<RunOrigin>,
 
+    /// Draw nothing, as for a family on a cluster; `hammerbeam figure` draws the same later
+    #[arg(long)]
+    pub no_figures: bool,
+
     /// Number of threads [default: all cores]; the results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,

@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::common::{Workshop, assert_success, stdout};
 
-const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+const RUN: [&str; 5] = ["run", "study.toml", "--out", "results", "--no-figures"];
 
 /// A mass on a spring and a damper [kg, N/m, N s/m] beside stops, under a force [N] in a range of frequency
 /// [Hz].

@@ -41,7 +41,10 @@ fn the_example_is_followed_and_verified() {
     let whole = format!("{}\n{vary}", quick());
     let run = |study: &str, jobs: &str| {
         let workshop = Workshop::with(study);
-        let run = document(&workshop, &["run", "study.toml", "--out", "results", "--jobs", jobs, "--json"]);
+        let run = document(
+            &workshop,
+            &["run", "study.toml", "--out", "results", "--no-figures", "--jobs", jobs, "--json"],
+        );
         let branches = run["branches"].as_array().unwrap();
         assert_eq!(branches.len(), 1, "{run}");
         assert_eq!(branches[0]["mirror_image"], branches[0]["branch"], "{run}");
@@ -64,12 +67,20 @@ fn the_example_is_followed_and_verified() {
 #[test]
 fn another_formula_or_constant_is_another_study() {
     let workshop = with(FORMULA, "constants = { mu = 0.3 }");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", "1"]));
+    assert_success(&workshop.hammerbeam(&[
+        "run",
+        "study.toml",
+        "--out",
+        "results",
+        "--no-figures",
+        "--jobs",
+        "1",
+    ]));
     for (old, new) in [("mu = 0.3 }", "mu = 0.4 }"), ("x^2 - 1)*v", "x^2 - 1)*v^3")] {
         let other = quick().replace(old, new);
         assert_ne!(other, quick());
         fs::write(workshop.path("other.toml"), other).unwrap();
-        let output = workshop.hammerbeam(&["run", "other.toml", "--out", "results"]);
+        let output = workshop.hammerbeam(&["run", "other.toml", "--out", "results", "--no-figures"]);
         assert!(!output.status.success() && stderr(&output).contains("stop"), "{}", stderr(&output));
     }
 }
@@ -108,7 +119,9 @@ fn what_is_no_formula_is_refused_with_its_place_and_help() {
     for (formula, constants, parts) in cases {
         let workshop = with(formula, constants);
         let before = workshop.listing();
-        for arguments in [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results"]] {
+        for arguments in
+            [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results", "--no-figures"]]
+        {
             assert_bad_input(&workshop.hammerbeam(arguments), &[&["stop[0]"], parts].concat());
         }
         assert_eq!(workshop.listing(), before);

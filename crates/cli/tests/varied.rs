@@ -6,7 +6,7 @@ use std::{collections::BTreeMap, fs, sync::LazyLock};
 use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
-const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+const RUN: [&str; 5] = ["run", "study.toml", "--out", "results", "--no-figures"];
 
 /// The example with longer steps and a shorter search: some hundred rows of each piece.
 static EXAMPLE: LazyLock<String> = LazyLock::new(|| {
@@ -222,7 +222,7 @@ fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
     let (first, _) = pieces.split_once("[[curve]]").unwrap();
     let pieces_of = |study: String| {
         fs::write(workshop.path("study.toml"), study).unwrap();
-        let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+        let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
         assert_success(&run);
         let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
         let pieces = document["varied"].as_array().unwrap();

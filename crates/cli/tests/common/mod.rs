@@ -178,7 +178,7 @@ impl Workshop {
     #[track_caller]
     pub fn exported(study: &str) -> Self {
         let workshop = Self::with(study);
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
         assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
         workshop
     }
@@ -271,8 +271,11 @@ pub fn assert_bad_input(output: &Output, parts: &[&str]) {
     }
 }
 
-/// Computes the study.
+/// Computes the study and draws what it finds.
 pub const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// Computes the study.
+pub const COMPUTE: [&str; 5] = ["run", "study.toml", "--out", "results", "--no-figures"];
 
 /// The two masses above their resonances, where there is one branch, in a hundred steps, after a short
 /// search.
@@ -291,7 +294,7 @@ pub fn short_run() -> Workshop {
 /// A run of one short branch with more in its study.
 pub fn short_run_with(added: &str) -> Workshop {
     let workshop = Workshop::with(&format!("{}{added}", short_study()));
-    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.hammerbeam(&COMPUTE));
     workshop
 }
 

@@ -117,7 +117,7 @@ fn what_needs_a_frequency_refuses_it_in_one_sentence() {
     let workshop = Workshop::with(STUDY);
     let part = "study.toml has no [excitation]: without a frequency there are no periodic responses";
     for command in [
-        &["run", "study.toml", "--out", "out"][..],
+        &["run", "study.toml", "--out", "out", "--no-figures"][..],
         &["orbit", "study.toml", "--frequency", "3"],
         &["sweep", "study.toml"],
         &["lyapunov", "study.toml", "--frequency", "3"],

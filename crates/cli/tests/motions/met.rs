@@ -47,7 +47,7 @@ fn on_no_branch(attractors: &[Value]) -> Vec<&Value> {
 fn attractors_that_basins_have_met_are_followed_on_request() {
     let workshop = Workshop::with(STUDY);
     let run = |more: &[&str]| {
-        let words = [&["run", "study.toml", "--out", "results", "--json"], more].concat();
+        let words = [&["run", "study.toml", "--out", "results", "--no-figures", "--json"], more].concat();
         document(&workshop, &words)["branches"].as_array().unwrap().len()
     };
     assert_eq!(run(&[]), 1, "nothing is looked for but one harmonic branch");
@@ -69,7 +69,7 @@ fn attractors_that_a_sweep_has_met_are_followed_on_request() {
     let at = ["--from", "0.56", "--to", "0.64", "--step", "0.04", "--starts", "40"];
     let words = [&["sweep", "study.toml", "--longest-period", "6", "--out", "met"], &at[..]].concat();
     assert_success(&workshop.hammerbeam(&words));
-    let run = ["run", "study.toml", "--out", "results", "--from", "met"];
+    let run = ["run", "study.toml", "--out", "results", "--no-figures", "--from", "met"];
     assert_success(&workshop.hammerbeam(&run));
     let words = [&words[..], &["--results", "results", "--json"]].concat();
     let motions = document(&workshop, &words)["motions"].as_array().unwrap().clone();
@@ -81,6 +81,6 @@ fn attractors_that_a_sweep_has_met_are_followed_on_request() {
 #[test]
 fn a_folder_without_results_is_refused() {
     let workshop = Workshop::with(STUDY);
-    let run = ["run", "study.toml", "--out", "results", "--from", "nowhere"];
+    let run = ["run", "study.toml", "--out", "results", "--no-figures", "--from", "nowhere"];
     assert_bad_input(&workshop.hammerbeam(&run), &["nowhere"]);
 }

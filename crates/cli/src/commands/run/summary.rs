@@ -17,6 +17,7 @@ use hammerbeam_jobs::{
 };
 use hammerbeam_orbit::{BranchEventKind, Side};
 use hammerbeam_results::{
+    Store,
     end::BranchEnd,
     store::JobRecord,
     summary::{BranchSummary, Peak, PieceSummary},
@@ -53,18 +54,17 @@ pub(super) fn run_into(
     let result = match summary.report.outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
-            let settings =
-                DrawSettings { threads, frequency_unit: output.frequency_unit, ..DrawSettings::default() };
-            let selection = FigureSelection::of_run(&study.file);
-            let drawn = draw_into(out, settings, &mut Watch::new(interrupt.clone()), |drawn| {
-                draw(&store, (&study.file, &study.model), &selection, drawn)
-            });
-            match drawn.map_err(Failure::from) {
+            let drawn = if options.no_figures {
+                Ok(Vec::new())
+            } else {
+                drawn_into(out, &store, study, (threads, output.frequency_unit), interrupt)
+            };
+            match drawn {
                 Err(Failure::Interrupted(_)) => Err(Failure::Interrupted(summary.interrupted_drawing())),
                 Err(other) => Err(other),
                 Ok(_) if summary.report.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
-                    summary.report.figures = figures.names;
+                    summary.report.figures = figures;
                     summary.elapsed = started.elapsed();
                     Ok(summary)
                 }
@@ -73,6 +73,25 @@ pub(super) fn run_into(
     };
     store.finish()?;
     result
+}
+
+/// Draws what a run has found.
+///
+/// # Returns
+/// The names of the files.
+fn drawn_into(
+    out: &Path,
+    store: &Store,
+    study: &PreparedStudy,
+    (threads, frequency_unit): (usize, FrequencyUnit),
+    interrupt: &Interrupt,
+) -> Result<Vec<String>, Failure> {
+    let settings = DrawSettings { threads, frequency_unit, ..DrawSettings::default() };
+    let selection = FigureSelection::of_run(&study.file);
+    let drawn = draw_into(out, settings, &mut Watch::new(interrupt.clone()), |drawn| {
+        draw(store, (&study.file, &study.model), &selection, drawn)
+    });
+    Ok(drawn?.names)
 }
 
 /// What came of a run, in words.
@@ -203,7 +222,10 @@ impl Summary {
         if self.report.left() > 0 {
             lines.push(format!("\n{}", self.out_of_time()));
         }
-        lines.push(format!("{} files with figures in {}", self.report.figures.len(), self.folder()));
+        lines.push(match self.report.figures.len() {
+            0 => format!("results in {}", self.folder()),
+            count => format!("{count} files with figures in {}", self.folder()),
+        });
         lines.join("\n")
     }
 }
