@@ -1,7 +1,7 @@
 //! Flips and Neimark-Sacker points that only the numbers of multipliers outside the unit circle show.
 //!
-//! The path keeps books of them from point to point, but not over its shortest steps; and a pair that leaves
-//! the circle and comes back within one step leaves no trace in them, where a row between the points
+//! The path counts them from point to point, but not over its shortest steps; and a pair that leaves the
+//! circle and comes back within one step leaves no trace in them, where a row between the points
 //! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ,
 //! although nothing happens at either that accounts for it, the place between is found by halving. Where the
 //! contacts change, multipliers may jump, and nothing is asked.
