@@ -163,20 +163,20 @@ const WHOLE: f64 = 200.0 * 200.0;
 /// a grid of 32 x 32 by the exact one, sixteen cells spread over it by the general one.
 fn whole_basin(_: &mut Criterion) {
     let (mut threads, grid) = (common::Threads::of(CORES), grid(32));
-    let begun = Instant::now();
+    let started = Instant::now();
     let mut basins = Basins::new(common::paper_beam(), 36.0, grid.clone(), Effort::default(), EXACT).unwrap();
     while basins.round(&mut threads).is_some() {}
-    tell("exact", basins.done(), begun.elapsed());
+    report("exact", basins.done(), started.elapsed());
     let spread: Vec<usize> = (0..16).map(|k| 64 * k + 4 * (k % 8)).collect();
-    let begun = Instant::now();
+    let started = Instant::now();
     let settled = threads.in_order(&spread, &|| general(36.0), &|map, &cell| {
         settle(map, 1, &grid.state(cell), PATIENCE).unwrap()
     });
-    tell("general", settled.unwrap().len(), begun.elapsed());
+    report("general", settled.unwrap().len(), started.elapsed());
 }
 
-#[allow(clippy::print_stdout, reason = "a benchmark tells what it measures")]
-fn tell(integrator: &str, cells: usize, taken: Duration) {
+#[allow(clippy::print_stdout, reason = "a benchmark prints what it measures")]
+fn report(integrator: &str, cells: usize, taken: Duration) {
     let rate = cells as f64 / taken.as_secs_f64();
     println!(
         "{integrator}: {cells} cells on {CORES} cores in {:.2} s, {rate:.4} cells/s; \

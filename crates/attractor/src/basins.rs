@@ -3,8 +3,8 @@
 //! From the middle of every cell the motion is followed until it repeats (`settle.rs`), or until it comes
 //! near an attractor that is known: within [`NEAR`] of one of its states, and closer than a period of it
 //! before. A motion that does not repeat is examined (`classify.rs`); it belongs to a known attractor without
-//! a period if most of its further states lie among those of that attractor, as close as those lie to one
-//! another.
+//! a period if most of its further states lie among the states of that attractor, as close as these lie to
+//! one another.
 //!
 //! **The same bits for any number of threads.** Cells are done in rounds whose sizes depend on the number of
 //! cells done alone. Within a round every cell knows the attractors of the rounds before, and no other;
@@ -20,7 +20,7 @@ use std::ops::Range;
 use hammerbeam_motion::{System, exact::ExactSettings};
 
 use crate::{
-    AttractorError, Class, Classified, Doubt, Effort, Estimate, Grid, InOrder, SectionMap, SystemMap,
+    AttractorError, Class, Classified, Effort, Estimate, Grid, InOrder, MotionDoubt, SectionMap, SystemMap,
     classify::periodic,
     examine,
     settle::{Patience, Settled, advance_period, distance, settle_unless},
@@ -31,7 +31,7 @@ use crate::{
 const NEAR: f64 = 1e-4;
 /// Distance of two periodic attractors up to which they are the same.
 const SAME: f64 = 1e-5;
-/// States of a motion without a period that are compared with those of a known attractor.
+/// States of a motion without a period that are compared with the states of a known attractor.
 const PROBES: u64 = 64;
 /// Part of them that has to lie among the others.
 const MOST: f64 = 0.5;
@@ -199,7 +199,7 @@ impl Basins {
                 return Ok(Destination::Known(known));
             }
             let mut examined = examine(map, 1, &end, &self.effort)?;
-            let unsettled = examined.class == Class::Doubtful(Doubt::NotSettled);
+            let unsettled = examined.class == Class::Doubtful(MotionDoubt::NotSettled);
             if !unsettled || patience.skipped == 0 {
                 return Ok(Destination::New(examined.into()));
             }
@@ -263,7 +263,7 @@ fn probes(map: &mut SystemMap, state: Vec<f64>) -> Result<(Vec<Vec<f64>>, Vec<f6
     Ok((states, end))
 }
 
-/// Whether most of some states lie among those of an attractor without a period.
+/// Whether most of these states lie among the states of an attractor without a period.
 fn is_among(scales: &[f64], known: &Attractor, states: &[Vec<f64>]) -> bool {
     if matches!(known.class, Class::Periodic { .. }) || known.states.len() < 2 {
         return false;

@@ -9,14 +9,14 @@
 //! - 0-1 test: regular `K < 0.2`; chaotic `K > 0.8`; else undecided
 //!
 //! and, of a motion that both call regular, its returns over eight times as many periods (`returns.rs`): the
-//! distance to the state n periods before, for every n up to the longest period looked for, stays the same on
-//! average where there is no period, and falls where the motion still settles to one. If it falls by a fifth
-//! or more from the first quarter of these periods to the last, for any n, or for all n together by about the
-//! same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands looks
-//! regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its
-//! spectrum. So a motion is quasi-periodic only if its returns are those on a torus: that of n periods which
-//! is closest is three times as far after `3 n`, is not rounding, and the last states lie between earlier
-//! ones, where those of a motion that creeps past an orbit are at the end of its way.
+//! distance to the state n periods before, for every n up to the longest period looked for. It stays the same
+//! on average where there is no period, and falls where the motion still settles to one. If it falls by a
+//! fifth or more from the first quarter of these periods to the last, for any n, or for all n together by
+//! about the same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow
+//! bands looks regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in
+//! its spectrum. So a motion is quasi-periodic only if it returns as on a torus: the closest return, after n
+//! periods, is three times as far after `3 n` and is not rounding, and the last states lie between earlier
+//! ones. The last states of a motion that creeps past an orbit are at the end of its way.
 //!
 //! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln
 //! N/N`, and do not shrink. What they gain on one part of the torus they lose on another, so that the half
@@ -80,12 +80,12 @@ pub enum Class {
     /// Neighbouring motions part exponentially.
     Chaotic,
     /// Neither regular nor chaotic for certain.
-    Doubtful(Doubt),
+    Doubtful(MotionDoubt),
 }
 
 /// Why a motion is called doubtful.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Doubt {
+pub enum MotionDoubt {
     /// One indicator says regular, the other chaotic.
     IndicatorsDisagree,
     /// The largest exponent is neither near zero nor surely above it.
@@ -140,7 +140,7 @@ impl std::fmt::Display for Class {
     }
 }
 
-impl Doubt {
+impl MotionDoubt {
     /// Every doubt.
     pub const ALL: [Self; 5] = [
         Self::IndicatorsDisagree,
@@ -196,7 +196,7 @@ pub fn classify(
         Settled::Restless(state) => state,
     };
     let mut restless = examine(map, parts, &state, effort)?;
-    if restless.class == Class::Doubtful(Doubt::NotSettled) {
+    if restless.class == Class::Doubtful(MotionDoubt::NotSettled) {
         state = restless.states.pop().unwrap_or(state);
         let once_more = Patience { skipped: 0, ..effort.patience };
         match settle(map, parts, &state, once_more)? {
@@ -260,12 +260,12 @@ pub fn examine(
 /// What a motion is that both indicators call regular.
 fn judge_returns(states: &[Vec<f64>], scales: &[f64], longest: usize) -> Class {
     if settles(states, scales, longest) {
-        return Class::Doubtful(Doubt::NotSettled);
+        return Class::Doubtful(MotionDoubt::NotSettled);
     }
     match returns(states, scales) {
         Returns::Turning => Class::QuasiPeriodic,
-        Returns::Creeping => Class::Doubtful(Doubt::NotSettled),
-        Returns::Elsewhere => Class::Doubtful(Doubt::NotTurning),
+        Returns::Creeping => Class::Doubtful(MotionDoubt::NotSettled),
+        Returns::Elsewhere => Class::Doubtful(MotionDoubt::NotTurning),
     }
 }
 
@@ -286,7 +286,7 @@ fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) 
     let (value, low) = (largest.value * period, largest.low() * period);
     let surely_shrinks = largest.high() * period * (periods as f64) < -SURELY;
     if value < -SHRINKING / periods as f64 || surely_shrinks {
-        return Class::Doubtful(Doubt::NotSettled);
+        return Class::Doubtful(MotionDoubt::NotSettled);
     }
     let known = largest.half_width * period <= WIDTH / periods as f64;
     let exponent =
@@ -299,9 +299,9 @@ fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) 
     match (exponent, test) {
         (Some(false), Some(false)) => Class::QuasiPeriodic,
         (Some(true), Some(true)) => Class::Chaotic,
-        (Some(_), Some(_)) => Class::Doubtful(Doubt::IndicatorsDisagree),
-        (None, _) => Class::Doubtful(Doubt::ExponentUndecided),
-        (_, None) => Class::Doubtful(Doubt::ZeroOneUndecided),
+        (Some(_), Some(_)) => Class::Doubtful(MotionDoubt::IndicatorsDisagree),
+        (None, _) => Class::Doubtful(MotionDoubt::ExponentUndecided),
+        (_, None) => Class::Doubtful(MotionDoubt::ZeroOneUndecided),
     }
 }
 
@@ -315,13 +315,13 @@ mod tests {
         let judge = |value, half_width, k| judge(largest(value, half_width), 1.0, 1000, Some(k));
         assert_eq!(judge(0.3, 0.02, 0.99), Class::Chaotic);
         assert_eq!(judge(0.002, 0.001, 0.03), Class::QuasiPeriodic);
-        assert_eq!(judge(0.3, 0.02, 0.05), Class::Doubtful(Doubt::IndicatorsDisagree));
-        assert_eq!(judge(0.002, 0.001, 0.95), Class::Doubtful(Doubt::IndicatorsDisagree));
-        assert_eq!(judge(0.03, 0.025, 0.95), Class::Doubtful(Doubt::ExponentUndecided));
-        assert_eq!(judge(0.003, 0.021, 0.03), Class::Doubtful(Doubt::ExponentUndecided));
-        assert_eq!(judge(0.3, 0.02, 0.5), Class::Doubtful(Doubt::ZeroOneUndecided));
-        assert_eq!(judge(-0.3, 0.02, 0.5), Class::Doubtful(Doubt::NotSettled));
+        assert_eq!(judge(0.3, 0.02, 0.05), Class::Doubtful(MotionDoubt::IndicatorsDisagree));
+        assert_eq!(judge(0.002, 0.001, 0.95), Class::Doubtful(MotionDoubt::IndicatorsDisagree));
+        assert_eq!(judge(0.03, 0.025, 0.95), Class::Doubtful(MotionDoubt::ExponentUndecided));
+        assert_eq!(judge(0.003, 0.021, 0.03), Class::Doubtful(MotionDoubt::ExponentUndecided));
+        assert_eq!(judge(0.3, 0.02, 0.5), Class::Doubtful(MotionDoubt::ZeroOneUndecided));
+        assert_eq!(judge(-0.3, 0.02, 0.5), Class::Doubtful(MotionDoubt::NotSettled));
         assert_eq!(judge(-1e-4, 1e-3, 0.03), Class::QuasiPeriodic);
-        assert_eq!(judge(-1e-4, 1e-5, 0.03), Class::Doubtful(Doubt::NotSettled));
+        assert_eq!(judge(-1e-4, 1e-5, 0.03), Class::Doubtful(MotionDoubt::NotSettled));
     }
 }

@@ -33,12 +33,12 @@ pub enum AttractorError {
     /// on the speed of the first touch, and so on where the motion was started.
     #[error(
         "{element} is closed over the whole settled motion: its law needs to know how fast a contact began, \
-        and that is what is left of how the motion was begun"
+        and that speed depends on where the motion was started"
     )]
     NeverOpens { element: String },
     /// Tangent vectors have become linearly dependent or infinite: the sections are too long for the growth
     /// in them.
-    #[error("tangent vectors cannot be told apart after section {section}: a shorter section is needed")]
+    #[error("tangent vectors are no longer distinct after section {section}: a shorter section is needed")]
     TangentsLost { section: u64 },
 }
 

@@ -19,7 +19,7 @@
 //!   at a phase and at touches
 //! - `sweep.rs`: stepped sweeps with the state carried over, diagrams from many states
 //! - `grid.rs`, `basins.rs`: where the motions from a grid of states lead
-//! - `parallel.rs`, `random.rs`: who does the same work for many items; numbers from a seed
+//! - `parallel.rs`, `random.rs`: the same work for many items, on threads or one by one; numbers from a seed
 //!
 //! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of
 //! cells does so step by step, and can show progress and stop in between.
@@ -60,7 +60,7 @@ mod tangents;
 mod zero_one;
 
 pub use basins::{Attractor, Basins, Round, SHARED_CELLS, behind_rigid_stops, fractions, rounds};
-pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
+pub use classify::{Class, Classified, Effort, MotionDoubt, classify, examine};
 pub use error::AttractorError;
 pub use grid::{Axis, Grid};
 pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov};

@@ -11,19 +11,19 @@
 //! force depends on the velocity adds the mean of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e`
 //! (the determinant of its jump is `e^2`). A law that depends on the speed `v` of its impact adds the mean of
 //! `phi^T df/dv . dv/dq'` as well, where `dv/dz` is how the speed of neighbours that were struck at other
-//! speeds goes with their present state. Where a rigid stop sticks, what the motion was relative to it is
-//! forgotten: two exponents are minus infinity for each stop that is held at once, and so is the sum; one is
-//! where an impact without restitution does not stick. The others are those of the motion that is left.
+//! speeds goes with their present state. Where a rigid stop sticks, the relative motion is lost: two
+//! exponents are minus infinity for each stop that is held at once, and so is the sum. One is where an impact
+//! without restitution does not stick. The others belong to the remaining motion.
 //!
-//! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the
-//! motion their means are independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per
-//! cent, with the standard deviation `s` of the block means and Student's `t` for `BLOCKS - 1` degrees of
-//! freedom. The correlation of neighbouring blocks is reported, too: beyond `2/sqrt(BLOCKS)` the blocks are
-//! too short or the motion has not settled, and the half width is too small.
+//! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the correlation
+//! time of the motion their means are independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean
+//! with 95 per cent, with the standard deviation `s` of the block means and Student's `t` for `BLOCKS - 1`
+//! degrees of freedom. The correlation of neighbouring blocks is reported, too: beyond `2/sqrt(BLOCKS)` the
+//! blocks are too short or the motion has not settled, and the half width is too small.
 //!
 //! **Dimension.** With the largest k for which `S_k = lambda_1 + ... + lambda_k >= 0` the dimension after
-//! Kaplan and Yorke is `k + S_k/|lambda_(k+1)|`; that of the section for a motion that is driven
-//! periodically, of the attractor itself for a field that does not depend on time.
+//! Kaplan and Yorke is `k + S_k/|lambda_(k+1)|`. It is the dimension of the section for a motion that is
+//! driven periodically, and of the attractor itself for a field that does not depend on time.
 //!
 //! # Source
 //! See `tangents.rs`; Kaplan and Yorke, Lecture Notes in Mathematics 730 (1979), 204-227.

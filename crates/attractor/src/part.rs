@@ -18,7 +18,7 @@ impl Part {
         Self { section, number: 0, halvings: 0 }
     }
 
-    /// Begin and end in sections, counted from the begin of the first of `period` sections.
+    /// Start and end in sections, counted from the start of the first of `period` sections.
     pub(crate) fn ends(self, period: u64) -> (f64, f64) {
         let parts = f64::from(1_u32 << self.halvings);
         let at = |number: u32| (self.section % period) as f64 + f64::from(number) / parts;

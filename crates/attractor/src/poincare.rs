@@ -75,16 +75,16 @@ fn check(simulation: &Simulation, section: PoincareSection) -> Result<(), Attrac
 
 /// Touches of an element in the next period, those that last beyond it included.
 fn touches(simulation: &mut Simulation, element: usize) -> Result<Vec<SectionPoint>, AttractorError> {
-    let begun = simulation.time();
+    let start = simulation.time();
     let (_, contacts) = simulation.period_at(&[])?;
-    let duration = simulation.time() - begun;
+    let duration = simulation.time() - start;
     let all = contacts.into_iter().chain(simulation.unfinished());
     let of_element = all.filter(|record| record.element == element).filter_map(|record| record.begin);
     let point = |touch: hammerbeam_motion::exact::Touchdown| SectionPoint {
         time: touch.time,
-        phase: ((touch.time - begun) / duration).clamp(0.0, 1.0),
+        phase: ((touch.time - start) / duration).clamp(0.0, 1.0),
         state: touch.state,
         impact_velocity: touch.velocity,
     };
-    Ok(of_element.filter(|touch| touch.time >= begun).map(point).collect())
+    Ok(of_element.filter(|touch| touch.time >= start).map(point).collect())
 }

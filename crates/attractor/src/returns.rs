@@ -6,8 +6,8 @@
 //!   periods to the last, for some n. Where little is left to fall within these periods, it falls by the same
 //!   factor from each quarter to the next, for all n alike; on a torus the quarters differ either way.
 //! - On a torus the map turns every angle by the same amount, so that the shift of n periods is a turn, and
-//!   that of `3 n` periods three times that turn. Of many n one turns by little; there `D(3 n)` is about `3
-//!   D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In
+//!   the shift of `3 n` periods three times that turn. Of many n one turns by little; there `D(3 n)` is about
+//!   `3 D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In
 //!   chaos, in bands that are visited in a fixed order as well, the closest n keeps the order of the bands
 //!   and says nothing of the place in them: `D(3 n)` is about `D(n)`.
 //! - But so does what creeps past an orbit, or towards one whose period is longer than those looked for: it
@@ -19,8 +19,8 @@
 
 use crate::settle::{REPEATED, distance};
 
-/// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks
-/// by `1/N` in a period has 0.5.
+/// Part to which returns may fall on a torus: on the beam's they keep 0.98 and more, a motion that shrinks by
+/// `1/N` in a period has 0.5.
 const STEADY: f64 = 0.8;
 /// Least part by which returns fall from each quarter to the next in a motion that settles slowly, and by how
 /// much that part differs between quarters at most.
@@ -135,8 +135,8 @@ fn end_between_earlier_ones(states: &[Vec<f64>], scales: &[f64], n: usize) -> bo
     between as f64 >= BETWEEN * count as f64
 }
 
-/// Distance of two states in the scales: relative to states, which may be near zero, means would be those of
-/// few.
+/// Distance of two states in the scales: relative to the states, which may be near zero, a few of them would
+/// dominate the means.
 fn apart(scales: &[f64], a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).zip(scales).map(|((a, b), scale)| ((a - b) / scale).powi(2)).sum::<f64>().sqrt()
 }

@@ -90,7 +90,7 @@ pub struct SystemMap {
     integrator: ExactIntegrator,
     frequency_hz: f64,
     parts: u64,
-    /// What the integrator remembered before the last flow.
+    /// What the integrator kept of its contacts before the last flow.
     memory_before: Option<ContactMemory>,
     /// Of the last flow.
     growth_of_volume: Option<f64>,
@@ -198,7 +198,7 @@ impl SystemMap {
     }
 
     /// Elements within a contact of an impact-speed-dependent law, and the numbers of these contacts among
-    /// those of all elements.
+    /// the contacts of all elements.
     fn remembered_contacts(&self, state: &[f64]) -> Vec<(usize, usize)> {
         let (system, mut first) = (self.integrator.system(), 0);
         let mut within = Vec::new();
@@ -296,8 +296,8 @@ pub struct FieldMap<F> {
 
 impl<F: VectorField> FieldMap<F> {
     /// * `duration`: of a section, in the unit of the field's time.
-    /// * `parts`: sections after which the time of the field begins anew: those of a period; 1 where the
-    ///   field does not depend on time.
+    /// * `parts`: sections after which the time of the field starts anew: the sections of a period; 1 where
+    ///   the field does not depend on time.
     ///
     /// # Errors
     /// [`AttractorError::Input`].

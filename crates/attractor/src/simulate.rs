@@ -1,8 +1,8 @@
 //! Motion in time: states at a sampling rate, and every contact from touch to release.
 //!
-//! The motion is that of the exact integrator, excitation period by excitation period: closed form in flight,
-//! contacts certified, so no contact of the motion is missed between samples, whatever the sampling rate.
-//! Parts of a contact that lie in neighbouring periods are joined.
+//! The exact integrator computes the motion, one excitation period at a time: closed form in flight, contacts
+//! certified, so no contact of the motion is missed between samples, whatever the sampling rate. Parts of a
+//! contact that lie in neighbouring periods are joined.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -13,7 +13,7 @@ use crate::{AttractorError, error::ensure};
 
 /// Largest number of samples in a period.
 const MOST_SAMPLES: usize = 1_000_000;
-/// Part of a period within which a contact that ends with a period and one that begins with the next are one.
+/// Part of a period within which a contact that ends with a period and one that starts with the next are one.
 const SAME_INSTANT: f64 = 1e-12;
 
 /// A state at a time.
@@ -105,7 +105,7 @@ impl Simulation {
     /// Goes on where a motion of the same system, frequency and settings was.
     ///
     /// # Errors
-    /// As [`Simulation::new`], or the checkpoint is that of a system with other elements.
+    /// As [`Simulation::new`], or the checkpoint is from a system with other elements.
     pub fn resume(
         system: System,
         frequency_hz: f64,
@@ -162,7 +162,7 @@ impl Simulation {
         self.periods as f64 / self.frequency_hz
     }
 
-    /// Goes over one period without observing it; time and contacts begin anew.
+    /// Goes over one period without observing it; time and contacts start anew.
     ///
     /// # Errors
     /// The motion cannot be computed.
@@ -194,15 +194,15 @@ impl Simulation {
     /// The motion cannot be computed.
     pub fn period_at(&mut self, phases: &[f64]) -> Result<(Vec<Sample>, Vec<ContactRecord>), AttractorError> {
         let trace = self.integrator.trace(&self.stretch(), &self.state, phases)?;
-        let begun = self.time();
+        let start = self.time();
         let sample = |((&phase, state), forces)| Sample {
-            time: begun + phase / self.frequency_hz,
+            time: start + phase / self.frequency_hz,
             phase,
             state,
             forces,
         };
         let samples = phases.iter().zip(trace.samples).zip(trace.forces).map(sample).collect();
-        let contacts = self.join(trace.contacts, begun);
+        let contacts = self.join(trace.contacts, start);
         self.state = trace.state;
         self.periods += 1;
         Ok((samples, contacts))
@@ -219,7 +219,7 @@ impl Simulation {
     }
 
     /// Contacts that ended, from the pieces of a period that began at a time.
-    fn join(&mut self, pieces: Vec<ContactPiece>, begun: f64) -> Vec<ContactRecord> {
+    fn join(&mut self, pieces: Vec<ContactPiece>, start: f64) -> Vec<ContactRecord> {
         let mut ended = Vec::new();
         let goes_on = |piece: &ContactPiece| {
             piece.begin.as_ref().is_none_or(|touch| touch.time * self.frequency_hz <= SAME_INSTANT)
@@ -229,19 +229,19 @@ impl Simulation {
             if !first.is_some_and(&goes_on)
                 && let Some(record) = open.take()
             {
-                ended.push(ContactRecord { end: Some(begun), ..record });
+                ended.push(ContactRecord { end: Some(start), ..record });
             }
         }
         for piece in pieces {
             let element = piece.element;
-            let begin = piece.begin.map(|touch| Touchdown { time: begun + touch.time, ..touch });
+            let begin = piece.begin.map(|touch| Touchdown { time: start + touch.time, ..touch });
             let earlier = self.open[element].take();
             let record = ContactRecord {
                 element,
                 contact: piece.contact,
                 begin: earlier.as_ref().map_or(begin, |record| record.begin.clone()),
                 jump: earlier.as_ref().map_or(piece.jump, |record| record.jump.clone()),
-                end: piece.end.map(|end| begun + end),
+                end: piece.end.map(|end| start + end),
                 impulse: piece.impulse + earlier.as_ref().map_or(0.0, |record| record.impulse),
                 peak_force: piece.peak_force.max(earlier.as_ref().map_or(0.0, |record| record.peak_force)),
                 energy_lost: piece.energy_lost + earlier.map_or(0.0, |record| record.energy_lost),

@@ -1,8 +1,8 @@
 //! Stepped-sine sweeps with the state carried over, and diagrams from many initial states.
 //!
 //! At each frequency the motion is let settle, classified (`classify.rs`) and sampled once in every
-//! excitation period. In a sweep it begins where it ended at the frequency before, at phase 0, so that it
-//! follows a branch as far as that is stable and hysteresis shows. In a diagram it begins at each of several
+//! excitation period. In a sweep it starts where it ended at the frequency before, at phase 0, so that it
+//! follows a branch as far as that is stable and hysteresis shows. In a diagram it starts at each of several
 //! states, the same ones at every frequency: rest, the motion without contacts, and states about it.
 
 use hammerbeam_motion::{
@@ -16,7 +16,7 @@ use crate::{
     section::state_scales,
 };
 
-/// Draws of a state of a diagram until a motion can begin at it.
+/// Draws of a state of a diagram until a motion can start at it.
 const MOST_DRAWS: usize = 1000;
 
 /// What is read off a motion: `shape . q + support_ratios . u`.
@@ -86,10 +86,11 @@ impl Sweeper {
         Ok(Self { map, watching, observable: observable.clone(), settings })
     }
 
-    /// The motion that one which begins at this state at phase 0 settles to.
+    /// The motion to which a motion from this state at phase 0 settles, once the start is checked.
     ///
     /// # Errors
-    /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], and those of [`Sweeper::at`].
+    /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], and the errors of
+    /// [`Sweeper::at`].
     pub fn begin_at(&mut self, frequency_hz: f64, state: &[f64]) -> Result<SweepPoint, AttractorError> {
         self.map.set_frequency(frequency_hz);
         self.map.check_in_front_of_stops(state)?;

@@ -8,10 +8,10 @@
 //! **Parts.** Of a direction that shrinks by more than 1e16 against another over a section only rounding is
 //! left. So a section is cut into halves, and those again, until none has more than [`SPREAD`] between what
 //! its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and
-//! another by `v`, and in chaos that may be any speed. What a single impact does no cut takes apart: so parts
-//! are not cut more often than the map allows ([`SectionMap::most_halvings`]), and taken as they are then; an
-//! impact 1e-4 times as fast as the motion leaves eight digits. The next section begins with parts of the
-//! size with which this one has ended.
+//! another by `v`, and in chaos that may be any speed. The effect of a single impact cannot be cut into
+//! parts. So parts are not cut more often than the map allows ([`SectionMap::most_halvings`]), and are then
+//! taken as they are; an impact 1e-4 times as fast as the motion leaves eight digits. The next section starts
+//! with parts of the size with which this one has ended.
 //!
 //! # Source
 //! Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980), 9-20 and 21-30; Eckmann and Ruelle, Rev.
@@ -22,8 +22,8 @@ use faer::Mat;
 
 use crate::{AttractorError, Part, SectionMap};
 
-/// Largest difference of the logarithms of growth in one part at which all directions are told apart to six
-/// digits and more.
+/// Largest difference of the logarithms of growth in one part at which all directions are distinguished to
+/// six digits and more.
 const SPREAD: f64 = 13.8;
 /// Parts are joined where it is less than this share of that.
 const CALM: f64 = 0.25;
@@ -42,7 +42,7 @@ pub struct Tangents {
     growth: Vec<f64>,
     /// What their sum has to be.
     growth_of_volume: Option<f64>,
-    /// Halvings of the next section to begin with.
+    /// Initial halvings of the next section.
     halvings: u32,
 }
 
@@ -73,7 +73,7 @@ impl Tangents {
     /// Goes over the next section. After an error it cannot go on.
     ///
     /// # Errors
-    /// The motion cannot be computed, or the directions cannot be told apart any more.
+    /// The motion cannot be computed, or the directions can no longer be distinguished.
     pub fn step(&mut self, map: &mut impl SectionMap) -> Result<(), AttractorError> {
         self.growth.fill(0.0);
         self.growth_of_volume = Some(0.0);

@@ -94,16 +94,16 @@ fn contacts_without_a_memory() {
 /// Impact-speed-dependent laws, closed at borders: neither the state nor the contact says how fast they
 /// closed.
 #[test]
-fn contacts_that_remember_their_impact() {
+fn contacts_of_impact_speed_dependent_laws() {
     let mut closed = 0;
-    let remembered = |record: &ContactRecord| record.element == 0;
+    let of_such_a_law = |record: &ContactRecord| record.element == 0;
     for step in 0..8 {
         let phase = std::f64::consts::TAU * f64::from(step) / 8.0;
         let linear = Law::Linear(LinearStop::with_gap(3.0, 0.5).unwrap());
         let (system, frequency_hz) = oscillator(0.0, phase, &[restitution(20.0, 0.1), linear]);
         let checkpoints = assert_same_bits(&system, frequency_hz, &[-0.5, 0.0], 60);
-        closed += closed_at_borders(&checkpoints, remembered);
-        let last = checkpoints.into_iter().rfind(|checkpoint| checkpoint.open.iter().any(remembered));
+        closed += closed_at_borders(&checkpoints, of_such_a_law);
+        let last = checkpoints.into_iter().rfind(|checkpoint| checkpoint.open.iter().any(of_such_a_law));
         let Some(mut forgetful) = last else { continue };
         assert!(forgetful.impact_speeds[0].is_finite());
         forgetful.impact_speeds.clear();
@@ -119,7 +119,7 @@ fn contacts_that_remember_their_impact() {
 
 /// The beam whose contacts last thousandths of a period.
 #[test]
-fn the_beam_with_contacts_that_remember() {
+fn the_beam_with_an_impact_speed_dependent_law() {
     let beam = beam_with(0.015, restitution(1e7, 0.0));
     // In front of the stop, so that a motion can begin.
     let mut state = vec![0.0; 2 * beam.dof()];

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{element, oscillator, paper_beam};
 use hammerbeam_attractor::{
-    Class, Classified, Doubt, Effort, Patience, SectionMap, StepMap, SystemMap, classify,
+    Class, Classified, Effort, MotionDoubt, Patience, SectionMap, StepMap, SystemMap, classify,
 };
 use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
 
@@ -115,7 +115,7 @@ fn orbits_of_long_periods_and_slow_flips_are_no_tori() {
         let effort = Effort { patience, ..Effort::default() };
         let found = classify(&mut map, 1, &[0.0; 12], &effort).unwrap();
         let expected = match (longest, frequency_hz) {
-            (32, 34.2) => Class::Doubtful(Doubt::NotSettled),
+            (32, 34.2) => Class::Doubtful(MotionDoubt::NotSettled),
             (_, 34.2) => Class::Periodic { period: 36 },
             _ => Class::Periodic { period: 4 },
         };
@@ -142,7 +142,7 @@ fn motion_that_still_settles_is_doubtful() {
     let impatient =
         Effort { patience: Patience { skipped: 1, periods: 5, longest: 4 }, aligning: 1, averaged: 1000 };
     let found = classify(&mut map, 1, &[3.0, 0.0], &impatient).unwrap();
-    assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{:?}", found.largest_exponent);
+    assert_eq!(found.class, Class::Doubtful(MotionDoubt::NotSettled), "{:?}", found.largest_exponent);
 }
 
 /// A motion that settles ever so slowly, on either side of its fixed point in turn or turning about it, looks
@@ -166,6 +166,6 @@ fn motion_that_settles_too_slowly_for_the_exponents_is_doubtful() {
         let found = classify(&mut map, 1, &[1.3, 1.1], &impatient).unwrap();
         let largest = found.largest_exponent.unwrap();
         assert!((largest.value - 0.999_f64.ln()).abs() < 1e-9, "above -2/1000: {largest:?}");
-        assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{turn}: {:?}", found.zero_one);
+        assert_eq!(found.class, Class::Doubtful(MotionDoubt::NotSettled), "{turn}: {:?}", found.zero_one);
     }
 }

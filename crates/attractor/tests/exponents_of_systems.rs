@@ -33,7 +33,8 @@ fn linear_oscillator_has_its_closed_form_exponents() {
         let found = spectrum(oscillator(stiffness, damping, 1.0, vec![]), 0.2, 2, (0, 200)).0;
         let root = (damping * damping / 4.0 - stiffness).max(0.0).sqrt();
         for (exponent, exact) in found.exponents.iter().zip([-damping / 2.0 + root, -damping / 2.0 - root]) {
-            // Tangent vectors turn; what is left of where they begin and end falls with the time, 1000 s.
+            // Tangent vectors turn; the influence of their first and last directions falls with the time,
+            // 1000 s.
             assert!((exponent.value - exact).abs() < 2e-3, "{exponent:?} {exact}");
         }
         assert!((found.sum + damping).abs() < 1e-9);
@@ -104,8 +105,8 @@ fn two_well_oscillator_has_the_published_exponents() {
     assert!((found.sum - divergence).abs() < 1e-6);
 }
 
-/// The same by a formula, whose damper takes the place of that of the structure: what its force does to
-/// volumes is all there is of the sum.
+/// The same by a formula, whose damper replaces the structure's: its change of volumes is all there is of the
+/// sum.
 #[test]
 fn ueda_oscillator_by_a_formula_has_the_published_exponents() {
     let formula = element(&[1.0], 0.0, Law::Formula(Formula::new("x^3 + 0.05*v", &[]).unwrap()));

@@ -9,7 +9,7 @@
 //! | Roessler | 0.0714, 0, -5.3943 | 2.0132 |
 //! | Ueda | 0.1034, 0, -0.1534 | 2.6741 |
 //!
-//! (the zero of Ueda's oscillator is that of the phase, which is no part of its state here). Tolerances: half
+//! (the zero of Ueda's oscillator belongs to the phase, which is no part of its state here). Tolerances: half
 //! a unit of the last digit and twice the half width of the average, which itself is bounded: by 5e-3, and
 //! with `HAMMERBEAM_EXTENSIVE`, which averages 400 times as long, by 1.5e-4.
 #![allow(clippy::unwrap_used, reason = "tests")]

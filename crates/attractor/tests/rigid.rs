@@ -57,9 +57,9 @@ fn every_impact_takes_two_logarithms_of_its_restitution() {
 }
 
 /// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact,
-/// with that of its memory.
+/// including its dependence on the impact speed.
 #[test]
-fn sums_are_those_of_the_divergence_for_laws_that_lose_energy() {
+fn sums_agree_with_the_divergence_for_laws_that_lose_energy() {
     let hertz = HertzStop::with_gap(4.5e9, 0.0).unwrap();
     let mut laws = vec![
         ("hunt-crossley".to_owned(), Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.3).unwrap())),

@@ -65,7 +65,7 @@ fn a_motion_that_is_written_down_is_bit_by_bit_the_same() {
     assert_eq!(seen.state(), unseen.state());
 }
 
-/// Contacts, their impulses and largest forces are those of the integrator's own maxima.
+/// Contacts, their impulses and largest forces agree with the integrator's own maxima.
 #[test]
 fn contacts_agree_with_the_maxima_of_the_motion() {
     let mut simulation = settled(paper_beam(), 53.0, 100);
@@ -154,7 +154,7 @@ fn contacts_are_joined_over_the_ends_of_periods() {
     }
 }
 
-/// At a touch the clearance is zero, and the reported velocity is that of the state.
+/// At a touch the clearance is zero, and the reported velocity agrees with the state.
 #[test]
 fn section_at_touches_lies_on_the_stop() {
     let mut simulation = settled(paper_beam(), 53.0, 100);

@@ -2,8 +2,8 @@
 //!
 //! * one evaluation of the shooting equations (flow over a period with sensitivities) against the general
 //!   integrator at the same accuracy;
-//! * solutions per second along the branch, at the default steps and at 0.001 Hz, in the smooth part and in
-//!   the thickets of folds.
+//! * solutions per second along the branch, at the default steps and at 0.001 Hz, in the smooth part and
+//!   among the dense folds.
 //!
 //! With `-- --test` each case runs once, on short ranges.
 #![allow(clippy::unwrap_used, reason = "a benchmark ends where its system is wrong")]
@@ -96,14 +96,14 @@ fn whole_range((from_hz, range): (f64, (f64, f64)), max_step: f64) {
     let beam = beam();
     let settings = OrbitSettings { max_step, ..OrbitSettings::default() };
     let start = orbit_at(&beam, from_hz);
-    let begun = std::time::Instant::now();
+    let started = std::time::Instant::now();
     let (mut solutions, mut evaluations) = (0, 0);
     for side in [Side::Down, Side::Up] {
         let (rows, count) = walk(&beam.0, &beam.1, &start, side, range, &settings);
         solutions += rows.len();
         evaluations += count;
     }
-    let seconds = begun.elapsed().as_secs_f64();
+    let seconds = started.elapsed().as_secs_f64();
     println!(
         "{} to {} Hz at {max_step} Hz: {solutions} solutions, {:.3} evaluations each, {:.0} per second",
         range.0,

@@ -7,10 +7,10 @@
 //! `k(a) = -1/(pi a) sum_e phi_e int f_e(r_e + phi_e a cos s) cos s ds`:
 //!
 //! its *backbone*. Over a rigid stop at `cos s = g` it lacks the time behind the stop, so that `w(a) = w/(1 -
-//! arccos(g)/pi)`. Weakly damped motion of large amplitude lies near a backbone whose frequency is a ratio
-//! `p/q` of that of the excitation: with `q = 1` at the same frequency or a superharmonic one, else a
-//! subharmonic solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The
-//! phase is open, so several are tried.
+//! arccos(g)/pi)`. Weakly damped motion of large amplitude lies near a backbone whose frequency is `p/q` of
+//! the excitation frequency: with `q = 1` at the same frequency or a superharmonic one, else a subharmonic
+//! solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The phase is open,
+//! so several are tried.
 
 use std::f64::consts::{PI, TAU};
 
@@ -20,7 +20,7 @@ use crate::{noise::Noise, state_scale::state_of_rest};
 
 /// Samples of a cycle of the describing function.
 const SAMPLES: u32 = 128;
-/// Amplitudes that are looked at: powers of two about the one it begins from, to either side.
+/// Amplitudes that are looked at: powers of two about the one it starts from, to either side.
 const OCTAVES: i32 = 40;
 /// Bisections of the amplitude.
 const BISECTIONS: usize = 40;
@@ -172,7 +172,7 @@ fn describing_function(element: &LocalElement, place: f64, (phi, amplitude): (f6
     -2.0 * phi * mean / amplitude
 }
 
-/// An amplitude of a mode to begin from: that of the linear response, or where the smallest gap is reached.
+/// An amplitude of a mode to start from: the linear response, or the least that reaches a gap.
 fn unit_amplitude(system: &System, mode: usize, linear: &[f64]) -> Option<f64> {
     let (n, w) = (system.dof(), system.model().natural_frequencies[mode]);
     let acting = || system.elements().iter().filter(|element| element.shape[mode] != 0.0);
@@ -201,8 +201,8 @@ mod tests {
         [1.2, 1.7].into_iter().map(|w| backbone.amplitudes_at(w)[0]).collect()
     }
 
-    /// Of `x'' + x + x^3 = 0` the first harmonic has `w^2 = 1 + 3/4 a^2`, whatever the amplitude it is begun
-    /// from.
+    /// Of `x'' + x + x^3 = 0` the first harmonic has `w^2 = 1 + 3/4 a^2`, whatever the amplitude it is
+    /// started from.
     #[test]
     fn backbone_of_a_cubic_spring_is_a_parabola() {
         for unit in [1e-4, 0.3, 50.0] {

@@ -10,7 +10,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     free_vibration::free_vibration,
     matching::{distance_in_phase, states_at_phase},
-    off_impacts::begun_off_impacts,
+    off_impacts::started_off_impacts,
     shooting::ShootingProblem,
     size::{Cut, orbit_scale, scale_from},
     solve::{Wanted, approach, correct, has_minimal_period, integrator, solution},
@@ -133,8 +133,8 @@ impl<'a> Catalogue<'a> {
     /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at
     /// equal phases, the first at `phase`.
     ///
-    /// `None` if it leads nowhere: where no motion can be computed either, that is no more than a guess that
-    /// was not good enough.
+    /// `None` if it does not converge. Where no motion can be computed either, the guess was just not good
+    /// enough.
     pub fn probe(
         &mut self,
         guess: (f64, &[Vec<f64>]),
@@ -154,7 +154,7 @@ impl<'a> Catalogue<'a> {
         let guess = Cut { phase, nodes, frequency_hz: self.frequency_hz, period_multiple };
         let Ok(scale) = guess.scale(self.integrator()) else { return Ok(None) };
         let integrator = self.integrator.take().expect("it is back after every use");
-        let mut problem = ShootingProblem::new(integrator, shape, scale, 1.0).beginning_at(phase);
+        let mut problem = ShootingProblem::new(integrator, shape, scale, 1.0).starting_at(phase);
         let result = approach(&mut problem, nodes, self.frequency_hz, (wanted, self.settings))
             .and_then(|(point, correction)| self.arrive(&mut problem, &point, correction));
         self.integrator = Some(problem.into_integrator());
@@ -213,7 +213,7 @@ impl<'a> Catalogue<'a> {
         let (phase, frequency_hz) = (problem.phase(), self.frequency_hz);
         let guess = Cut { phase, nodes: &nodes, frequency_hz, period_multiple: part };
         let Ok(scale) = guess.scale(&mut motion) else { return Ok(None) };
-        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(phase);
+        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).starting_at(phase);
         let mut point = shorter.point(&nodes, frequency_hz);
         let Ok(correction) = correct(&mut shorter, &mut point, self.settings) else { return Ok(None) };
         let found = solution(&mut shorter, &point, correction)?;
@@ -236,7 +236,7 @@ impl<'a> Catalogue<'a> {
             }
             self.family = Some(error);
         }
-        let elsewhere = begun_off_impacts(integrator, &solution)?;
+        let elsewhere = started_off_impacts(integrator, &solution)?;
         if let Some(place) = elsewhere.as_ref().and_then(|orbit| self.place_elsewhere(integrator, orbit)) {
             return Ok(Arrived { place, is_new: false });
         }
@@ -251,7 +251,7 @@ impl<'a> Catalogue<'a> {
         Ok(Arrived { place: self.known.len() - 1, is_new: true })
     }
 
-    /// Place of an orbit that does not begin at phase 0, since an impact lies there.
+    /// Place of an orbit that does not start at phase 0, since an impact lies there.
     fn place_elsewhere(&self, integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Option<usize> {
         let multiple = orbit.period_multiple;
         self.known.iter().position(|known| {

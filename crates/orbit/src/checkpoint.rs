@@ -32,7 +32,7 @@ impl BranchWalk {
     #[must_use]
     pub fn checkpoint(&self) -> Vec<u8> {
         let mut out = Writer::default();
-        let Self { path, record, growth, effort, begins_with_present } = self;
+        let Self { path, record, growth, effort, starts_with_present } = self;
         let (state, tests) = (path.follower.state(), path.follower.tests());
         out.word(MAGIC);
         write_varied(&mut out, path.problem.period_multiple(), path.problem.varied());
@@ -73,7 +73,7 @@ impl BranchWalk {
         out.word(record.touches.len() as u64);
         record.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
         out.word(numbers_word(record.outside));
-        out.word(u64::from(*begins_with_present));
+        out.word(u64::from(*starts_with_present));
         out.word(u64::from(path.origin.is_some()));
         if let Some(origin) = &path.origin {
             out.float(origin.phase);
@@ -87,7 +87,7 @@ impl BranchWalk {
         out.bytes
     }
 
-    /// The points accepted since the journal was taken last, the start first. A point without unknowns tells
+    /// The points accepted since the journal was taken last, the start first. A point without unknowns marks
     /// that those before it are to be forgotten.
     #[must_use]
     pub fn take_journal(&mut self) -> Vec<u8> {
@@ -133,11 +133,11 @@ impl BranchWalk {
             follower.remember(&point);
         }
         let (journal, settings) = (Vec::new(), *settings);
-        let Beside { touches, outside, begins_with_present, origin, growth, effort } = beside;
+        let Beside { touches, outside, starts_with_present, origin, growth, effort } = beside;
         let path = OrbitPath { problem, follower, settings, range, journal, origin, measures_anew: false };
         let record =
             RowRecord { touches, outside, last_rows, shape: response.shape.clone(), evaluations_between };
-        let mut walk = Self { path, record, growth, effort, begins_with_present };
+        let mut walk = Self { path, record, growth, effort, starts_with_present };
         walk.effort.counted = counted_operations(&walk.path, walk.evaluations());
         Ok(walk)
     }
@@ -191,7 +191,7 @@ fn read(
         });
     }
     let mut problem =
-        ShootingProblem::new(integrator, (period_multiple, segments), scale, length).beginning_at(phase);
+        ShootingProblem::new(integrator, (period_multiple, segments), scale, length).starting_at(phase);
     problem.set_asymmetric(is_asymmetric);
     if let Err(error) = problem.vary(varied) {
         return Some(Err(error.into()));
@@ -271,7 +271,7 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
 struct Beside {
     touches: Vec<u32>,
     outside: Option<(u32, u32)>,
-    begins_with_present: bool,
+    starts_with_present: bool,
     origin: Option<Origin>,
     growth: Growth,
     effort: Effort,
@@ -282,7 +282,7 @@ struct Beside {
 fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<Beside> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
     let outside = numbers_of(reader.word()?);
-    let begins_with_present = reader.word()? != 0;
+    let starts_with_present = reader.word()? != 0;
     let origin = match reader.word()? {
         0 => None,
         _ => Some(Origin { phase: reader.float()?, point: reader.point()? }),
@@ -295,7 +295,7 @@ fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<Beside> {
     (fits && reader.bytes.is_empty()).then_some(Beside {
         touches,
         outside,
-        begins_with_present,
+        starts_with_present,
         origin,
         growth,
         effort,

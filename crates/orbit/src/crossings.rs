@@ -12,8 +12,8 @@ use crate::{
     catalogue::Catalogue, walk::Walked,
 };
 
-/// Steps of the branches followed are this many times longer than those of a run; corrector and contacts
-/// shorten them where needed.
+/// Steps of the branches followed are this many times longer than in a run; corrector and contacts shorten
+/// them where needed.
 const COARSER: f64 = 20.0;
 /// Solutions on one side of a branch, at most
 const MOST_ON_A_SIDE: usize = 5000;
@@ -138,7 +138,7 @@ impl Branches {
             Ok(walk) => walk,
             // A start at a fold, one that leaves the range at once, or nothing beside a flip.
             Err(OrbitError::Path(_) | OrbitError::NoCrossing { .. }) => return Ok(()),
-            Err(error) => return self.heed(error),
+            Err(error) => return self.note_unsearched(error),
         };
         let multiple = walk.period_multiple();
         let target = catalogue.frequency_hz;
@@ -159,7 +159,7 @@ impl Branches {
                     self.operations = spent;
                     return self.end_of_walk(&walk, &reason, target);
                 }
-                Err(error) => return self.heed(error),
+                Err(error) => return self.note_unsearched(error),
             }
             let Some(after) = rows.pop() else { continue };
             self.solutions_left = self.solutions_left.saturating_sub(1);
@@ -175,8 +175,8 @@ impl Branches {
         }
     }
 
-    /// Keeps in mind that something could not be searched; other failures end the search.
-    pub fn heed(&mut self, error: OrbitError) -> Result<(), OrbitError> {
+    /// Notes that something could not be searched; other failures end the search.
+    pub fn note_unsearched(&mut self, error: OrbitError) -> Result<(), OrbitError> {
         match error {
             OrbitError::Motion(_)
             | OrbitError::NeverOpens { .. }
@@ -198,10 +198,12 @@ impl Branches {
         frequency_hz: f64,
     ) -> Result<(), OrbitError> {
         match reason {
-            StopReason::Motion { .. } => walk.motion_failure().map_or(Ok(()), |error| self.heed(error)),
+            StopReason::Motion { .. } => {
+                walk.motion_failure().map_or(Ok(()), |error| self.note_unsearched(error))
+            }
             StopReason::Budget { .. } | StopReason::TooMuchWork { .. } => {
                 let solutions = self.solutions_spent;
-                self.heed(OrbitError::SearchBudget { frequency_hz, solutions })
+                self.note_unsearched(OrbitError::SearchBudget { frequency_hz, solutions })
             }
             _ => Ok(()),
         }

@@ -1,13 +1,13 @@
-//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began, and
+//! Where an orbit may start: at a phase at which no contact of an impact-speed-dependent law is closed, and
 //! off the impacts on rigid stops, at which the state jumps.
 //!
 //! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. Each
-//! lasts until its penetration has ended: no motion can begin in what is left of it when the force has
-//! vanished. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of it, in
-//! the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, in short
-//! flights of `1/FINE_GRID`, so that whole cycles can be added to them without rounding: a motion that is
-//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop
-//! may hold the structure at the begin, and all the time.
+//! lasts until its penetration has ended: no motion can start in what is left of it when the force has
+//! vanished. An orbit starts at phase 0. Where a contact is closed there or within [`MARGIN`] of it, it
+//! starts in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, in
+//! short flights of `1/FINE_GRID`, so that whole cycles can be added to them without rounding: a motion that
+//! is followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid
+//! stop may hold the structure at the start, and all the time.
 
 use hammerbeam_motion::{
     Law, Stretch, System,
@@ -16,7 +16,7 @@ use hammerbeam_motion::{
 
 use crate::OrbitError;
 
-/// Phases of a cycle at which an orbit may begin.
+/// Phases of a cycle at which an orbit may start.
 const GRID: f64 = 1024.0;
 /// The same in a time without contact that is shorter than [`SHORTEST`].
 const FINE_GRID: f64 = 1_073_741_824.0;
@@ -24,18 +24,18 @@ const FINE_GRID: f64 = 1_073_741_824.0;
 pub(crate) const MARGIN: f64 = 1.0 / 32.0;
 /// or a smaller part of the longest time without contact.
 const PART: f64 = 1.0 / 8.0;
-/// Shortest time without contact in which an orbit begins where it is looked for first [cycles].
+/// Shortest time without contact in which an orbit starts where it is looked for first [cycles].
 const SHORTEST: f64 = 4.0 / GRID;
 
-/// A state at a phase at which an orbit may begin.
+/// A state at a phase at which an orbit may start.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Begin {
+pub(crate) struct PermittedStart {
     /// From 0 to 1 [cycles].
     pub phase: f64,
     pub state: Vec<f64>,
 }
 
-impl Begin {
+impl PermittedStart {
     /// Phase and state.
     pub fn at(&self) -> (f64, &[f64]) {
         (self.phase, &self.state)
@@ -45,38 +45,38 @@ impl Begin {
 /// A time without contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    pub begin: f64,
+    pub start: f64,
     pub end: f64,
 }
 
 impl Gap {
     pub fn length(self) -> f64 {
-        self.end - self.begin
+        self.end - self.start
     }
 
     /// The same so much later.
     pub fn later(self, by: f64) -> Self {
-        Self { begin: self.begin + by, end: self.end + by }
+        Self { start: self.start + by, end: self.end + by }
     }
 
     /// Its middle after the phase `from`, which is one of a grid, so that the phase there is one, too.
     pub fn middle(self, from: f64) -> f64 {
         let grid = if self.is_short() { FINE_GRID } else { GRID };
-        ((from + 0.5 * (self.begin + self.end)) * grid).round() / grid - from
+        ((from + 0.5 * (self.start + self.end)) * grid).round() / grid - from
     }
 
-    /// Whether it is shorter than what an orbit begins in where it is looked for first.
+    /// Whether it is shorter than what an orbit starts in where it is looked for first.
     pub fn is_short(self) -> bool {
         self.length() < SHORTEST
     }
 
-    /// Whether an orbit that begins so near a contact had better begin in the middle of the gap.
+    /// Whether an orbit that starts so near a contact had better start in the middle of the gap.
     pub fn asks_to_move(self, nearest: f64) -> bool {
         nearest < MARGIN.min(PART * self.length())
     }
 }
 
-/// Whether the state of an orbit cannot be told, or jumps, at contacts of this law.
+/// Whether the state of an orbit is incomplete, or jumps, at contacts of this law.
 fn keeps_away(law: &Law) -> bool {
     law.remembers_impact() || law.rigid().is_some()
 }
@@ -86,10 +86,10 @@ fn jumps(law: &Law) -> bool {
     keeps_away(law) || law.onset_damping() > 0.0
 }
 
-/// How much later the segments of an orbit of `cycles` should begin, which are `length` cycles long and of
-/// which the first one begins at `phase` with `state`, to keep their ends away from contacts at which
-/// fundamental matrices jump; `None` where they are clear of them, or cannot be. Contacts that only jump at
-/// their ends may be closed there.
+/// How much later the segments of an orbit of `cycles` should start, to keep their ends away from contacts at
+/// which fundamental matrices jump; `None` where they are clear of them, or cannot be. The segments are
+/// `length` cycles long, and the first one starts at `phase` with `state`. Contacts that only jump at their
+/// ends may be closed there.
 ///
 /// # Errors
 /// [`MotionError`] where the orbit cannot be followed.
@@ -107,43 +107,43 @@ pub(crate) fn offset_to_clear(
     let elements = integrator.system().elements();
     let mut times = Vec::new();
     for contact in trace.contacts.iter().filter(|contact| jumps(&elements[contact.element].law)) {
-        let begin = contact.begin.as_ref().map(|begin| begin.time * frequency_hz);
+        let start = contact.begin.as_ref().map(|touch| touch.time * frequency_hz);
         let end = contact.end.map(|end| end * frequency_hz);
         let clear = contact.clear.map(|clear| clear * frequency_hz);
         if keeps_away(&elements[contact.element].law) {
-            times.push(Gap { begin: begin.unwrap_or(0.0), end: clear.unwrap_or(cycles) });
+            times.push(Gap { start: start.unwrap_or(0.0), end: clear.unwrap_or(cycles) });
         } else {
-            times.extend([begin, end].into_iter().flatten().map(|at| Gap { begin: at, end: at }));
+            times.extend([start, end].into_iter().flatten().map(|at| Gap { start: at, end: at }));
         }
     }
     let folded = folded(&times, length);
     let Some((gap, nearest)) = longest_of_orbit(&folded, length, false) else { return Ok(None) };
-    let offset = (0.5 * (gap.begin + gap.end)).rem_euclid(length);
+    let offset = (0.5 * (gap.start + gap.end)).rem_euclid(length);
     Ok((gap.asks_to_move(nearest) && offset > 0.0).then_some(offset))
 }
 
-/// Times since the begin of the segment in which they begin, in their order; what goes on beyond its end is
-/// that of the next one, too.
+/// Times since the start of the segment in which they start, in their order; what goes on beyond its end
+/// belongs to the next one, too.
 pub(crate) fn folded(times: &[Gap], length: f64) -> Vec<Gap> {
     let mut folded = Vec::new();
     for time in times {
-        let begin = time.begin.rem_euclid(length);
-        let end = begin + time.length();
-        folded.push(Gap { begin, end: end.min(length) });
+        let start = time.start.rem_euclid(length);
+        let end = start + time.length();
+        folded.push(Gap { start, end: end.min(length) });
         if end > length {
-            folded.push(Gap { begin: 0.0, end: (end - length).min(length) });
+            folded.push(Gap { start: 0.0, end: (end - length).min(length) });
         }
     }
-    folded.sort_by(|a, b| a.begin.total_cmp(&b.begin));
+    folded.sort_by(|a, b| a.start.total_cmp(&b.start));
     folded
 }
 
-/// Whether orbits of a system have to begin away from its contacts.
-pub(crate) fn begins_with_care(system: &System) -> bool {
+/// Whether orbits of a system have to start away from its contacts.
+pub(crate) fn must_start_off_contacts(system: &System) -> bool {
     system.elements().iter().any(|element| keeps_away(&element.law))
 }
 
-/// Times of contacts from which an orbit has to begin away, in cycles since the phase `start`, in their
+/// Times of contacts away from which an orbit has to start, in cycles since the phase `start`, in their
 /// order, over `cycles` of the motion.
 pub(crate) fn contacts(
     integrator: &mut ExactIntegrator,
@@ -165,11 +165,11 @@ fn closed_times(
     let of_law = contacts.iter().filter(|contact| keeps_away(&elements[contact.element].law));
     let mut times: Vec<Gap> = of_law
         .map(|contact| Gap {
-            begin: contact.since() * frequency_hz,
+            start: contact.since() * frequency_hz,
             end: contact.clear.map_or(cycles, |clear| clear * frequency_hz),
         })
         .collect();
-    times.sort_by(|a, b| a.begin.total_cmp(&b.begin));
+    times.sort_by(|a, b| a.start.total_cmp(&b.start));
     times
 }
 
@@ -182,33 +182,33 @@ fn longest_contact(contacts: &[ContactPiece], duration: f64) -> usize {
 
 /// The longest time between contacts within `from..to`.
 fn longest_gap(contacts: &[Gap], (from, to): (f64, f64)) -> Gap {
-    let (mut longest, mut reached) = (Gap { begin: from, end: from }, from);
-    let end = Gap { begin: to, end: to };
+    let (mut longest, mut reached) = (Gap { start: from, end: from }, from);
+    let end = Gap { start: to, end: to };
     for contact in contacts.iter().chain([&end]) {
-        if contact.begin - reached > longest.length() {
-            longest = Gap { begin: reached, end: contact.begin };
+        if contact.start - reached > longest.length() {
+            longest = Gap { start: reached, end: contact.start };
         }
         reached = reached.max(contact.end);
     }
     longest
 }
 
-/// The longest time without contact of an orbit of that many cycles that begins in flight; it may go on
-/// beyond the end of the orbit. The second number is the time from the begin to the nearest contact, before
+/// The longest time without contact of an orbit of that many cycles that starts in flight; it may go on
+/// beyond the end of the orbit. The second number is the time from the start to the nearest contact, before
 /// or behind.
 ///
-/// * `avoids_begin`: the begin counts as a contact.
-pub(crate) fn longest_of_orbit(contacts: &[Gap], cycles: f64, avoids_begin: bool) -> Option<(Gap, f64)> {
-    let first = contacts.first()?.begin;
+/// * `avoids_start`: the start counts as a contact.
+pub(crate) fn longest_of_orbit(contacts: &[Gap], cycles: f64, avoids_start: bool) -> Option<(Gap, f64)> {
+    let first = contacts.first()?.start;
     let last = contacts.iter().map(|contact| contact.end).fold(0.0, f64::max);
     let nearest = first.min(cycles - last).max(0.0);
-    if avoids_begin {
+    if avoids_start {
         return Some((longest_gap(contacts, (0.0, cycles)), nearest));
     }
     Some((longest_gap(contacts, (first, cycles + first)), nearest))
 }
 
-/// Where an orbit of some periods may begin near the motion from `state` at phase 0, which the integrator has
+/// Where an orbit of some periods may start near the motion from `state` at phase 0, which the integrator has
 /// followed up to there; and, where the motion was looked at, the state at a later phase 0, from which it can
 /// be followed on.
 ///
@@ -218,9 +218,9 @@ pub(crate) fn search_cut(
     integrator: &mut ExactIntegrator,
     state: &[f64],
     (frequency_hz, period_multiple): (f64, u32),
-) -> Result<(Begin, Option<Vec<f64>>), OrbitError> {
-    let at_zero = || Begin { phase: 0.0, state: state.to_vec() };
-    if !begins_with_care(integrator.system()) {
+) -> Result<(PermittedStart, Option<Vec<f64>>), OrbitError> {
+    let at_zero = || PermittedStart { phase: 0.0, state: state.to_vec() };
+    if !must_start_off_contacts(integrator.system()) {
         return Ok((at_zero(), None));
     }
     let cycles = f64::from(period_multiple + 1);
@@ -233,9 +233,9 @@ pub(crate) fn search_cut(
     for element in integrator.system().remembered_contacts(frequency_hz, 0.0, state) {
         let next = trace.contacts.iter().find(|contact| contact.element == element);
         let end = next.map_or(cycles, |next| next.since() * frequency_hz);
-        contacts.push(Gap { begin: 0.0, end });
+        contacts.push(Gap { start: 0.0, end });
     }
-    contacts.sort_by(|a, b| a.begin.total_cmp(&b.begin));
+    contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
     let gap = longest_gap(&contacts, (0.0, cycles));
     if gap.is_short() && !integrator.system().remembers_impacts() {
         return Ok((at_zero(), None));
@@ -246,11 +246,11 @@ pub(crate) fn search_cut(
         return Err(OrbitError::NeverOpens { element, frequency_hz });
     }
     // Phase 0 after one cycle, where what comes before is known, too.
-    let distance = |contact: &Gap| (contact.begin - 1.0).max(1.0 - contact.end).max(0.0);
+    let distance = |contact: &Gap| (contact.start - 1.0).max(1.0 - contact.end).max(0.0);
     let nearest = contacts.iter().map(distance).fold(f64::INFINITY, f64::min);
     let at = if gap.asks_to_move(nearest) { gap.middle(0.0) } else { 1.0 };
     let state = trace.samples[(at * GRID) as usize].clone();
-    Ok((Begin { phase: at.fract(), state }, Some(trace.state)))
+    Ok((PermittedStart { phase: at.fract(), state }, Some(trace.state)))
 }
 
 #[cfg(test)]
@@ -275,7 +275,7 @@ mod tests {
         ExactIntegrator::new(system, ExactSettings::default()).unwrap()
     }
 
-    /// Behind the end of its force, too: no orbit can begin in what is left of it.
+    /// Behind the end of its force, too: no orbit can start in what is left of it.
     #[test]
     fn a_contact_lasts_until_its_penetration_ends() {
         let (mut integrator, frequency_hz, state) = (integrator_of_a_bouncing_mass(), 0.15, [0.0, 0.5]);
@@ -292,24 +292,24 @@ mod tests {
         assert!(parted > 1, "{parted} contacts part before they end");
     }
 
-    const CONTACTS: [Gap; 2] = [Gap { begin: 0.25, end: 0.5 }, Gap { begin: 0.625, end: 0.75 }];
+    const CONTACTS: [Gap; 2] = [Gap { start: 0.25, end: 0.5 }, Gap { start: 0.625, end: 0.75 }];
 
     #[test]
     fn the_longest_gap_of_an_orbit_may_lie_across_its_end() {
-        let across = Gap { begin: 0.75, end: 1.25 };
+        let across = Gap { start: 0.75, end: 1.25 };
         assert_eq!(longest_of_orbit(&CONTACTS, 1.0, false), Some((across, 0.25)));
         // From the phase 3/8 its middle is the phase 11/8, one cycle after 3/8.
         assert_eq!(across.middle(0.375), 1.0);
-        let before = Gap { begin: 0.0, end: 0.25 };
+        let before = Gap { start: 0.0, end: 0.25 };
         assert_eq!(longest_of_orbit(&CONTACTS, 1.0, true), Some((before, 0.25)));
         assert_eq!(longest_of_orbit(&[], 1.0, false), None);
     }
 
     #[test]
     fn times_of_all_segments_are_folded_onto_one() {
-        let times = [Gap { begin: 0.25, end: 0.375 }, Gap { begin: 0.875, end: 1.25 }];
+        let times = [Gap { start: 0.25, end: 0.375 }, Gap { start: 0.875, end: 1.25 }];
         let expected =
-            [Gap { begin: 0.0, end: 0.25 }, Gap { begin: 0.25, end: 0.375 }, Gap { begin: 0.375, end: 0.5 }];
+            [Gap { start: 0.0, end: 0.25 }, Gap { start: 0.25, end: 0.375 }, Gap { start: 0.375, end: 0.5 }];
         assert_eq!(folded(&times, 0.5), expected);
     }
 
@@ -317,17 +317,17 @@ mod tests {
     /// without rounding.
     #[test]
     fn the_middle_of_a_short_gap_is_in_the_gap() {
-        let gap = Gap { begin: 0.300_010, end: 0.300_012 };
+        let gap = Gap { start: 0.300_010, end: 0.300_012 };
         let (from, phase) = (0.671_875, 0.671_875 + gap.middle(0.671_875));
-        assert!(gap.begin < phase - from && phase - from < gap.end, "{phase}");
+        assert!(gap.start < phase - from && phase - from < gap.end, "{phase}");
         assert_eq!(phase + 1e6 - 1e6, phase);
     }
 
     /// Overlapping contacts of two stops leave only what both leave.
     #[test]
     fn a_gap_is_free_of_all_contacts() {
-        let both = [Gap { begin: 0.1, end: 0.6 }, Gap { begin: 0.2, end: 0.3 }, Gap { begin: 0.9, end: 1.0 }];
-        assert_eq!(longest_gap(&both, (0.0, 1.0)), Gap { begin: 0.6, end: 0.9 });
-        assert_eq!(longest_gap(&[Gap { begin: 0.0, end: 1.0 }], (0.0, 1.0)).length(), 0.0);
+        let both = [Gap { start: 0.1, end: 0.6 }, Gap { start: 0.2, end: 0.3 }, Gap { start: 0.9, end: 1.0 }];
+        assert_eq!(longest_gap(&both, (0.0, 1.0)), Gap { start: 0.6, end: 0.9 });
+        assert_eq!(longest_gap(&[Gap { start: 0.0, end: 1.0 }], (0.0, 1.0)).length(), 0.0);
     }
 }

@@ -201,19 +201,19 @@ fn shifts(h: &mut Square, last: usize, sweeps: usize, shifted: &mut f64) -> (f64
     (a + d, a * d - b * c)
 }
 
-/// One double-shift sweep over the rows `first..=last`, begun as low as small subdiagonals allow.
+/// One double-shift sweep over the rows `first..=last`, started as low as small subdiagonals allow.
 fn sweep(h: &mut Square, first: usize, last: usize, trace: f64, determinant: f64) {
-    let (begin, mut column) = begin_of_sweep(h, first, last, trace, determinant);
-    for i in begin + 2..=last {
+    let (start, mut column) = start_of_sweep(h, first, last, trace, determinant);
+    for i in start + 2..=last {
         *h.at_mut(i, i - 2) = 0.0;
-        if i > begin + 2 {
+        if i > start + 2 {
             *h.at_mut(i, i - 3) = 0.0;
         }
     }
-    for k in begin..last {
+    for k in start..last {
         let three = k + 1 < last;
         let mut scale = 1.0;
-        if k > begin {
+        if k > start {
             column = [h.at(k, k - 1), h.at(k + 1, k - 1), if three { h.at(k + 2, k - 1) } else { 0.0 }];
             scale = column.iter().map(|v| v.abs()).sum();
             if scale == 0.0 {
@@ -226,9 +226,9 @@ fn sweep(h: &mut Square, first: usize, last: usize, trace: f64, determinant: f64
         if s == 0.0 {
             continue;
         }
-        if k > begin {
+        if k > start {
             *h.at_mut(k, k - 1) = -s * scale;
-        } else if first != begin {
+        } else if first != start {
             *h.at_mut(k, k - 1) = -h.at(k, k - 1);
         }
         let p = column[0] + s;
@@ -238,8 +238,8 @@ fn sweep(h: &mut Square, first: usize, last: usize, trace: f64, determinant: f64
     }
 }
 
-/// Where the sweep begins, and the first column of the shifted product there, scaled.
-fn begin_of_sweep(h: &Square, first: usize, last: usize, trace: f64, determinant: f64) -> (usize, [f64; 3]) {
+/// Where the sweep starts, and the first column of the shifted product there, scaled.
+fn start_of_sweep(h: &Square, first: usize, last: usize, trace: f64, determinant: f64) -> (usize, [f64; 3]) {
     let mut m = last - 2;
     loop {
         let (a, below) = (h.at(m, m), h.at(m + 1, m));

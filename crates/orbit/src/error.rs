@@ -13,7 +13,7 @@ pub enum OrbitError {
     /// The motion could not be computed.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The path could not be begun.
+    /// The path could not be started.
     #[error(transparent)]
     Path(#[from] PathError),
     /// The multipliers were not found.

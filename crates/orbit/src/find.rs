@@ -5,7 +5,7 @@
 //! passed through (`sampling.rs`); and the crossings of that frequency by the branches of all orbits found,
 //! within the range (`crossings.rs`). Where the period is even, orbits of half the period are sought first,
 //! and the branches that leave theirs at flips are followed too. If nothing is found at the frequency itself,
-//! motions are followed there for longer, then branches are begun elsewhere in the range.
+//! motions are followed there for longer, then branches are started elsewhere in the range.
 //!
 //! The work is bounded: motion ends where it has settled, trials of Newton's method end when nothing new has
 //! come for long, and the branches may take [`MOST_SOLUTIONS`] together. A search that was bounded by that,
@@ -15,13 +15,13 @@ use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
-    beginning::beginning_near,
     catalogue::Catalogue,
     crossings::Branches,
     cut::search_cut,
     free_vibration::resonance,
     matching::nearest_returns,
     noise::Noise,
+    permitted_start::permitted_start_near,
     sampling::{Passed, Patience, Sought, sample},
     start::{Effort, SETTLED, STARTS, check_multiple, search_start, starting_states},
 };
@@ -74,7 +74,7 @@ pub fn find_orbits(
     let catalogue = Catalogue::new(system, response, settings, frequency_hz)?;
     let branches = Branches::new(range_hz, MOST_SOLUTIONS.min(settings.max_solutions));
     let passed = Passed::default();
-    let mut search = Search { catalogue, branches, passed, period_multiple, interrupted };
+    let mut search = OrbitSearch { catalogue, branches, passed, period_multiple, interrupted };
     let starts = starting_states(system, response, frequency_hz, STARTS, settings)?;
     match search.run(starts) {
         // What has been found by then is not lost.
@@ -94,7 +94,7 @@ pub fn find_orbits(
     Ok(found)
 }
 
-struct Search<'a> {
+struct OrbitSearch<'a> {
     catalogue: Catalogue<'a>,
     branches: Branches,
     passed: Passed,
@@ -102,7 +102,7 @@ struct Search<'a> {
     interrupted: Interruption<'a>,
 }
 
-impl Search<'_> {
+impl OrbitSearch<'_> {
     fn run(&mut self, starts: Vec<Vec<f64>>) -> Result<(), OrbitError> {
         let linear = starts[0].clone();
         for start in starts {
@@ -117,8 +117,8 @@ impl Search<'_> {
     }
 
     /// Motions from rest and from states about it, as far away as the motion from rest goes: the linear
-    /// response may be far from where the system moves, as that of a ball that falls freely is. Where no
-    /// motion can begin, it begins beside: for rest between it and the linear response.
+    /// response may be far from where the system moves, as for a ball that falls freely. Where no motion can
+    /// start, it starts beside: for rest between it and the linear response.
     fn search_about_rest(&mut self, linear: &[f64]) -> Result<(), OrbitError> {
         let dof = self.catalogue.system.dof();
         self.search_motion_near(vec![0.0; 2 * dof], linear)?;
@@ -137,7 +137,7 @@ impl Search<'_> {
 
     fn search_motion_near(&mut self, start: Vec<f64>, other: &[f64]) -> Result<(), OrbitError> {
         let frequency_hz = self.catalogue.frequency_hz;
-        let start = beginning_near(self.catalogue.integrator(), frequency_hz, start, other);
+        let start = permitted_start_near(self.catalogue.integrator(), frequency_hz, start, other);
         self.search_motion(start)
     }
 
@@ -147,7 +147,7 @@ impl Search<'_> {
         let mut states = vec![start];
         let settled = match self.simulate(&mut states) {
             Err(OrbitError::Motion(error)) => {
-                self.branches.heed(OrbitError::Motion(error))?;
+                self.branches.note_unsearched(OrbitError::Motion(error))?;
                 None
             }
             settled => settled?,
@@ -168,11 +168,11 @@ impl Search<'_> {
     fn search_settled(&mut self, last: &[f64]) -> Result<(), OrbitError> {
         let orbit = (self.catalogue.frequency_hz, self.period_multiple);
         match search_cut(self.catalogue.integrator(), last, orbit) {
-            Ok((begin, _)) => {
-                self.catalogue.probe((begin.phase, &[begin.state]), self.period_multiple)?;
+            Ok((start, _)) => {
+                self.catalogue.probe((start.phase, &[start.state]), self.period_multiple)?;
                 Ok(())
             }
-            Err(error) => self.branches.heed(error),
+            Err(error) => self.branches.note_unsearched(error),
         }
     }
 
@@ -221,7 +221,7 @@ impl Search<'_> {
         let ended = sample(&mut self.catalogue, &self.passed, sought, PATIENCE, &mut *self.interrupted)?;
         if !ended {
             let frequency_hz = self.catalogue.frequency_hz;
-            self.branches.heed(OrbitError::SearchTrials { frequency_hz })?;
+            self.branches.note_unsearched(OrbitError::SearchTrials { frequency_hz })?;
         }
         let halvings = wanted.trailing_zeros().min(HALVINGS);
         for halving in (1..=halvings).rev() {
@@ -240,7 +240,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// An orbit where a branch can begin: by a longer look at the frequency itself, then at others.
+    /// An orbit where a branch can start: by a longer look at the frequency itself, then at others.
     fn start_elsewhere(&mut self) -> Result<Option<PeriodicSolution>, OrbitError> {
         let (low, high) = self.branches.range_hz;
         let Catalogue { system, response, settings, frequency_hz, .. } = self.catalogue;
@@ -251,7 +251,7 @@ impl Search<'_> {
             match search_start(system, response, orbit, effort, settings, &mut *self.interrupted) {
                 Ok(start) => return Ok(Some(start)),
                 Err(OrbitError::NoOrbit { .. }) => {}
-                Err(error) => self.branches.heed(error)?,
+                Err(error) => self.branches.note_unsearched(error)?,
             }
         }
         Ok(None)

@@ -14,7 +14,7 @@
 //! `c_s = sum_k |w_{k+1}| |G_k| |v_k| / |w_m^H v_0|`, `c = |w_m| |v_0| / |w_m^H v_0|`.
 //!
 //! Between its nodes an orbit may be stretched far more than over its period, and in directions that have
-//! nothing to do with this multiplier: the norms of the products tell far less than `c_s`. Since `w_{k+1}^H
+//! nothing to do with this multiplier: the norms of the products say far less than `c_s`. Since `w_{k+1}^H
 //! v_{k+1}` is the same number everywhere, `c_s >= m` for a multiplier on the unit circle.
 //!
 //! # Source

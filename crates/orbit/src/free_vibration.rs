@@ -1,8 +1,8 @@
 //! Undamped modes that vibrate freely besides a periodic motion.
 //!
 //! Where no element acts, the free vibration of an undamped mode may be added to any motion. If its frequency
-//! is a multiple of that of the orbit the sum is periodic, too: orbits of every amplitude and phase of the
-//! mode belong to one frequency, a family of which none stands out.
+//! is a multiple of the orbit's, the sum is periodic, too: orbits of every amplitude and phase of the mode
+//! belong to one frequency, a family of which none stands out.
 
 use std::f64::consts::TAU;
 
@@ -43,8 +43,8 @@ pub(crate) fn resonance(system: &System, frequency_hz: f64) -> Option<OrbitError
     Some(OrbitError::Resonance { frequency_hz, mode: described(system, mode) })
 }
 
-/// The undamped mode whose frequency is a multiple of that of an orbit that touches nothing; `None` where
-/// elements act without a contact.
+/// The undamped mode whose frequency is a multiple of the frequency of an orbit that touches nothing; `None`
+/// where elements act without a contact.
 pub(crate) fn resonant_mode(system: &System, base_hz: f64) -> Option<ResonantMode> {
     free_modes(system, base_hz)?.next().map(|mode| described(system, mode))
 }

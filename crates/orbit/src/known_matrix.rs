@@ -1,8 +1,8 @@
 //! A monodromy matrix, and how well its eigenvalues are known.
 //! Equations (P8) and (P10) of the book, `docs/theory`.
 //!
-//! The computed monodromy matrix `A` is that of the orbit up to an error `E`, `|E| <= e`. A number z is an
-//! eigenvalue of one of the matrices `A + E` if and only if
+//! The computed matrix `A` is the monodromy matrix of the orbit up to an error `E`, `|E| <= e`. A number z is
+//! an eigenvalue of one of the matrices `A + E` if and only if
 //!
 //! `s(z) = min |(A - z I) v| / |v| <= e`,
 //!
@@ -44,7 +44,7 @@ use crate::{
     floquet_vectors::Condition,
 };
 
-/// Steps of the tolerance of the motion in the error of a matrix, whose errors add; those of an orbit, and
+/// Steps of the tolerance of the motion in the error of a matrix, whose errors add; steps of an orbit, and
 /// allowed for each of its segments.
 const STEPS: f64 = 8.0;
 /// How far a multiplier may be moved by errors, in what they do to first order.
@@ -189,7 +189,7 @@ mod tests {
             let borrowed = segments.iter().map(Vec::as_slice).collect();
             let known = KnownMatrix::of_orbit(3, borrowed, &products, &accuracy);
             let pair = [(1.0 + off) * 1.2_f64.cos(), (1.0 + off) * 1.2_f64.sin()];
-            assert!(off < known.error, "the product alone does not tell");
+            assert!(off < known.error, "the product alone does not decide");
             known.reaches(pair, off)
         };
         assert!(reaches(1e-9));

@@ -14,19 +14,18 @@
 //! - `eigenvalues.rs`: multipliers, the eigenvalues of the product of the segments
 //! - `start.rs`, `reach.rs`, `neighbour.rs`: the first orbit of a branch, by simulation; from an orbit
 //!   elsewhere; from the orbit of a slightly different system
-//! - `find.rs`, `beginning.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs`: all orbits at one
-//!   frequency: the search, states at which a motion can begin, the orbits known, Newton's method from
-//!   many states, where branches cross the frequency
+//! - `find.rs`, `permitted_start.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs`: all orbits at one
+//!   frequency: the search, states at which a motion can start, the orbits known, Newton's method from many
+//!   states, where branches cross the frequency
 //! - `solve.rs`: Newton's method at a fixed frequency, and what is stored of a converged orbit
 //! - `recompute.rs`: the same point of a branch with other segments or tolerances
 //! - `walk.rs`, `walk/`: walking, step by step: the path (`orbit_path.rs`), why it ends, the rows and
 //!   those between them (`row.rs`, `density.rs`, `between.rs`), cutting orbits anew on the way
-//!   (`resegment.rs`, `halves.rs`, `recut.rs`)
+//!   (`resegment.rs`, `halves.rs`, `start_phase.rs`)
 //! - `checkpoint.rs`: storing a walk
 //! - `cut.rs`: phases at which an orbit may start
 //! - `corner/`: grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides
-//! - `stop.rs`, `stop_text.rs`, `splitting.rs`: why a walk ended; contacts that open and are pressed on again
-//!   at once
+//! - `stop.rs`, `stop_text.rs`, `reopening.rs`: why a walk ended; the reopening of a contact
 //! - `spectrum.rs`: multipliers, and which of them are on the unit circle as well as they are known:
 //!   stable, marginal, unstable
 //! - `known_matrix.rs`, `floquet_vectors.rs`: what is known of a monodromy matrix, and how far that moves a
@@ -36,10 +35,10 @@
 //! - `switch.rs`: leaving a flip or branch point onto the other branch
 //! - `survey.rs`, `matching.rs`: all orbits that simulation leads to at a frequency; whether two orbits
 //!   are the same
-//! - `off_impacts.rs`: orbits that begin on an impact, begun elsewhere
+//! - `off_impacts.rs`: orbits that start on an impact, started elsewhere
 //! - `trials.rs`: orbits at a frequency by few trials of Newton's method
 //! - `probe.rs`, `backbone.rs`, `linear_contact.rs`: attractors at a frequency, quickly; states of large
-//!   amplitude from which motions begin; frequencies at which the linear response reaches a contact
+//!   amplitude from which motions start; frequencies at which the linear response reaches a contact
 //! - `arrival.rs`: whether a motion has come to a stable orbit that is known
 //! - `curve/`: curves of folds, flips, Neimark-Sacker points and grazing in two parameters
 //! - `free.rs`: free motion of an undamped system: the amplitude is given, the frequency unknown
@@ -54,17 +53,17 @@
 //! branch points, flips, Neimark-Sacker points and grazing are located as rows of their own.
 //!
 //! # Contacts that lose energy
-//! The same equations serve. Laws that remember the speed of their impact need every node in free flight.
-//! Their orbits are cut once, unless [`Segments::Fixed`] says otherwise, and begin at a
-//! [`phase`](PeriodicSolution::phase) at which no contact is closed: 0, or the middle of the longest time
-//! without contact. A walk moves the phase when a contact comes near it; one of several segments does not,
-//! and stops with [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose
-//! contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
-//! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is
-//! simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a
-//! corner there, which is walked round like any other. So has it where an impact on a rigid stop comes or
-//! goes, with derivatives that grow without bound on the side of the impact: that corner is computed from the
-//! orbit cut at its touch, where the speed of the impact is a smooth coordinate (`corner/`; see
+//! The same equations serve. Impact-speed-dependent laws need every node in free flight. Their orbits are cut
+//! once, unless [`Segments::Fixed`] says otherwise, and start at a [`phase`](PeriodicSolution::phase) at
+//! which no contact is closed: 0, or the middle of the longest time without contact. A walk moves the phase
+//! when a contact comes near it; one of several segments does not, and stops with
+//! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose contact never
+//! opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states of an orbit at
+//! any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is simulated over any
+//! phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which
+//! is walked round like any other. So has it where an impact on a rigid stop comes or goes, with derivatives
+//! that grow without bound on the side of the impact: that corner is computed from the orbit cut at its
+//! touch, where the speed of the impact is a smooth coordinate (`corner/`; see
 //! [`root_corner`](hammerbeam_path::Judge::root_corner)).
 //!
 //! # Example
@@ -98,7 +97,6 @@
 
 mod arrival;
 mod backbone;
-mod beginning;
 mod by_rows;
 mod catalogue;
 mod checkpoint;
@@ -123,9 +121,11 @@ mod neighbour;
 mod noise;
 mod off_impacts;
 mod output;
+mod permitted_start;
 mod probe;
 mod reach;
 mod recompute;
+mod reopening;
 mod repetition;
 mod sampling;
 mod settings;
@@ -134,7 +134,6 @@ mod size;
 mod solution;
 mod solve;
 mod spectrum;
-mod splitting;
 mod stability;
 mod start;
 mod state_scale;

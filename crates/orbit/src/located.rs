@@ -7,7 +7,7 @@
 //! bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to anything points into
 //! that direction.
 
-mod place;
+mod event_location;
 mod uncertainty;
 
 use hammerbeam_path::{ContinuationPoint, PathProblem, norm, weighed};
@@ -19,8 +19,8 @@ use crate::{
     spectrum::Spectrum,
     stability::{without_at_minus_one, without_pairs},
 };
-pub use place::ContactChange;
-pub(crate) use place::{Approach, Place};
+pub use event_location::ContactChange;
+pub(crate) use event_location::{Approach, EventLocation};
 
 /// Relative frequency to which an event counts as located.
 const SHARP_FREQUENCY: f64 = 1e-8;
@@ -73,7 +73,7 @@ impl LocatedEvent {
 
 /// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened
 /// there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
-pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Option<LocatedEvent> {
+pub(crate) fn describe(problem: &mut ShootingProblem, place: EventLocation<'_>) -> Option<LocatedEvent> {
     let events = hammerbeam_path::PathEvents { corner: false, ..place.point.events };
     if !events.any() {
         return None;

@@ -1,4 +1,4 @@
-//! Whether two orbits are the same, perhaps begun at different excitation periods.
+//! Whether two orbits are the same, perhaps started at different excitation periods.
 //!
 //! An orbit of N excitation periods has N states at any phase, such as 0, any of which may have been stored.
 //! Two orbits are the same if a state of one is any of the states of the other; distances are in the energy
@@ -52,7 +52,7 @@ pub fn mirror_image(orbit: &PeriodicSolution) -> PeriodicSolution {
     PeriodicSolution { phase: (orbit.phase + 0.5) % 1.0, nodes, ..orbit.clone() }
 }
 
-/// Smallest distance of a state from those of an orbit.
+/// Smallest distance of a state from the states of an orbit.
 pub(crate) fn distance_in_phase(scale: &StateScale, phases: &[Vec<f64>], state: &[f64]) -> f64 {
     phases.iter().map(|phase| scale.distance(phase, state)).fold(f64::INFINITY, f64::min)
 }
@@ -126,7 +126,7 @@ impl<'a> Matcher<'a> {
     }
 }
 
-/// Stretches of `lag` periods, one state for each, that end closest to where they begin, the closest first.
+/// Stretches of `lag` periods, one state for each, that end closest to where they start, the closest first.
 pub(crate) fn nearest_returns<'s>(
     states: &'s [Vec<f64>],
     scale: &StateScale,

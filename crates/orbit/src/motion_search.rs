@@ -258,8 +258,8 @@ impl<'a> MotionSearch<'a> {
     /// The orbit to which a motion has come.
     fn settle(&mut self, state: &[f64], period_multiple: u32) -> Result<Led, OrbitError> {
         let orbit = (self.catalogue.frequency_hz, period_multiple);
-        let (begin, _) = search_cut(self.catalogue.integrator(), state, orbit)?;
-        let arrived = self.catalogue.probe((begin.phase, &[begin.state]), period_multiple)?;
+        let (start, _) = search_cut(self.catalogue.integrator(), state, orbit)?;
+        let arrived = self.catalogue.probe((start.phase, &[start.state]), period_multiple)?;
         self.note(arrived)
     }
 

@@ -1,4 +1,4 @@
-//! The orbit of a system from that of a slightly different one.
+//! The orbit of a system from the orbit of a slightly different one.
 
 use hammerbeam_motion::System;
 

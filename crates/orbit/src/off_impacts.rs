@@ -1,10 +1,10 @@
-//! Orbits that begin on an impact, begun elsewhere.
+//! Orbits that start on an impact, started elsewhere.
 //!
-//! Newton's method may come to an orbit that strikes a rigid stop just where it begins: without losses and
+//! Newton's method may come to an orbit that strikes a rigid stop just where it starts: without losses and
 //! under a load in phase many do, since they go backwards in time alike, with an impact at phase 0. Rounding
-//! then says on which side of the impact its first state lies: such an orbit is not known by that state, and
-//! a walk that begins there has the impact at both of its ends or at neither. In the middle of its longest
-//! flight it begins like any other.
+//! then says on which side of the impact its first state lies. So that state does not identify the orbit, and
+//! a walk that starts there has the impact at both of its ends or at neither. Started in the middle of its
+//! longest flight, the orbit is like any other.
 
 use hammerbeam_motion::{
     Stretch,
@@ -16,14 +16,14 @@ use crate::{
     cut::{contacts, longest_of_orbit},
 };
 
-/// Impacts so near are on the begin [cycles].
+/// Impacts so near are on the start [cycles].
 const ON: f64 = 1e-7;
 
-/// The orbit with one node in its longest flight; `None` where no impact lies on its begin.
+/// The orbit with one node in its longest flight; `None` where no impact lies on its start.
 ///
 /// # Errors
 /// [`MotionError`] if its motion cannot be computed.
-pub(crate) fn begun_off_impacts(
+pub(crate) fn started_off_impacts(
     integrator: &mut ExactIntegrator,
     orbit: &PeriodicSolution,
 ) -> Result<Option<PeriodicSolution>, MotionError> {
@@ -32,7 +32,7 @@ pub(crate) fn begun_off_impacts(
     }
     let (frequency_hz, phase, cycles) = (orbit.frequency_hz, orbit.phase, f64::from(orbit.period_multiple));
     let contacts = contacts(integrator, (phase, cycles), &orbit.nodes[0], frequency_hz)?;
-    let is_impact = |time: f64| contacts.iter().any(|it| it.length() < ON && (it.begin - time).abs() < ON);
+    let is_impact = |time: f64| contacts.iter().any(|it| it.length() < ON && (it.start - time).abs() < ON);
     let Some((flight, _)) = longest_of_orbit(&contacts, cycles, false) else { return Ok(None) };
     if !is_impact(0.0) && !is_impact(cycles) {
         return Ok(None);

@@ -7,12 +7,12 @@
 //! `c_j = 2/T sum_k w_k y_k exp(-i 2 pi (j/n) x_k)`
 //!
 //! so that `y = mean + Re sum_j c_j exp(i 2 pi (j/n) x)`: `c_j` belongs to the order `j/n` of the excitation.
-//! Extrema are those of the polynomials of the panels, ends included (`output/extremum.rs`). Flights are
+//! Extrema are taken of the polynomials of the panels, ends included (`output/extremum.rs`). Flights are
 //! known to rounding and force steps to their tolerance, so the numbers are as good as the orbit.
 //!
 //! **Impacts on rigid stops** change velocities at once. The acceleration and the contact force have impulses
 //! `J` there, which count in mean and harmonics as `J` at their phase; without them the mean acceleration of
-//! a periodic motion would not vanish. Extrema and root mean square are those of the motion between impacts.
+//! a periodic motion would not vanish. Extrema and root mean square are taken of the motion between impacts.
 
 mod extremum;
 mod numbers;

@@ -1,8 +1,8 @@
 //! Attractors at one frequency by few motions, for looking at many frequencies.
 //!
-//! Motions begin from the linear response, from states about it and from those of large amplitude that a
+//! Motions start from the linear response, from states about it and from states of large amplitude that a
 //! backbone suggests, and are followed as in [`MotionSearch`]. Where there is little damping they have not
-//! repeated at last: then Newton's method begins where they have come back most closely after each of the
+//! repeated at last: then Newton's method starts where they have come back most closely after each of the
 //! multiples. What that finds is kept if it may be stable. A motion that will not settle, a chaotic one,
 //! comes back near unstable orbits: there Newton's method ends as soon as that is seen, which is before it
 //! has converged.
@@ -22,7 +22,7 @@ const KEPT: usize = 48;
 /// Near-returns from which Newton's method begins, of each multiple.
 const NEAR_RETURNS: usize = 2;
 
-/// How many motions begin where, and what is known before.
+/// How many motions start where, and what is known before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbeStarts<'a> {
     /// From the linear response and states about it.

@@ -1,6 +1,6 @@
 //! The same point of a branch, computed with other segments or tolerances.
 //!
-//! At a fold the frequency does not tell where on its branch an orbit is, and beside it badly: `dz/df` is
+//! At a fold the frequency does not fix where on its branch an orbit is, and beside it badly: `dz/df` is
 //! unbounded. The orbit is therefore held in the plane through its first node `z_0` and frequency `f` that is
 //! normal to the branch there, `t_z (z - z_0) + t_f (f - f_0) = 0`, with the tangent `[t_z; t_f]` of the
 //! first node in the units of the shooting equations. The plane is the same however the orbit is cut.
@@ -42,7 +42,7 @@ pub fn recompute(
     let nodes = nodes_of(&mut integrator, &Cut::of(given), segments)?;
     let scale = orbit_scale(&mut integrator, given)?;
     let mut problem =
-        ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(given.phase);
+        ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).starting_at(given.phase);
     let mut point = problem.point(&nodes, frequency_hz);
     evaluate(&mut problem, &point)?;
     let row = plane(&mut problem, frequency_hz)?;

@@ -10,11 +10,11 @@
 //! - from a state at a random distance from one that was passed.
 //!
 //! Nothing new for long is not enough to end: as many orbits are still to be expected as were arrived at once
-//! only (Good, Biometrika 40 (1953), 237-264: the share of trials that would arrive at something unseen is
-//! that of the trials that arrived where no other did). So trials can be asked to go on until each orbit that
+//! only (Good, Biometrika 40 (1953), 237-264: the share of trials that would arrive at something unseen
+//! equals the share that arrived where no other did). So trials can be asked to go on until each orbit that
 //! they found was arrived at twice.
 //!
-//! They are states at phase 0; one within a contact whose law remembers its impact is no guess that counts.
+//! They are states at phase 0; one within a contact of an impact-speed-dependent law is no guess that counts.
 
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ use crate::{
     solve::{Wanted, nodes_from},
 };
 
-/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where
+/// Force steps of all trials, times the entries of a state and two: they measure what a trial costs where
 /// contacts are many. Where modes are many, matrices do: a trial counts like the third power of the entries
 /// over [`DENSE`].
 const MOST_WORK: u64 = 2_000_000;
@@ -33,7 +33,7 @@ const MOST_WORK: u64 = 2_000_000;
 /// Multiplications of matrices that cost like the rest for an entry, for the ten evaluations of a trial.
 const DENSE: u64 = 1000;
 
-/// Ways to begin that take states of one motion only, of eight that take turns.
+/// Ways to start that take states of one motion only, of eight that take turns.
 const OF_ONE_MOTION: [usize; 6] = [0, 1, 3, 4, 5, 7];
 
 /// States that motions have passed through, one motion after the other.
@@ -117,7 +117,7 @@ pub(crate) struct Patience {
 /// Looks for orbits from states that were passed.
 ///
 /// # Returns
-/// Whether the patience has ended; else its bound or that of the work did, and there may be more orbits.
+/// Whether the patience has ended; else its bound or the bound of the work did, and there may be more orbits.
 pub(crate) fn sample(
     catalogue: &mut Catalogue<'_>,
     passed: &Passed,

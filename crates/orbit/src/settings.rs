@@ -14,8 +14,8 @@ pub enum Segments {
 ///
 /// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f what varies, mostly the frequency, `|dz|`
 /// the change of the orbit's state in the norm `sqrt(sum r_i^2 q_i^2 + q_i'^2)`, `r_i = max(w_i, 2 pi f)`,
-/// relative to that of the orbit, and F a hundredth of the range of f: a change as large as the motion counts
-/// like a hundredth of the range. Relative means in units that fit the start. Where the orbit or its
+/// relative to the norm of the orbit, and F a hundredth of the range of f: a change as large as the motion
+/// counts like a hundredth of the range. Relative means in units that fit the start. Where the orbit or its
 /// frequency outgrows the unit of one displacement or of the velocities by a factor of four either way, all
 /// get the power of two that fits.
 #[derive(Debug, Clone, Copy, PartialEq)]

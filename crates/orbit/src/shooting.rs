@@ -20,22 +20,20 @@
 //! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in
 //! corrections and tangents, however many the segments. Up to 1e7 that is below the tolerances of the path.
 //! Where an entry of `A_m` is larger, all equations and the border row are factorised as they stand, with
-//! partial pivoting: then the error is that of one segment, and orbits beside several slow impacts are
-//! followed on which a disturbance becomes 1e30 times as large in a period. That is some 3 m times the work
+//! partial pivoting: then only one segment makes the error. So orbits beside several slow impacts can be
+//! followed, on which a disturbance becomes 1e30 times as large in a period. That is some 3 m times the work
 //! of condensing. The determinant is the same.
 //!
 //! # Limits
-//! Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`, the largest one to 1e-8 at
-//! 1e12. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end
+//! Multipliers are eigenvalues of a product: small ones are known to `1e-16 |mu_1|`, the largest one to 1e-8
+//! at 1e12. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end
 //! there.
 //!
 //! # Fast excitation
-//! Where the period is short beside those of the modes, `A_m - I` is small and rounding of `Z_k - z_{k+1}` is
-//! what limits an
-//! orbit. In flight `Z_k - z_{k+1} = G_k d_k - d_{k+1}` with the deviations d from the steady motion, which
-//! vanish at the
-//! solution, and rounding of them with it: above a thousand times the lowest eigenfrequency residuals are
-//! taken like that.
+//! Where the period is short beside the periods of the modes, `A_m - I` is small and rounding of `Z_k -
+//! z_{k+1}` is what limits an orbit. In flight `Z_k - z_{k+1} = G_k d_k - d_{k+1}` with the deviations d from
+//! the steady motion, which vanish at the solution, and rounding of them with it: above a thousand times the
+//! lowest eigenfrequency residuals are taken like that.
 //!
 //! # Orbits that are cut at a touch
 //! Of states that agree to the tolerance one may lie before the touch and the other behind it: then the flows
@@ -169,7 +167,7 @@ impl ShootingProblem {
     }
 
     /// With the first node at this phase [cycles].
-    pub fn beginning_at(mut self, phase: f64) -> Self {
+    pub fn starting_at(mut self, phase: f64) -> Self {
         self.phase = phase;
         self
     }
@@ -237,7 +235,7 @@ impl ShootingProblem {
     /// Size that the last unknown has at a point, for relative accuracies.
     pub fn parameter_size(&self, point: &[f64]) -> f64 {
         let value = point[point.len() - 1].abs();
-        // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, tells its
+        // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, gives its
         // size.
         if self.varied.parameter().is_some() { value.max(100.0 * self.length_per_norm) } else { value }
     }

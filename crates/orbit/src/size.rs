@@ -1,12 +1,12 @@
-//! The size of an orbit: by its motion, not by the state with which it happens to begin.
+//! The size of an orbit: by its motion, not by the state with which it happens to start.
 //!
 //! With `s_j` the states at equally spaced phases of the whole orbit, [`PER_PERIOD`] of them or a few more in
 //! each excitation period, nodes included, the size is the root of the mean of `|s_j|^2` in the energy norm
 //! (`state_scale.rs`). A structure that rests on its stop at phase 0 has a state there that is thousands of
 //! times smaller than its orbit; in units of that state every tolerance would be thousands of times too
-//! strict. For a motion of harmonics up to the third the mean is that of the whole motion, so that the size
-//! does not depend on the phase at which the orbit begins; else it does by as much as the higher harmonics
-//! hold.
+//! strict. For a motion of harmonics up to the third the mean equals the mean over the whole motion, so that
+//! the size does not depend on the phase at which the orbit starts; else it does by as much as the higher
+//! harmonics hold.
 //!
 //! The motion is gone through once, without sensitivities, from each node to the next.
 
@@ -94,8 +94,8 @@ impl<'a> Cut<'a> {
         Ok(self.fitting_scale(integrator)?.0)
     }
 
-    /// [`Cut::scale`], and the size of the motion [kg^1/2 m/s]; without one the scale is that of one
-    /// kg^1/2 m/s.
+    /// [`Cut::scale`], and the size of the motion [kg^1/2 m/s]; without one the scale belongs to one kg^1/2
+    /// m/s.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
@@ -139,10 +139,10 @@ impl<'a> Cut<'a> {
     }
 }
 
-/// The units in which the motion over the excitation period that begins with a state at phase 0 has the size
-/// one, and the state with which that period ends, unless the motion fails behind the last of the states that
-/// tell the size. Where laws remember their impacts the units are those of the state alone: the integrator
-/// knows what it has remembered for one motion only, which has yet to go on.
+/// The units in which the motion over the excitation period from a state at phase 0 has the size one. With it
+/// the state at the end of that period, unless the motion fails behind the last of the states that give the
+/// size. With impact-speed-dependent laws the units follow from the state alone: the integrator keeps impact
+/// speeds for one motion only, which has yet to go on.
 ///
 /// # Errors
 /// [`MotionError`] if the motion cannot be computed.
@@ -157,8 +157,8 @@ pub(crate) fn scale_from(
     let phases: Vec<f64> = (1..PER_PERIOD).map(|k| k as f64 / PER_PERIOD as f64).collect();
     let Ok(trace) = integrator.trace(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, state, &phases) else {
         let nodes = [state.to_vec()];
-        let begin = Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 };
-        return Ok((begin.scale(integrator)?, None));
+        let cut = Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 };
+        return Ok((cut.scale(integrator)?, None));
     };
     let states: Vec<&[f64]> = std::iter::once(state).chain(trace.samples.iter().map(Vec::as_slice)).collect();
     let mut scale = unit_scale(integrator.system(), frequency_hz);

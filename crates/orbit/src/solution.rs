@@ -13,8 +13,8 @@ pub struct PeriodicSolution {
     pub frequency_hz: f64,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
-    /// Phase of the excitation at which the orbit begins, that of the first node [cycles], from 0 to 1;
-    /// always 0 without laws that remember an impact.
+    /// Phase of the excitation at which the orbit starts, at its first node [cycles], from 0 to 1; always 0
+    /// without impact-speed-dependent laws.
     pub phase: f64,
     /// Shooting nodes: one state per segment, the first at [`phase`](Self::phase), the others at equal
     /// distances.
@@ -33,7 +33,7 @@ pub struct PeriodicSolution {
 }
 
 impl PeriodicSolution {
-    /// What its Floquet multipliers tell, as well as they are known.
+    /// What follows from its Floquet multipliers, as well as they are known.
     #[must_use]
     pub fn stability(&self) -> Stability {
         Stability::of(&self.floquet_multipliers, &self.on_circle)

@@ -15,14 +15,15 @@ use crate::{
 };
 
 const MAX_ITERATIONS: u32 = 25;
-/// Scale of an orbit over that of its guess, below which the guess is too coarse a measure of the error.
+/// Scale of an orbit over the scale of its guess, below which the guess is too coarse a measure of the error.
 const COARSE: f64 = 0.5;
 /// So often the scale is fitted to where Newton's method has come, at most. From deep within a hard contact
 /// it begins at a million times the size of the orbit; what shrinks on and on has none.
 const MOST_SCALES: u32 = 16;
 /// After so many iterations,
 const MANY: u32 = 12;
-/// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
+/// a correction that is still larger than this, relative to the orbit, means that there is no progress from
+/// the guess.
 const STILL_FAR: f64 = 0.3;
 /// The same number of iterations where only an orbit near the guess is wanted.
 const FEW: u32 = 6;
@@ -275,7 +276,7 @@ pub(crate) fn observe(
     Ok(integrator.observe(&motion)?.into())
 }
 
-/// Nodes at equal phases of the motion from `state` at the phase `begin`.
+/// Nodes at equal phases of the motion from `state` at the phase `start`.
 pub(crate) fn nodes_from(
     integrator: &mut ExactIntegrator,
     (phase, state): (f64, &[f64]),
@@ -335,7 +336,7 @@ pub(crate) fn orbit_near(
     let guess = Cut { phase, nodes, frequency_hz, period_multiple };
     let scale = guess.scale(&mut integrator)?;
     let mut problem =
-        ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0).beginning_at(phase);
+        ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0).starting_at(phase);
     let (point, correction) = approach(&mut problem, nodes, frequency_hz, (Wanted::Any, settings))?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))

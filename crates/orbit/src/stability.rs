@@ -2,18 +2,18 @@
 //! Equation (P7) of the book, `docs/theory`.
 //!
 //! Along a smooth arc the multipliers are continuous, and they leave the unit circle in three ways: at +1 (a
-//! fold or branch point, which the path itself tells), at -1 (*flip*), and as a complex pair
+//! fold or branch point, which the path itself finds), at -1 (*flip*), and as a complex pair
 //! (*Neimark-Sacker*).
 //!
-//! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign is that of `(-1)^k`, `k`
-//!   the number of real `mu_i < -1`.
+//! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign equals `(-1)^k`, `k` the
+//!   number of real `mu_i < -1`.
 //! - Fold: the same with `1 - mu_i`, for curves in two parameters.
 //! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of
-//!   pairs outside. Where a pair outside the circle splits into two real multipliers the sign jumps without a
+//!   pairs outside. Where a pair outside the circle becomes two real multipliers the sign jumps without a
 //!   zero, which is no event ([`one_turns_real`]).
 //!
-//! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of
-//! how many lie outside ([`outside`]).
+//! A pair that leaves the circle and turns real between two points escapes all three; the path counts how
+//! many lie outside ([`outside`]).
 //!
 //! # Source
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
@@ -144,8 +144,8 @@ fn beyond([re, im]: [f64; 2]) -> f64 {
 
 /// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points,
 /// given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and
-/// another one enters, or one that is outside at both points is inside half-way, which the line between them
-/// tells. Which is which is told by their distances, the nearest two first.
+/// another one enters, or one that is outside at both points is inside half-way, as the line between them
+/// shows. They are matched by their distances, the nearest two first.
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     // Either way one lies outside on each side; pairing all of two hundred modes takes as long as the motion.
     if [before, behind].iter().any(|side| side.iter().all(|pair| beyond(*pair) <= ON_CIRCLE)) {
@@ -165,8 +165,8 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
 
 /// Whether there is one complex pair of multipliers more outside the unit circle at one of two neighbouring
 /// points than at the other, which is nearer to the real axis than by [`AT_AXIS`] of what it is beyond the
-/// circle, and none of those on the same side at both has touched it. Which is which is told by their
-/// distances, the nearest two first. One has touched it if it has gone nearly as far as by the circle.
+/// circle, and none of those on the same side at both has touched it. They are matched by their distances,
+/// the nearest two first. One has touched it if it has gone nearly as far as by the circle.
 ///
 /// * `before`, `behind`: the pairs by those in the upper half-plane.
 pub(crate) fn one_turns_real(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
@@ -223,8 +223,8 @@ pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     nearest.is_none_or(|pair| pair[1] < off_circle(pair))
 }
 
-/// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one
-/// this is the pair that becomes real there, as well as it is known, and crosses the circle nowhere else.
+/// Whether the multiplier nearest to +1 is one of a complex pair. At a branch point it is real: beside one
+/// this is the pair that becomes real there, as well as it is known, and does not cross the circle elsewhere.
 pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
     let nearest = multipliers.iter().min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
     nearest.is_some_and(|[_, im]| *im != 0.0)
@@ -289,13 +289,13 @@ mod tests {
     }
 
     #[test]
-    fn pairs_that_cross_the_circle_both_ways_are_told_from_one_that_turns() {
+    fn pairs_that_cross_the_circle_both_ways_are_distinguished_from_one_that_turns() {
         let (outside, inside) = ([-0.198, 1.003], [0.35, 0.77]);
         assert!(pairs_cross_both_ways(&[outside, inside], &[[0.06, 0.85], [0.326, 0.974]]));
         // The nearest to the first one is the second one before, which is nearer to another.
         assert!(pairs_cross_both_ways(&[[0.06, 0.84], [0.326, 0.974]], &[outside, [0.35, 0.765]]));
         assert!(!pairs_cross_both_ways(&[outside, inside], &[[0.06, 1.05], [0.326, 0.9]]));
-        assert!(!pairs_cross_both_ways(&[outside], &[[0.06, 0.85]]), "that one is told by the count");
+        assert!(!pairs_cross_both_ways(&[outside], &[[0.06, 0.85]]), "the count shows that one");
         assert!(!pairs_cross_both_ways(&[], &[[0.06, 0.85], [0.326, 0.974]]));
         // Outside at both ends, by the inside.
         assert!(pairs_cross_both_ways(&[[0.77, 0.72]], &[[-0.653, 0.8785]]));

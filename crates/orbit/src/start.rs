@@ -4,9 +4,9 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator, start_reach};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
-    beginning::in_front,
     cut::search_cut,
     noise::Noise,
+    permitted_start::in_front,
     size::scale_from,
     solve::{has_minimal_period, integrator, nodes_from, orbit_near},
     state_scale::state_scale,
@@ -105,7 +105,7 @@ pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
 }
 
 /// The linear response, and states in its neighbourhood and well beyond it and the gaps, always the same
-/// ones. A state within a contact that must not be begun in is moved in front of it.
+/// ones. A state within a contact in which no motion may start is moved in front of it.
 pub(crate) fn starting_states(
     system: &System,
     response: &Response,
@@ -136,7 +136,7 @@ pub(crate) fn starting_states(
 }
 
 /// The orbit of that minimal period on which a motion moves that has settled, given by its state at phase 0;
-/// `None` if Newton's method leads nowhere or to an orbit of a shorter period.
+/// `None` if Newton's method does not converge, or does to an orbit of a shorter period.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::PeriodMultiple`] unless the
@@ -150,8 +150,8 @@ pub fn settled_orbit(
 ) -> Result<Option<PeriodicSolution>, OrbitError> {
     check_multiple(orbit.1)?;
     let mut motion = integrator(system, response, settings)?;
-    let (begin, _) = search_cut(&mut motion, state, orbit)?;
-    attempt(system, response, begin.at(), orbit, settings)
+    let (start, _) = search_cut(&mut motion, state, orbit)?;
+    attempt(system, response, start.at(), orbit, settings)
 }
 
 /// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has
@@ -175,10 +175,10 @@ fn settle(
         simulate(&mut simulation, &mut state, settling, &mut *interrupted)?;
         let before = state.clone();
         simulate(&mut simulation, &mut state, (frequency_hz, lag.min(PERIODS)), &mut *interrupted)?;
-        // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on
+        // With an impact-speed-dependent law the orbit may start at another phase, and the motion goes on
         // behind it.
-        let (begin, end) = search_cut(&mut simulation, &state, orbit)?;
-        let found = attempt(system, response, begin.at(), orbit, settings)?;
+        let (start, end) = search_cut(&mut simulation, &state, orbit)?;
+        let found = attempt(system, response, start.at(), orbit, settings)?;
         if found.is_some() {
             return Ok(found);
         }
@@ -208,11 +208,12 @@ pub(crate) fn simulate(
     Ok(())
 }
 
-/// Newton's method from a state at a phase; `None` if it leads nowhere or to an orbit of a shorter period.
+/// Newton's method from a state at a phase; `None` if it does not converge, or does to an orbit of a shorter
+/// period.
 pub(crate) fn attempt(
     system: &System,
     response: &Response,
-    begin: (f64, &[f64]),
+    start: (f64, &[f64]),
     (frequency_hz, period_multiple): (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<Option<PeriodicSolution>, OrbitError> {
@@ -221,8 +222,8 @@ pub(crate) fn attempt(
         Segments::Fixed(count) => count.max(1),
     };
     let mut motion = integrator(system, response, settings)?;
-    let nodes = nodes_from(&mut motion, begin, frequency_hz, period_multiple, segments)?;
-    attempt_nodes(system, response, (begin.0, &nodes), (frequency_hz, period_multiple), settings)
+    let nodes = nodes_from(&mut motion, start, frequency_hz, period_multiple, segments)?;
+    attempt_nodes(system, response, (start.0, &nodes), (frequency_hz, period_multiple), settings)
 }
 
 /// Newton's method from nodes, one per segment, the first at that phase; `None` as in [`attempt`].

@@ -1,6 +1,6 @@
 //! In which units states are measured: displacements and velocities differ by orders of magnitude.
 //!
-//! The size of an orbit is that of its motion, not that of a sag: under a weight a state is `z_0 + z` with
+//! The size of an orbit is the size of its motion, without the sag: under a weight a state is `z_0 + z` with
 //! the place of rest `z_0`, and tolerances and steps relative to `z_0` would be far too coarse for a small
 //! `z`. Where stops carry the weight, `z_0`, which knows nothing of stops, may be further from the orbit than
 //! the origin is; then the origin counts. Rounding is relative to the whole state, so a motion below a
@@ -37,7 +37,7 @@ impl StateScale {
         Self { rest: vec![0.0; scales.len()], scales }
     }
 
-    /// Sizes are those of the motion about this state of rest, of the same length.
+    /// Sizes are measured about this state of rest, of the same length.
     pub fn about(self, rest: Vec<f64>) -> Self {
         Self { rest, ..self }
     }
@@ -69,7 +69,7 @@ impl StateScale {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Whether the distance of two states is less than a bound: no more of them is looked at than tells it.
+    /// Whether the distance of two states is less than a bound: no more of them is looked at than decides it.
     pub fn are_within(&self, a: &[f64], b: &[f64], bound: f64) -> bool {
         // Beyond rounding of the square.
         let enough = bound * bound * (1.0 + 8.0 * f64::EPSILON);
@@ -83,8 +83,8 @@ impl StateScale {
         square.sqrt() < bound
     }
 
-    /// Multiplies the scales by the size of a motion, if it has one; returns the size. Of a structure that
-    /// its stops hold throughout, where the model has its zero, it is that of the state of rest without
+    /// Multiplies the scales by the size of a motion, if it has one; returns the size. For a structure that
+    /// its stops hold throughout, where the model has its zero, it is the size of the state of rest without
     /// stops.
     pub fn fit_to(&mut self, states: &[impl AsRef<[f64]>]) -> f64 {
         let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt();
@@ -144,7 +144,8 @@ pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> 
     scale
 }
 
-/// Where the modes rest under the constant loads, without stops; rigid ones, which rest nowhere, at zero.
+/// Where the modes rest under the constant loads, without stops; rigid ones, which have no place of rest, at
+/// zero.
 pub(crate) fn state_of_rest(system: &System) -> Vec<f64> {
     let mut rest = vec![0.0; 2 * system.dof()];
     if let Some(index) = system.orders().iter().position(|&order| order == 0) {

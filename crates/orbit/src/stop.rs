@@ -42,7 +42,7 @@ pub enum StopReason {
         /// What was wrong with it.
         doubt: String,
         /// Nothing takes energy out of the motion: motions that differ by a free vibration may lie closer
-        /// together than rounding tells apart.
+        /// together than rounding resolves.
         has_no_losses: bool,
     },
     /// No step, however short, led to an acceptable solution, and the last motion chatters at a rigid stop.
@@ -73,8 +73,8 @@ pub enum StopReason {
         /// As where the step is too short.
         has_no_losses: bool,
     },
-    /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a
-    /// contact began, its force jumps there, and so does the motion: the branch ends.
+    /// Beyond this place a contact opens and is pressed on again at once. With an impact-speed-dependent law
+    /// its force jumps there, and so does the motion: the branch ends.
     ContactReopens {
         /// Where, in the unit of what varies.
         place: f64,

@@ -37,7 +37,7 @@ pub struct Crossing {
     pub orbit: PeriodicSolution,
     /// [`crate::LocatedEvent::direction`].
     pub direction: Vec<f64>,
-    /// Periods of the new branch over those of the present one: 2 at a flip, 1 at a branch point.
+    /// Periods of the new branch over the periods of the present one: 2 at a flip, 1 at a branch point.
     pub factor: u32,
 }
 
@@ -118,7 +118,7 @@ impl Crossing {
         let nodes = vec![self.orbit.nodes.as_slice(); self.factor as usize].concat();
         let scale = orbit_scale(&mut integrator, &self.orbit)?;
         let mut problem =
-            ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(phase);
+            ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).starting_at(phase);
         let point = problem.point(&nodes, frequency_hz);
         evaluate(&mut problem, &point)?;
         solution(&mut problem, &point, self.orbit.error_estimate)
@@ -145,7 +145,7 @@ fn leave(
     let scale = orbit_scale(&mut integrator, orbit)?;
     let length = length_per_norm(range);
     let mut problem =
-        ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(orbit.phase);
+        ShootingProblem::new(integrator, (multiple, segments), scale, length).starting_at(orbit.phase);
     if settings.locates_stability_changes {
         problem.watch_stability();
     }
@@ -187,7 +187,7 @@ fn leave(
     problem.note_symmetry(current);
     let path = OrbitPath::new(problem, follower, (settings, range));
     let mut walk = BranchWalk::of(path, orbit.maxima.displacement, response);
-    walk.begins_with_present = true;
+    walk.starts_with_present = true;
     Ok(Some((walk, same_contacts)))
 }
 

@@ -12,13 +12,13 @@ mod last_motion;
 mod last_rows;
 mod lost_start;
 mod orbit_path;
-mod recut;
 mod refine;
+mod reopening;
 mod resegment;
 mod row;
 mod settings;
 mod shorter_period;
-mod splits;
+mod start_phase;
 mod stepping;
 mod symmetric;
 mod together;
@@ -54,7 +54,7 @@ pub struct BranchWalk {
     pub(crate) growth: Growth,
     pub(crate) effort: Effort,
     /// The present point is still to be given as a row: the walk has left a crossing.
-    pub(crate) begins_with_present: bool,
+    pub(crate) starts_with_present: bool,
 }
 
 /// An orbit that a walk has come to, without its maxima.
@@ -113,7 +113,7 @@ impl BranchWalk {
         let nodes = nodes_of(&mut integrator, &Cut::of(start), segments)?;
         let length = length_per_norm(range);
         let mut problem =
-            ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(start.phase);
+            ShootingProblem::new(integrator, (multiple, segments), scale, length).starting_at(start.phase);
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -140,7 +140,7 @@ impl BranchWalk {
     pub(crate) fn of(path: OrbitPath, displacement: f64, response: &Response) -> Self {
         let record = RowRecord::at_start(&path, displacement, &response.shape);
         let (growth, effort) = (Growth::default(), Effort::default());
-        Self { path, record, growth, effort, begins_with_present: false }
+        Self { path, record, growth, effort, starts_with_present: false }
     }
 
     /// The row of the start, to be taken before the first step.

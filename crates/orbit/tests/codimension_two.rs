@@ -4,8 +4,8 @@
 //! Two oscillators that do not touch each other, driven by the same force: a hardening Duffing oscillator,
 //! whose folds move with the force, and a bilinear one without gap, whose flips do not (its motion is
 //! proportional to the force; `flips_bilinear.rs` has their closed form). Together they are one system of two
-//! modes, of which the curves know no better. Its multipliers are those of both, so a fold-flip is where a
-//! fold of the one has the frequency of a flip of the other.
+//! modes, of which the curves know no better. Its multipliers are the multipliers of both, so a fold-flip is
+//! where a fold of the one has the frequency of a flip of the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -24,7 +24,7 @@ type Case = (System, Response);
 const RANGE_HZ: (f64, f64) = (0.15, 0.4);
 const START_HZ: f64 = 0.16;
 const SCALES: (f64, f64) = (0.3, 2.5);
-/// Frequency, damping and added stiffness of the bilinear oscillator, and its force: those of
+/// Frequency, damping and added stiffness of the bilinear oscillator, and its force: as in
 /// `flips_bilinear.rs`, slower by this factor.
 const SLOWER: f64 = 0.6;
 

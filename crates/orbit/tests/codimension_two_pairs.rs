@@ -51,12 +51,17 @@ fn off(multipliers: &[[f64; 2]], from: f64) -> f64 {
     multipliers.iter().map(|[re, im]| (re - from).hypot(*im)).fold(f64::INFINITY, f64::min)
 }
 
-type Kind = (CurveKind, fn(&Events) -> bool, &'static str);
+type PairCase = (CurveKind, fn(&Events) -> bool, &'static str);
 
 /// Beside an oscillator that bifurcates a pair at rest crosses the circle at its own damping, whatever the
 /// frequency, and the oscillator by itself bifurcates there at the same frequency. By default from the first
 /// place at which it bifurcates.
-fn meets_the_resting_pair(part: &Part, (kind, wanted, name): Kind, range_hz: (f64, f64), real: Option<f64>) {
+fn meets_the_resting_pair(
+    part: &Part,
+    (kind, wanted, name): PairCase,
+    range_hz: (f64, f64),
+    real: Option<f64>,
+) {
     let case = together(&[part.clone(), resting_pair(RESTS[0], RESTS[1])]);
     let starts = events(&case, range_hz, wanted);
     assert!(!starts.is_empty());
@@ -81,19 +86,19 @@ fn meets_the_resting_pair(part: &Part, (kind, wanted, name): Kind, range_hz: (f6
 
 #[test]
 fn fold_neimark_sacker_points_are_where_a_pair_at_rest_loses_its_damping() {
-    let kind: Kind = (CurveKind::Fold, |e| e.fold, "fold-neimark-sacker");
+    let kind: PairCase = (CurveKind::Fold, |e| e.fold, "fold-neimark-sacker");
     meets_the_resting_pair(&duffing(1.0), kind, (0.15, 0.4), Some(1.0));
 }
 
 #[test]
 fn flip_neimark_sacker_points_are_where_a_pair_at_rest_loses_its_damping() {
-    let kind: Kind = (CurveKind::Flip, |e| e.flip, "flip-neimark-sacker");
+    let kind: PairCase = (CurveKind::Flip, |e| e.flip, "flip-neimark-sacker");
     meets_the_resting_pair(&bilinear(0.6), kind, (0.15, 0.4), Some(-1.0));
 }
 
 #[test]
 fn double_neimark_sacker_points_are_where_a_pair_at_rest_loses_its_damping() {
-    let kind: Kind = (CurveKind::NeimarkSacker, |e| e.neimark_sacker, "double-neimark-sacker");
+    let kind: PairCase = (CurveKind::NeimarkSacker, |e| e.neimark_sacker, "double-neimark-sacker");
     meets_the_resting_pair(&two_modes(), kind, (0.1, 0.157), None);
 }
 
@@ -148,7 +153,7 @@ fn impedance(hz: f64, frequency: f64, damping: f64) -> f64 {
 
 /// Where two coupled modes have their Neimark-Sacker points and another oscillator bifurcates at one force:
 /// found on both curves, and by each of the two by itself. By default with the first of the pairs.
-fn meets_two_modes(part: &Part, (kind, wanted, name): Kind, start_hz: f64, pairs_hz: &[f64]) {
+fn meets_two_modes(part: &Part, (kind, wanted, name): PairCase, start_hz: f64, pairs_hz: &[f64]) {
     let (range, range_hz) = ((0.8, 1.6), (0.1, 0.157));
     let is_pair: fn(&Events) -> bool = |events| events.neimark_sacker;
     let case = together(&[two_modes(), part.clone()]);

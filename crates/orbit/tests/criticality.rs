@@ -23,7 +23,7 @@ use hammerbeam_orbit::{
 const FORCE: Parameter = Parameter::ExcitationScale;
 const DAMPING: Parameter = Parameter::ADDED_DAMPING_RATIO;
 
-/// Where the polynomial of y over x through these points has its zero, by that of x over y.
+/// Where the polynomial of y over x through these points has its zero, by the polynomial of x over y.
 fn zero(x: &[f64], y: &[f64]) -> f64 {
     let weight =
         |i: usize| -> f64 { (0..y.len()).filter(|j| *j != i).map(|j| -y[j] / (y[i] - y[j])).product() };

@@ -131,7 +131,7 @@ fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
             let root = 3.0_f64.sqrt();
             let w = 0.5 * (root * damping + (3.0 * damping * damping + 4.0).sqrt());
             let force = (32.0 * (damping * w).powi(3) / (9.0 * root)).sqrt();
-            // Twice the force of the cusp, so that there are folds to begin at.
+            // Twice the force of the cusp, so that there are folds to start at.
             let cubic = Law::Power(law::PowerSpring::cubic(1.0).unwrap());
             let case = oscillator(*damping, 2.0 * force, &[(1.0, cubic)]);
             let range_hz = (0.12, 0.3);
@@ -179,7 +179,7 @@ fn flip_curves_of_the_beam_meet_its_branches() {
 }
 
 /// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`,
-/// whatever the contact does once it is reached; the multipliers are those of the linear oscillator, of the
+/// whatever the contact does once it is reached; the multipliers belong to the linear oscillator, with the
 /// modulus `exp(-c/(2 f))`.
 #[test]
 fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
@@ -200,7 +200,7 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
     for law in laws {
         let case = oscillator(0.2, 1.0, &[(1.0, law.clone())]);
         let range_hz = (0.05, 0.4);
-        // At that of a rigid stop the multipliers jump: it counts as bracketed.
+        // At the grazing of a rigid stop the multipliers jump: it counts as bracketed.
         let rows = branch_in(Segments::Fixed(4), &case, 0.06, range_hz);
         let first = rows.iter().find(|row| row.events.grazing).unwrap();
         for (parameter, range) in [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::gap(0), (0.5, 6.0))]
@@ -244,8 +244,8 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
     }
 }
 
-/// An orbit that strikes a stop whose law remembers the impact, and grazes another one on the other side. By
-/// default one way.
+/// An orbit that strikes a stop with an impact-speed-dependent law, and grazes another one on the other side.
+/// By default one way.
 #[test]
 fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches() {
     let elastic = law::HertzStop::with_gap(20.0, 0.5).unwrap();
@@ -375,7 +375,7 @@ fn a_neimark_sacker_curve_ends_at_the_strong_resonance() {
 /// `(1 - w^2)^2 + c^2 w^2 = F^2/g^2`, with impacts on both stops beside it. A start that is some 1e-6 off
 /// both, as a corner is known in a wide range of the frequency, belongs to both as well.
 #[test]
-fn grazing_curves_at_two_rigid_stops_begin_beside_the_grazing() {
+fn grazing_curves_at_two_rigid_stops_start_beside_the_grazing() {
     const DAMPING: f64 = 0.04;
     let rigid = Law::Rigid(law::RigidStop::with_gap(0.8, 1.0).unwrap());
     let case = oscillator(DAMPING, 0.4, &[(1.0, rigid.clone()), (-1.0, rigid)]);

@@ -87,7 +87,7 @@ fn orbit_of_doubled_period_grows_with_the_root_of_the_distance() {
     }
 }
 
-/// Both ways along the same orbits: they are those of the other half of the doubled orbit.
+/// Both ways along the same orbits: one way holds the other half of the doubled orbit.
 #[test]
 fn branch_of_doubled_period_is_met_again_from_its_other_side() {
     let subject = subject();

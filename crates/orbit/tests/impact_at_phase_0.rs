@@ -7,8 +7,8 @@
 //! `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`,
 //!
 //! and multipliers of the product `e^2` (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155). The impact comes
-//! at the phase `w t + phi` that has `g cos` and `-g w sin` of the free motion; with `phi` that of the impact
-//! at [`MIDDLE`] it comes at phase 0 there.
+//! at the phase `w t + phi` that has `g cos` and `-g w sin` of the free motion; with `phi` of the impact at
+//! [`MIDDLE`] it comes at phase 0 there.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;

@@ -46,15 +46,15 @@ fn neimark_sacker_points_do_not_depend_on_step_or_segments() {
     }
 }
 
-/// Distance of the motion from an orbit after some periods, relative to that at the beginning.
+/// Distance of the motion from an orbit after some periods, relative to the distance at the start.
 fn factor(orbit: &PeriodicSolution, periods: u32) -> f64 {
     let (system, _) = beam();
     let beside: Vec<f64> = orbit.nodes[0].iter().map(|z| z * (1.0 + 1e-6)).collect();
     let after = |state: &[f64], periods| general_advance(&system, orbit.frequency_hz, state, periods);
     // The damped modes are gone after some periods.
-    let begun = after(&beside, 40);
-    let ended = after(&begun, periods);
-    apart(&system, &orbit.nodes[0], &ended) / apart(&system, &orbit.nodes[0], &begun)
+    let started = after(&beside, 40);
+    let ended = after(&started, periods);
+    apart(&system, &orbit.nodes[0], &ended) / apart(&system, &orbit.nodes[0], &started)
 }
 
 /// On the side where the pair lies inside, a small disturbance dies away; on the other it grows. Nothing but

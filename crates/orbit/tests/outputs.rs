@@ -105,8 +105,8 @@ fn each_harmonic_of_a_load_is_found_in_its_order() {
 }
 
 /// `x'' + 0.1 x' + x = f(t) - F(x)` integrated over a period, and multiplied by `exp(-i k w t)`:
-/// `mean x + mean F = mean f`, `x_k/receptance(k w) + F_k = f_k`. The largest force is that of the law at the
-/// largest displacement.
+/// `mean x + mean F = mean f`, `x_k/receptance(k w) + F_k = f_k`. The largest force follows from the law at
+/// the largest displacement.
 #[test]
 fn forces_of_stops_obey_their_law_and_balance_the_motion() {
     type Force = fn(f64) -> f64;
@@ -142,8 +142,8 @@ fn forces_of_stops_obey_their_law_and_balance_the_motion() {
 
 /// A mass that bounces on a rigid stop once a period with the speed V gets the impulse `(1 + e) V`: the
 /// mean force is that over the period, and so, with `x'' + x = cos(w t) - F` and no mean acceleration,
-/// is `-mean x`. The speed is that of Shaw and Holmes (1983): `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2
-/// w))^2 = g^2`.
+/// is `-mean x`. The speed follows from Shaw and Holmes (1983): `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2
+/// = g^2`.
 #[test]
 fn impulses_of_a_bouncing_mass_count_in_means_and_harmonics() {
     let (gap, e, w) = (0.1_f64, 0.6, 1.8);

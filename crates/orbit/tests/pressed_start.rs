@@ -1,6 +1,6 @@
-//! A constant load that presses the structure against a stop whose law remembers its impact, and a force that
-//! throws it off: the linear response and the place of rest lie within the contact, where no search can
-//! begin.
+//! A constant load that presses the structure against a stop with an impact-speed-dependent law, and a force
+//! that throws it off: the linear response and the place of rest lie within the contact, where no search can
+//! start.
 //!
 //! The oracle is the same equation by the classical Runge-Kutta method with fixed steps, from a state far in
 //! front of the stop.
@@ -43,7 +43,7 @@ fn pressed(stops: &[(&str, Law)]) -> (System, Response) {
     (system, Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
-fn remembering() -> Law {
+fn impact_speed_dependent() -> Law {
     let elastic = HertzStop::with_gap(STIFFNESS, GAP).unwrap();
     Law::Restitution(
         RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, RESTITUTION).unwrap(),
@@ -82,13 +82,13 @@ fn largest_displacement() -> f64 {
 
 #[track_caller]
 fn assert_near(found: f64, expected: f64) {
-    // Steps that fall across the begin of a contact leave some 1e-6.
+    // Steps that fall across the start of a contact leave some 1e-6.
     assert!((found - expected).abs() <= 1e-5 * expected.abs(), "{found}, expected {expected}");
 }
 
 #[test]
-fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
-    let (system, response) = pressed(&[("stop", remembering())]);
+fn every_search_starts_in_front_of_a_contact_against_which_a_weight_presses() {
+    let (system, response) = pressed(&[("stop", impact_speed_dependent())]);
     let settings = OrbitSettings::for_range((0.5, 1.5));
     let expected = largest_displacement();
     let started = find_start(&system, &response, FREQUENCY, 1, &settings).unwrap();
@@ -111,16 +111,16 @@ fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
 /// A rigid stop in front of the other one holds the mass back: no motion comes into the contact, but the
 /// linear response does.
 #[test]
-fn searches_begin_in_front_of_a_rigid_stop_that_lies_before_the_contact() {
+fn searches_start_in_front_of_a_rigid_stop_that_lies_before_the_contact() {
     let rigid = Law::Rigid(RigidStop::with_gap(0.3, 0.0).unwrap());
-    let (system, response) = pressed(&[("far", remembering()), ("near", rigid)]);
+    let (system, response) = pressed(&[("far", impact_speed_dependent()), ("near", rigid)]);
     let started =
         find_start(&system, &response, FREQUENCY, 1, &OrbitSettings::for_range((0.5, 1.5))).unwrap();
     assert!(started.stable());
     assert!(started.nodes.iter().all(|node| node[0] <= 1e-9));
 }
 
-/// The contact closes once and for all: the reason is told.
+/// The contact closes once and for all: the reason is reported.
 #[test]
 fn a_weight_that_presses_more_than_the_force_lifts_is_refused_with_a_reason() {
     let heavy = |order, amplitude| HarmonicForce {
@@ -128,8 +128,12 @@ fn a_weight_that_presses_more_than_the_force_lifts_is_refused_with_a_reason() {
         harmonic: Harmonic { order, amplitude, phase: 0.0 },
     };
     let load = Load { support: vec![], forces: vec![heavy(0, 10.0 * FORCE), heavy(1, 0.01 * FORCE)] };
-    let stop =
-        LocalElement { name: "stop".into(), shape: vec![1.0], support_ratios: vec![0.0], law: remembering() };
+    let stop = LocalElement {
+        name: "stop".into(),
+        shape: vec![1.0],
+        support_ratios: vec![0.0],
+        law: impact_speed_dependent(),
+    };
     let system = System::new(unit_mass(1.0, DAMPING), &load, vec![stop]).unwrap();
     let response = Response { shape: vec![1.0], support_ratios: vec![0.0] };
     let settings = OrbitSettings::for_range((0.5, 1.5));

@@ -81,7 +81,7 @@ fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_
 }
 
 /// `x'' + 0.01 x' + 1.5 x + x^3 = 2 cos W t` has two solutions of three periods, mirror images of each other,
-/// on closed branches from 0.3864 to 0.4146 Hz. Motions that begin about the linear response seldom come to
+/// on closed branches from 0.3864 to 0.4146 Hz. Motions that start about the linear response seldom come to
 /// them, and take hundreds of periods.
 #[test]
 fn few_trials_at_each_of_some_frequencies_meet_a_subharmonic_branch() {

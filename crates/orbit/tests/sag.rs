@@ -61,7 +61,7 @@ fn beside_a_large_motion(size: f64) -> Subject {
 }
 
 /// Where the harmonic branch flips, and for each flip where the branch that leaves there ends; on the way it
-/// is nowhere the harmonic branch run through twice, which alternates by less than a tenth of `least`.
+/// is never the harmonic branch run through twice, which alternates by less than a tenth of `least`.
 fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
     let settings = step_of(0.001);
     let start = find_start(&subject.0, &subject.1, 0.3, 1, &settings).unwrap();
@@ -92,7 +92,7 @@ fn assert_ends_in_flip(last: &BranchRow, end: f64, flips: &[&BranchRow]) {
     assert!(off < 1e-10, "the end at {end} Hz is {off:e} Hz beside a flip");
 }
 
-/// The flips and ends of a subject are those of the oscillator alone, to a part of the units.
+/// The flips and ends of a subject agree with the oscillator alone, to a part of the units.
 #[track_caller]
 fn assert_as_alone(subject: &Subject, least: f64, tolerance: f64) {
     let (flips, ends) = flips_and_ends(&self::subject(0.0, 0.0), 1e-5);
@@ -107,7 +107,7 @@ fn branches_about_a_sag_are_those_without_it() {
     assert_as_alone(&subject(SAG, 0.0), 1e-8, 1e-10);
 }
 
-/// Units are those of the sag here, of which the motion is a five-thousandth.
+/// The sag sets the units here; the motion is a five-thousandth of it.
 #[test]
 fn branches_about_a_sag_that_a_stop_carries_are_those_without_it() {
     assert_as_alone(&subject(5.0 * SAG, 0.9), 1e-9, 1e-10);

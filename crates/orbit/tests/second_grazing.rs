@@ -70,11 +70,11 @@ fn hz_of_both((mut low, mut high): (f64, f64)) -> f64 {
         assert_eq!(minima.len(), 2, "{hz}");
         minima[0] - minima[1]
     };
-    let begin = apart(low);
-    assert!(begin * apart(high) < 0.0, "the deeper one is the same at both ends");
+    let at_low = apart(low);
+    assert!(at_low * apart(high) < 0.0, "the deeper one is the same at both ends");
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if apart(middle) * begin > 0.0 { low = middle } else { high = middle }
+        if apart(middle) * at_low > 0.0 { low = middle } else { high = middle }
     }
     0.5 * (low + high)
 }

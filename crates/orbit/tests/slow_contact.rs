@@ -38,7 +38,7 @@ fn bouncing() -> (System, Response) {
 }
 
 #[test]
-fn a_contact_that_begins_too_slowly_to_be_computed_ends_the_branch_where_it_splits() {
+fn a_contact_that_starts_too_slowly_to_be_computed_ends_the_branch_where_it_reopens() {
     let (system, response) = bouncing();
     let settings = OrbitSettings { max_step: 0.1, ..OrbitSettings::default() };
     let start = find_start(&system, &response, 6.1, 1, &settings).unwrap();
@@ -75,7 +75,7 @@ fn above_a_stop() -> (System, Response) {
 /// Multipliers go like the distance from the end to the power of -4, and beyond some 1e8 the general
 /// integrator finds a motion without the contact that begins last.
 #[test]
-fn rows_beside_a_splitting_are_those_that_can_be_told_from_the_other_side() {
+fn rows_beside_a_reopening_are_distinguished_from_the_other_side() {
     let subject = above_a_stop();
     let settings = OrbitSettings { max_step: 1e-3, ..OrbitSettings::default() };
     let start = find_start(&subject.0, &subject.1, 0.38, 2, &settings).unwrap();

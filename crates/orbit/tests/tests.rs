@@ -1,8 +1,6 @@
 //! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod begin_phase;
-mod books;
 mod cascade;
 mod codimension_two;
 mod codimension_two_pairs;
@@ -19,19 +17,21 @@ mod grazing_located;
 mod grazing_pair;
 mod grazing_rows;
 mod impact_at_phase_0;
+mod multiplier_counts;
 mod multipliers;
 mod neimark_sacker;
 mod outputs;
 mod own_images;
 mod pressed_start;
 mod probe;
+mod reopening_curve;
+mod reopening_end;
 mod sag;
 mod second_grazing;
 mod slow_contact;
-mod splitting_curve;
-mod splitting_end;
+mod start_phase;
 mod symmetry_breaking;
-mod touch_over_the_begin;
+mod touch_over_the_start;
 mod unbounded;
 mod uncertainties;
 mod vary;

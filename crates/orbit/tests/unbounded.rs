@@ -192,9 +192,8 @@ fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
 }
 
 /// A superharmonic branch of an undamped hardening oscillator climbs until the forced motion and its
-/// neighbours, which differ in a free vibration, are closer than rounding tells apart: its end says so.
-/// The range is wide, as rounding decides how far it comes: up to 0.3163 Hz it ended at 0.28 Hz, or not at
-/// all.
+/// neighbours, which differ in a free vibration, are closer than rounding resolves: its end says so. The
+/// range is wide, as rounding decides how far it comes: up to 0.3163 Hz it ended at 0.28 Hz, or not at all.
 #[test]
 fn a_branch_of_motions_without_losses_ends_with_that_word() {
     let law = Law::Power(PowerSpring::cubic(0.0353).unwrap());

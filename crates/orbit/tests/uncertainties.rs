@@ -10,7 +10,7 @@ use crate::common::{
 use hammerbeam_motion::Parameter;
 use hammerbeam_orbit::{BranchRow, BranchWalk, ContinuationParameter, EventStatus, Events, Side, find_start};
 
-/// Wider than that says nothing; events that are known to 1e-8 of their frequency are told to be located.
+/// Wider than that says nothing; events that are known to 1e-8 of their frequency are reported as located.
 const WIDE: f64 = 2e-9;
 
 /// An event lies within its uncertainty of where it should be.

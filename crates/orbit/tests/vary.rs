@@ -96,7 +96,7 @@ fn gap_and_damping_meet_their_closed_forms() {
     }
 }
 
-/// The orbits of a branch in a parameter are those of the system with that value, found on its own.
+/// The orbits of a branch in a parameter agree with the system at that value, found on its own.
 #[test]
 fn orbits_of_a_varied_branch_are_orbits_of_the_varied_system() {
     for (case, parameter, frequency_hz, range) in [

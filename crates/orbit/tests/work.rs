@@ -31,7 +31,7 @@ macro_rules! pinned {
 }
 
 pinned! {
-    thickets_of_folds_at_the_default_step: 30.0 to 19.0 Hz at 0.02 Hz <= 2.47;
+    dense_folds_at_the_default_step: 30.0 to 19.0 Hz at 0.02 Hz <= 2.47;
     resonance_and_beyond_at_the_default_step: 30.0 to 60.0 Hz at 0.02 Hz <= 2.20;
     smooth_part_at_the_default_step: 50.0 to 55.0 Hz at 0.02 Hz <= 2.07;
     smooth_part_at_a_step_of_0_001_hz: 50.0 to 50.5 Hz at 0.001 Hz <= 1.02;

@@ -25,7 +25,7 @@ const ALIGNED: f64 = 0.7;
 ///
 /// # Errors
 /// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant
-/// or signature are not those of the arc.
+/// or signature do not belong to the arc.
 pub fn solve_between(
     problem: &mut dyn PathProblem,
     ends: [&ContinuationPoint; 2],

@@ -30,7 +30,7 @@ pub enum CorrectorError {
     /// The corrector moves the prediction further than a step of this length allows.
     #[error("the corrector would move the prediction by {displacement:.2e}, allowed are {allowed:.2e}")]
     Displaced { displacement: f64, allowed: f64 },
-    /// The direction of the path at the prediction is too different from that of the plane's normal.
+    /// The direction of the path at the prediction is too different from the plane's normal.
     #[error("the path turns by {angle:.2} rad")]
     Turned { angle: f64 },
     /// The corrections vanish, or stop shrinking, but the residual does not.

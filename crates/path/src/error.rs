@@ -2,7 +2,7 @@
 
 use crate::{corrector::CorrectorError, problem::EvaluationError};
 
-/// There is nothing to give: no branch was begun.
+/// There is nothing to give: no branch was started.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
@@ -82,7 +82,7 @@ impl std::fmt::Display for PathStop {
             Self::StepTooShort { step, residual, doubt, .. } => {
                 write!(f, "at step {step:.1e}, residual {residual:.1e}: {doubt}")
             }
-            Self::NoProgress { steps, .. } => write!(f, "the last {steps} steps led nowhere"),
+            Self::NoProgress { steps, .. } => write!(f, "the last {steps} steps made no progress"),
             Self::EvaluationFailed { step, error, .. } => write!(f, "at step {step:.1e}: {error}"),
             Self::RunsBack { .. } => write!(f, "the path continues on a stretch walked before"),
         }

@@ -26,10 +26,10 @@ pub struct RootCorner {
     /// A point beside it on the side without the root, or without any: it stands for the corner, which cannot
     /// be evaluated.
     pub beside: Vec<f64>,
-    /// Within which the parameter of that point is that of the corner.
+    /// Within which the parameter of that point equals the parameter of the corner.
     pub uncertainty: f64,
     /// Points of the path behind it, in the order in which they should be tried, each with another one
-    /// farther behind it that tells the direction.
+    /// farther behind it that gives the direction.
     pub behind: Vec<[Vec<f64>; 2]>,
     /// Whether more than one square root sets in at once: then the determinant may change its sign.
     pub is_multiple: bool,
@@ -59,7 +59,7 @@ pub trait Judge {
     /// unknowns, and the parameter last. `None` for all of it, with the weights of the problem.
     ///
     /// A problem that changes its unknowns on the way (see [`Follower::transfer`](crate::Follower::transfer))
-    /// names a part that stays, enough to tell solutions apart, with weights that stay.
+    /// names a part that stays, enough to distinguish solutions, with weights that stay.
     fn memory_weights(&self) -> Option<Vec<f64>> {
         None
     }

@@ -3,24 +3,24 @@
 //!
 //! # Mathematics
 //! A point is `z = [x; λ]`. Where `[R_x R_λ]` has rank `n` the solutions form a smooth curve with a unit
-//! tangent `t`, `[R_x R_λ] t = 0`. Lengths and angles are those of a weighted inner product `⟨a, b⟩ = Σ w_i
+//! tangent `t`, `[R_x R_λ] t = 0`. Lengths and angles follow from a weighted inner product `⟨a, b⟩ = Σ w_i
 //! a_i b_i = aᵀ W b`.
 //!
 //! **Pseudo-arclength** (Keller 1977). From `z₀` with tangent `t₀` the next point is sought in the plane
 //! `⟨t₀, z − z₀⟩ = h`, which also meets the curve at folds. Newton's method solves `[R_x R_λ; (W t₀)ᵀ] d =
 //! −[R; 0]`, and the same factorisation gives `w` with `[R_x R_λ; (W t₀)ᵀ] w = e_last`, which has the
 //! direction of the curve. The prediction is the tangent, or the cubic or quintic Hermite polynomial through
-//! the last points of the same smooth arc, whichever would have served the last step best, so that at short
-//! steps the first evaluation already is on the curve. A point is accepted where it was evaluated, with a
+//! the last points of the same smooth arc, whichever would have served the last step best. So at short steps
+//! the first evaluation already is on the curve. A point is accepted where it was evaluated, with a
 //! correction still due that is below the tolerance; the correction is its error estimate and goes into the
 //! predictor.
 //!
 //! **Orientation** (Allgower and Georg 2003). Along a regular arc `D = det [R_x R_λ; (W t)ᵀ]` has no zero, so
 //! its sign is constant if `t` points in the direction of travel; and `sign det [R_x R_λ; (W w)ᵀ] = sign det
-//! [R_x R_λ; (W t₀)ᵀ]`. Hence `t = ± w/‖w‖` with the sign that keeps that of `D`, whatever the angle to `t₀`.
-//! The angle rule of the textbooks runs back at a fold sharper than the step. The same holds across a corner:
-//! where continuous smooth pieces meet, tangents oriented by `D` cross the border between the pieces in the
-//! same sense.
+//! [R_x R_λ; (W t₀)ᵀ]`. Hence `t = ± w/‖w‖` with the sign that keeps the sign of `D`, whatever the angle to
+//! `t₀`. The angle rule of the textbooks runs back at a fold sharper than the step. The same holds across a
+//! corner: where continuous smooth pieces meet, tangents oriented by `D` cross the border between the pieces
+//! in the same sense.
 //!
 //! **Doubt.** The orientation is necessary, not sufficient: the corrector may land on another sheet. A step
 //! is in doubt if
@@ -28,7 +28,7 @@
 //!   fails,
 //! - the tangent turns by more than `max_angle`,
 //! - `D` changes its sign and there is no branch point between,
-//! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents are not those of one arc,
+//! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents do not belong to one arc,
 //! - the signature of the solution changes and `h > signature_step`,
 //! - the Hermite polynomial of `λ` turns twice,
 //! - the point lies on a simpler path, which the judge knows and which is met at branch points only,
@@ -44,9 +44,9 @@
 //! anchored anew. At a *change of signature* the steps shrink to `signature_step` on both sides, in
 //! proportion to the distance from the change, so that pairs of folds beside it are found whatever the
 //! longest step; the change itself is bracketed by bisection. A *zero of a test function* of the problem (for
-//! orbits: a multiplier on the unit circle) is located by regula falsi; where the count of its zeros rises by
-//! two within a step, or a parabola through its last values comes close to zero there, the step is in doubt,
-//! as is one over which another number of multipliers crosses the unit circle than the events say.
+//! orbits: a multiplier on the unit circle) is located by regula falsi. A step is in doubt where the count of
+//! its zeros rises by two, or a parabola through its last values comes close to zero. So is a step over which
+//! another number of multipliers crosses the unit circle than the events say.
 //!
 //! # Example
 //! The unit circle has two folds and closes.

@@ -23,13 +23,13 @@ use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings, 
 
 const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
-/// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a
-/// cell as long as that.
+/// Cells along the longest step: among dense folds, where steps are short, thousands of segments would lie in
+/// a cell as long as that.
 const CELLS_A_STEP: f64 = 4.0;
 /// Cells of one size along a segment; a longer one is in larger cells. A step that is as long as it may be
 /// has half as many.
 const MOST_CELLS: f64 = 16.0;
-/// Size of a cell over that of the next smaller ones.
+/// Size of a cell over the size of the next smaller ones.
 const LARGER: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
@@ -84,7 +84,7 @@ pub(crate) struct PathMemory {
 }
 
 impl PathMemory {
-    /// * `weights`: those of the problem's memory.
+    /// * `weights`: the memory weights of the problem.
     pub fn new(weights: &[f64], settings: &Settings) -> Self {
         let parameter_root = weights[weights.len() - 1].sqrt();
         Self {
@@ -102,7 +102,7 @@ impl PathMemory {
         }
     }
 
-    /// Adds the next accepted point of the branch, whose unknowns have these units (one for those of the
+    /// Adds the next accepted point of the branch, whose unknowns have these units (one for the units of the
     /// memory).
     pub fn remember(&mut self, point: &ContinuationPoint, units: &[f64]) {
         let tangent = in_units(&point.tangent, units);
@@ -268,7 +268,7 @@ impl PathMemory {
     }
 }
 
-/// Signature of either end, and a determinant like that of the segment: interpolation leaves it some room.
+/// Signature of either end, and a determinant as on the segment: interpolation leaves it some room.
 fn same_kind(a: &Vertex, b: &Vertex, probe: &Vertex) -> bool {
     let (low, high) = (a.log_determinant.min(b.log_determinant), a.log_determinant.max(b.log_determinant));
     let room = 0.1 + 0.25 * (high - low);

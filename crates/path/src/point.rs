@@ -8,7 +8,7 @@ pub struct PathEvents {
     /// Branches cross here: `[R_x R_λ]` loses rank, the sign of the determinant changes, the tangent does
     /// not.
     pub branch_point: bool,
-    /// The signature differs from that of the point before; the change lies within
+    /// The signature is another one than at the point before; the change lies within
     /// `Settings::signature_step`.
     pub signature_change: bool,
     /// The tangent turned here within `Settings::min_step`: a corner of the path.

@@ -101,8 +101,8 @@ impl History {
         })
     }
 
-    /// How many earlier nodes can serve for a step: such whose tangents agree with that of the base, and no
-    /// farther from it than a quarter of the extrapolation.
+    /// How many earlier nodes can serve for a step: such whose tangents agree with the tangent of the base,
+    /// and no farther from it than a quarter of the extrapolation.
     fn usable(&self, weights: &[f64], step: f64) -> usize {
         let base = self.base();
         let available = self.used.saturating_sub(1);

@@ -84,7 +84,7 @@ pub struct Settings {
     pub residual_floor: f64,
     /// Most evaluations of one correction.
     pub max_iterations: u32,
-    /// Sheets at least this far apart are told apart: the corrector may move a prediction by
+    /// Sheets at least this far apart are distinguished: the corrector may move a prediction by
     /// `min(sheet_distance, h / 10)` (but ten times the `correction_floor`), and `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤
     /// sheet_distance + h θ / 10`.
     pub sheet_distance: f64,

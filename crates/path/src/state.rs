@@ -29,7 +29,8 @@ pub struct PathState {
     /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is
     /// known of them.
     pub outside: Option<(u32, u32)>,
-    /// Units of the unknowns now, in those of the start: unknown `i` has number `i` modulo their number.
+    /// Units of the unknowns now, relative to the units at the start: unknown `i` has number `i` modulo their
+    /// number.
     pub units: Vec<f64>,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.
     pub change_ahead: f64,

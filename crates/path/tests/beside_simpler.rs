@@ -35,7 +35,7 @@ fn a_fold_lies_where_the_slope_vanishes_and_not_where_that_is_beyond_doubt() {
     }
 }
 
-/// A ripple of the slope that changes its sign and goes again before that could be told is no fold.
+/// A ripple of the slope that changes its sign and goes again before that could be resolved is no fold.
 #[test]
 fn a_slope_that_comes_back_is_no_fold() {
     // The slope is negative between 0.9e-3 and 1.1e-3 by at most 1e-5, which is beyond doubt from 1e-3 on.

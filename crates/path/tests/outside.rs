@@ -6,7 +6,7 @@ use hammerbeam_path::{
     StartDirection, TestValue, follow,
 };
 
-/// A path along which multipliers go that depend on the unknown alone, those of a pair one after the other.
+/// A path with multipliers that depend on the unknown alone, the two of a pair one after the other.
 struct Multiplied<P> {
     path: P,
     multipliers: fn(f64) -> Vec<(f64, f64)>,
@@ -152,13 +152,13 @@ fn assert_both_crossings(settings: Settings) {
 }
 
 /// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that
-/// tells of it may be either.
+/// shows it may be either.
 #[test]
 fn both_crossings_are_found_while_another_pair_turns_real() {
     assert_both_crossings(steps_of(0.3));
 }
 
-/// They lie nearer to each other than changes of the signature are told apart.
+/// They lie nearer to each other than changes of the signature are resolved.
 #[test]
 fn both_crossings_are_found_within_a_step_that_would_do_for_a_change_of_signature() {
     assert_both_crossings(Settings { signature_step: 0.1, ..steps_of(0.3) });
@@ -179,7 +179,7 @@ fn a_jump_that_the_judge_knows_is_not_searched() {
     assert!(known + 8 < searched, "{known} and {searched} evaluations");
 }
 
-/// What crosses the circle is searched whatever the judge says: the numbers outside tell.
+/// What crosses the circle is searched whatever the judge says: the numbers outside decide.
 #[test]
 fn a_crossing_that_the_judge_takes_for_a_jump_is_found() {
     for start in [-0.9, 0.9] {

@@ -127,8 +127,8 @@ proptest! {
         let middle = 0.5 * polygon.knots[1];
         let (_, l, v) = polygon.at(middle);
         let settings = Settings { max_points: 20_000, ..steps_of(step) };
-        let begin = if pieces[0].1 > 0.0 { up } else { down };
-        let branch = begin(&mut problem, &[middle, v, l], -100.0, 100.0, settings);
+        let follow_up_or_down = if pieces[0].1 > 0.0 { up } else { down };
+        let branch = follow_up_or_down(&mut problem, &[middle, v, l], -100.0, 100.0, settings);
         assert_monotone(&branch, |z| z[0]);
         let last = polygon.knots[pieces.len() - 1];
         let reached = branch.points.last().unwrap().point[0] >= last;

@@ -60,14 +60,14 @@ fn walk(follower: &mut Follower, problem: &mut impl PathProblem, most: usize) ->
 fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
     let problem = mixed(7, 0.3, rough);
     let (start, limits) = (mixed_point(7, 0.3, 0.0, 0.0), range(-1.0, 1.0));
-    let begin = || {
+    let start_follower = || {
         Follower::start(&mut problem.clone(), &start, StartDirection::Increasing, limits, Settings::default())
     };
-    let first = begin().unwrap().current().clone();
-    let whole = walk(&mut begin().unwrap(), &mut problem.clone(), usize::MAX);
+    let first = start_follower().unwrap().current().clone();
+    let whole = walk(&mut start_follower().unwrap(), &mut problem.clone(), usize::MAX);
     assert!(whole.len() > 60);
     for cut in (1..whole.len()).step_by(7) {
-        let mut early = begin().unwrap();
+        let mut early = start_follower().unwrap();
         walk(&mut early, &mut problem.clone(), cut);
         let checkpoint: Checkpoint = early.checkpoint();
         let mut late = Follower::resume(&mut problem.clone(), checkpoint, limits, Settings::default());
@@ -150,15 +150,18 @@ fn a_path_that_ends_stops_with_its_place() {
 #[test]
 fn unusable_input_is_refused() {
     let mut problem = plane(wave);
-    let mut begin = |start: &[f64], settings: Settings| {
+    let mut follow_from = |start: &[f64], settings: Settings| {
         follow(&mut problem, start, StartDirection::Increasing, range(0.0, 1.0), settings).map(|_| ())
     };
-    assert_eq!(begin(&[0.0], Settings::default()), Err(PathError::WrongLength { found: 1, expected: 2 }));
-    let outside = begin(&[0.0, 3.0], Settings::default());
+    assert_eq!(
+        follow_from(&[0.0], Settings::default()),
+        Err(PathError::WrongLength { found: 1, expected: 2 })
+    );
+    let outside = follow_from(&[0.0, 3.0], Settings::default());
     assert!(matches!(outside, Err(PathError::StartOutsideRange { .. })));
     let settings = Settings { max_angle: 2.0, ..Settings::default() };
     assert!(matches!(
-        begin(&[0.0, 0.5], settings),
+        follow_from(&[0.0, 0.5], settings),
         Err(PathError::UnusableSetting { name: "max_angle", .. })
     ));
 }
@@ -182,11 +185,11 @@ fn a_start_at_a_fold_goes_along_a_direction() {
 /// jumps, the path does not.
 #[test]
 fn orientation_is_anchored_anew_where_the_equations_change() {
-    let recut = |x: f64, l: f64| {
+    let sign_changes = |x: f64, l: f64| {
         let (f, dx, dl, _) = wave(x, l);
         if l > 0.3 { (-2.0 * f, -2.0 * dx, -2.0 * dl, 1) } else { (f, dx, dl, 0) }
     };
-    let branch = up(&mut plane(recut), &[0.0, 0.0], 0.0, 1.0, Settings::default());
+    let branch = up(&mut plane(sign_changes), &[0.0, 0.0], 0.0, 1.0, Settings::default());
     assert_reached_end(&branch, 1.0);
     assert_eq!(branch.branch_points().count(), 0);
     assert_eq!(folds(&branch).len(), 0);

@@ -233,10 +233,10 @@ fn hidden_pairs_are_found_through_noise() {
     }
 }
 
-/// A path that turns by a right angle every few hundredths of a millionth is followed, but it leads nowhere:
-/// that is said instead of going on for ever.
+/// A path that turns by a right angle every few hundredths of a millionth is followed, but without progress:
+/// that is reported instead of going on for ever.
 #[test]
-fn a_path_that_leads_nowhere_is_left() {
+fn a_path_without_progress_is_left() {
     let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);
     let settings = Settings { short_step: 1e-7, ..steps_of(0.01) };
     let branch = up(&mut mixed(3, 0.3, wriggle), &mixed_point(3, 0.3, 0.0, 0.0), -1.0, 1.0, settings);

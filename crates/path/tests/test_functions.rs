@@ -70,7 +70,7 @@ fn a_function_that_is_steep_across_the_path_has_its_zero_on_it() {
 }
 
 #[test]
-fn a_zero_beside_a_fold_is_told_apart_from_it_on_either_side() {
+fn a_zero_beside_a_fold_is_distinguished_from_it_on_either_side() {
     // The folds lie at (0, ±1), the zeros within one step before and behind them.
     let branch = round(vec![|z| signed(z[0] - 0.01), |z| signed(z[0] + 0.01)], 0.1);
     for (index, x) in [(0, 0.01), (1, -0.01)] {
@@ -120,7 +120,7 @@ fn a_jump_through_zero_is_no_zero() {
 
 #[test]
 fn two_zeros_of_one_function_within_a_step_are_both_found() {
-    // Zero at x = 0.300 and at x = 0.302: the value has the same sign on both sides, the count tells.
+    // Zero at x = 0.300 and at x = 0.302: the value has the same sign on both sides, the count differs.
     let pair: fn(&[f64]) -> TestValue = |z| {
         let count = u32::from(z[0] < 0.302) + u32::from(z[0] < 0.300);
         TestValue::sign_change((z[0] - 0.300) * (z[0] - 0.302), count)
@@ -135,7 +135,7 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
 }
 
 /// Negative between x = 0.300 and x = 0.302 only, so that count and sign are the same on both sides of a step
-/// over both zeros: the values before it tell that the function comes down.
+/// over both zeros: the values before it show that the function comes down.
 #[test]
 fn two_zeros_within_a_step_that_leave_no_trace_in_the_count_are_found() {
     for step in [0.3, 0.1, 0.03] {
@@ -163,8 +163,7 @@ fn a_function_that_only_comes_near_zero_has_none() {
 #[test]
 fn a_zero_is_found_once_though_another_function_jumps_within_the_same_step() {
     let jump: fn(&[f64]) -> TestValue = |z| signed(if z[0] > 0.4 { 1.0 } else { -2.0 });
-    // Beside its zero the function has one sign: that of before it on one way, that of behind it on the
-    // other.
+    // Beside its zero the function has one sign: as before it on one way, as behind it on the other.
     let above: fn(&[f64]) -> TestValue =
         |z| signed(if (z[0] - 0.3).abs() < 1e-9 { 1e-15 } else { z[0] - 0.3 });
     let below: fn(&[f64]) -> TestValue =
@@ -218,7 +217,7 @@ fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function
 /// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and
 /// may be the smaller one by its value.
 #[test]
-fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_begins_or_ends() {
+fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_appears_or_vanishes() {
     const ALWAYS: f64 = 0.2;
     changes_twice(&[
         |z| TestValue::sign_change(beside(z).min(ALWAYS), 0),

@@ -59,7 +59,7 @@ fn transfer(follower: &mut Follower, copies: usize) -> Result<Circle, PathError>
     Ok(problem)
 }
 
-fn begun(problem: &mut Circle, start: &[f64]) -> Follower {
+fn started(problem: &mut Circle, start: &[f64]) -> Follower {
     let range = ParameterRange::new(-2.0, 2.0).unwrap();
     Follower::start(problem, start, StartDirection::Increasing, range, Settings::default()).unwrap()
 }
@@ -67,7 +67,7 @@ fn begun(problem: &mut Circle, start: &[f64]) -> Follower {
 #[test]
 fn a_circle_closes_at_its_start_whatever_happens_to_its_unknowns() {
     let mut problem = Circle::new(1);
-    let mut follower = begun(&mut problem, &[1.0, 0.0]);
+    let mut follower = started(&mut problem, &[1.0, 0.0]);
     let mut folds = 0;
     for step in 1_u64.. {
         match follower.step(&mut problem) {
@@ -93,7 +93,7 @@ fn a_circle_closes_at_its_start_whatever_happens_to_its_unknowns() {
 #[test]
 fn other_equations_on_the_way_are_refused_and_change_nothing() {
     let mut problem = Circle::new(1);
-    let mut follower = begun(&mut problem, &[1.0, 0.0]);
+    let mut follower = started(&mut problem, &[1.0, 0.0]);
     follower.step(&mut problem);
     let before = follower.checkpoint();
     let node = Node {
@@ -105,13 +105,13 @@ fn other_equations_on_the_way_are_refused_and_change_nothing() {
     assert_eq!(follower.checkpoint(), before);
 }
 
-/// The unknowns are those of before, but nothing of them is said to stay: without its start the circle is
+/// The unknowns are the same as before, but nothing of them is said to stay: without its start the circle is
 /// walked on beyond it; with the start brought back on the way it closes there.
 #[test]
 fn a_start_that_is_out_of_reach_can_be_brought_back() {
     for brought_back in [false, true] {
         let mut problem = Circle::new(1);
-        let mut follower = begun(&mut problem, &[1.0, 0.0]);
+        let mut follower = started(&mut problem, &[1.0, 0.0]);
         let first = follower.state().start.clone();
         let node =
             |point: &ContinuationPoint| Node { point: point.point.clone(), tangent: point.tangent.clone() };

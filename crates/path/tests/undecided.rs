@@ -121,7 +121,7 @@ fn what_is_at_zero_over_a_stretch_makes_no_event_where_it_comes_or_leaves() {
 }
 
 /// Two parts come to zero in one step, and one leaves it again while the other stays. The sign of the other
-/// says nothing then, and that of both was taken over.
+/// says nothing then, and the sign of both was taken over.
 #[test]
 fn a_part_that_leaves_zero_beside_one_that_stays_makes_no_event() {
     let stays: Part = |x, l| if x > 0.3 { 1.0 } else { 1e-14 * (1e5 * (x + 2.0 * l)).sin() };
@@ -144,7 +144,7 @@ fn a_zero_that_is_crossed_is_an_event_however_flat_it_is() {
 }
 
 /// Of a function that is known badly a point may fall beside its zero, where its sign is not known. Where the
-/// zero is taken for one at that point, it is told how far it may be off.
+/// zero is taken for one at that point, it is reported how far it may be off.
 #[test]
 fn a_zero_is_found_though_a_point_beside_it_is_undecided() {
     let coarse: Part = |x, _| 1e-9 * (x - 0.3);
@@ -162,7 +162,7 @@ fn a_zero_is_found_though_a_point_beside_it_is_undecided() {
 }
 
 /// As a pair of multipliers that slides along the unit circle to -1, where it becomes real: of one function
-/// that is a zero, of the other one, which says nothing before and vanishes nowhere behind, it is none. Its
+/// that is a zero, of the other one, which says nothing before and does not vanish behind, it is none. Its
 /// sign by rounding is another one right at that zero.
 #[test]
 fn what_is_at_zero_up_to_the_zero_of_another_function_makes_no_event_there() {

@@ -267,7 +267,7 @@ impl<'a> TouchEquations<'a> {
         Ok(linear)
     }
 
-    /// The rows of one touch: the passage to the next one, and the first condition.
+    /// The rows of one touch: the flow to the next one, and the first condition.
     fn fill_touch(
         &mut self,
         linear: &mut Linear,
@@ -283,21 +283,21 @@ impl<'a> TouchEquations<'a> {
             unknowns.node(k, size).to_vec()
         };
         let stretch = self.stretch(unknowns, k);
-        let passage = self.passage(stretch, &start_state)?;
+        let flow = self.flow_between_touches(stretch, &start_state)?;
         let rate_at =
             |equations: &Self, phase: f64, state: &[f64]| equations.scaled_rate(frequency_hz, phase, state);
         let start_rate = rate_at(self, stretch.start, &start_state);
-        let end_rate = rate_at(self, stretch.end, &passage.end);
+        let end_rate = rate_at(self, stretch.end, &flow.end);
         let (by_state, by_phase) = self.jump_matrix(unknowns, k, impacts);
-        let matrix = times_matrix(&passage.matrix, &by_state, size);
+        let matrix = times_matrix(&flow.matrix, &by_state, size);
         // Of the start: what the jump does later, less what the flow is shorter by.
         let late: Vec<f64> =
             by_phase.iter().zip(&start_rate).map(|(jump, rate)| jump - rate / frequency_hz).collect();
-        let late = times(&passage.matrix, &late);
+        let late = times(&flow.matrix, &late);
         let jump_by_last: Vec<f64> = (0..size)
             .map(|i| if impacts { (beyond.jump[i] - short.jump[i]) / (2.0 * step) } else { 0.0 })
             .collect();
-        let carried = times(&passage.matrix, &jump_by_last);
+        let carried = times(&flow.matrix, &jump_by_last);
         for i in 0..size {
             let row = k * block + i;
             let entries = &mut linear.matrix[row * width..(row + 1) * width];
@@ -305,8 +305,8 @@ impl<'a> TouchEquations<'a> {
             entries[k * block + size] += late[i];
             entries[next * block + i] -= 1.0;
             entries[next * block + size] += end_rate[i] / frequency_hz;
-            entries[width - 1] = passage.by_last[i] + carried[i];
-            linear.residual[row] = passage.end[i] - unknowns.node(next, size)[i];
+            entries[width - 1] = flow.by_last[i] + carried[i];
+            linear.residual[row] = flow.end[i] - unknowns.node(next, size)[i];
         }
         // With the impact r = level, without r' = 0; and of the first touch the other one, too.
         let which = usize::from(!impacts);

@@ -8,7 +8,7 @@ use crate::OrbitError;
 use crate::by_rows::times;
 
 /// The flow from one touch to the next in scaled states, the matrix by rows.
-pub(super) struct Passage {
+pub(super) struct FlowBetweenTouches {
     pub end: Vec<f64>,
     pub matrix: Vec<f64>,
     pub by_last: Vec<f64>,
@@ -40,7 +40,11 @@ impl TouchEquations<'_> {
         if opened { &mut self.opened } else { self.problem.integrator() }
     }
 
-    pub(super) fn passage(&mut self, stretch: Stretch, start: &[f64]) -> Result<Passage, OrbitError> {
+    pub(super) fn flow_between_touches(
+        &mut self,
+        stretch: Stretch,
+        start: &[f64],
+    ) -> Result<FlowBetweenTouches, OrbitError> {
         let size = self.size();
         let scales = self.problem.scale().values().to_vec();
         let mut state = self.unscaled(start);
@@ -62,7 +66,7 @@ impl TouchEquations<'_> {
             state = flow.state;
         }
         let end = state.iter().zip(&scales).map(|(z, s)| z / s).collect();
-        Ok(Passage { end, matrix, by_last })
+        Ok(FlowBetweenTouches { end, matrix, by_last })
     }
 
     /// The point of the path: the orbit at the phases of its nodes.

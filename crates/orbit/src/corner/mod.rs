@@ -2,9 +2,9 @@
 //! Equations (G8) and (G9) of the book, `docs/theory`.
 //!
 //! An impact of the speed `v` depends on the state like the root of the depth to which the motion would have
-//! gone, so near `v = 0` a point that is good to `e` tells its impact to
-//! `e/v` only, and Newton's method on states alone loses its way at speeds of some 1e-6. With the orbit cut
-//! at its touch, and the phase `x` of that for an unknown, all is smooth:
+//! gone, so near `v = 0` a point that is good to `e` gives its impact to `e/v` only, and Newton's method on
+//! states alone loses its way at speeds of some 1e-6. With the orbit cut at its touch, and the phase `x` of
+//! that for an unknown, all is smooth:
 //!
 //! `Z(J z, x) = z`, `r = level`, `r' = v`, with the jump `J` of the impact,
 //!
@@ -13,15 +13,14 @@
 //! r = c`. So both sides of the corner are solutions of regular equations for a given v or c
 //! (`equations.rs`), and the corner is where both are zero.
 //!
-//! Which touch it is, the motion tells: an impact that is slow, or a turn that is near (`touch.rs`).
+//! The motion shows which touch it is: an impact that is slow, or a turn that is near (`touch.rs`).
 //!
 //! **Several touches at once.** In a symmetric orbit both stops are grazed at once, and orbits with either
 //! impact, with both and with none meet in the corner. The path joins each set of impacts with its
-//! complement: the orbits
-//! with none go on as those with both, which are symmetric, too; and those with the one as their mirror
-//! images with the other. So no branch comes to the orbits without impacts twice. An orbit of N periods
-//! that touches in one of them only comes to orbits of a shorter period: there its complement is itself,
-//! begun a period later, and the branch ends.
+//! complement: the orbits with none go on as the orbits with both, which are symmetric, too; and the orbits
+//! with the one as their mirror images with the other. So no branch comes to the orbits without impacts
+//! twice. An orbit of N periods that touches in one of them only comes to orbits of a shorter period: there
+//! its complement is itself, started a period later, and the branch ends.
 //!
 //! # Source
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297: near grazing the impact speed is the smooth coordinate.
@@ -39,10 +38,10 @@ use touch::{Side, Touch};
 /// Clearance of the nearest point without the impact, relative to the orbit: what a point is known to does
 /// not make an impact of it.
 const CLEAR: f64 = 1e-9;
-/// That of the point that tells the direction; the nearer ones where another touch is near.
+/// The same for the point that gives the direction; the nearer ones where another touch is near.
 const CLEAR_FARTHER: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// Speed of the first point with the impact, relative to the orbit: about the least that a point of the path
-/// tells,
+/// resolves,
 const SLOW: f64 = 1e-5;
 /// but no more than this part of the next slower touch, down to that.
 const PART: f64 = 0.05;
@@ -59,7 +58,7 @@ const AT_ONCE_FASTER: f64 = 30.0;
 const AT_ONCE_FARTHER: f64 = 300.0;
 /// Speeds of points with the impact that are tried, in the first one.
 const FASTER: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
-/// How much faster the impact is in the point that tells the direction.
+/// How much faster the impact is in the point that gives the direction.
 const AHEAD: f64 = 1.1;
 /// So many touches are tried, those nearest to grazing first.
 const MOST_TOUCHES: usize = 2;
@@ -83,7 +82,7 @@ pub(crate) fn grazing_near(
 ) -> Option<RootCorner> {
     problem.move_to(point).ok()?;
     let touches = touch::near_grazing(problem, point, reach)?;
-    let mut search = Search {
+    let mut search = CornerSearch {
         last: point[point.len() - 1],
         farthest: MAGNIFIED * reach + LOOKED,
         slow: SLOW,
@@ -110,8 +109,8 @@ pub(crate) fn grazing_near(
 }
 
 /// A search for a corner.
-struct Search {
-    /// The last unknown of the orbit that it begins at.
+struct CornerSearch {
+    /// The last unknown of the orbit that it starts at.
     last: f64,
     /// How far from that the touches are moved at most.
     farthest: f64,
@@ -121,10 +120,10 @@ struct Search {
     evaluations: u64,
 }
 
-impl Search {
+impl CornerSearch {
     /// The corner where some touches graze.
     ///
-    /// * `slow`: all slow impacts of the orbit that the search begins at.
+    /// * `slow`: all slow impacts of the orbit that the search starts at.
     fn corner_of(
         &mut self,
         problem: &mut ShootingProblem,
@@ -271,7 +270,8 @@ mod tests {
         assert_eq!(phases(&impacts_behind(&below, &all, 1.0)), [0.25]);
     }
 
-    /// An impact as slow as one that grazes, a period before or after it or at another time, tells nothing.
+    /// An impact as slow as one that grazes, a period before or after it or at another time, counts for
+    /// nothing.
     #[test]
     fn a_slow_impact_that_does_not_graze_stays() {
         let all = [touch(0, Side::Turn, 1.25)];
@@ -287,9 +287,9 @@ mod tests {
         assert!(impacts_behind(&[touch(0, Side::Impact, 1.25)], &all, 2.0).is_empty());
     }
 
-    /// A touch at the cut of the orbit may be seen at its end or at its beginning.
+    /// A touch at the cut of the orbit may be seen at its end or at its start.
     #[test]
-    fn a_touch_at_the_end_of_the_period_is_that_at_its_beginning() {
+    fn a_touch_at_the_end_of_the_period_equals_the_one_at_its_start() {
         let all = [touch(0, Side::Turn, 1e-5)];
         assert!(impacts_behind(&[touch(0, Side::Impact, 1.0 - 1e-5)], &all, 1.0).is_empty());
     }

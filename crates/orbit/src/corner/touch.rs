@@ -7,7 +7,7 @@ use crate::shooting::ShootingProblem;
 /// Looks for turns per excitation period.
 const LOOKS: usize = 2000;
 /// Largest speed of an impact that is gone within a reach, over the reach, both relative to the orbit; and
-/// the square of that of a turn, which has the speed that its clearance for a depth would give it.
+/// the square of the same ratio of a turn, which has the speed that its clearance for a depth would give it.
 const FASTEST: f64 = 3.0;
 const FASTEST_SQUARED: f64 = 5.0;
 
@@ -39,7 +39,8 @@ pub(super) struct Touch {
 /// Touches that graze in one corner do so because they are alike: another stop in a symmetric orbit, or the
 /// same one a period later. Beside it their speeds are equal, but for this factor.
 const ALIKE: f64 = 1.5;
-/// Speeds of turns below this are rounding, relative to the orbit: the root of that of a displacement.
+/// Speeds of turns below this are rounding, relative to the orbit: the root of the rounding of a
+/// displacement.
 const ROUNDED: f64 = 1e-7;
 /// Phases that differ by less are the same [cycles].
 const SAME_PHASE: f64 = 1e-3;
@@ -78,15 +79,15 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
         let phases: Vec<f64> = (0..=looks).map(phase).collect();
         let trace = problem.integrator().trace(&stretch, &node, &phases).ok()?;
         for contact in &trace.contacts {
-            let (Some(begin), Some(jump)) = (&contact.begin, &contact.jump) else { continue };
-            let phase = stretch.start + begin.time * frequency_hz;
+            let (Some(touchdown), Some(jump)) = (&contact.begin, &contact.jump) else { continue };
+            let phase = stretch.start + touchdown.time * frequency_hz;
             let [_, behind, acceleration] =
                 problem.system().relative_motion(contact.element, frequency_hz, phase, &jump.state);
             let law = &problem.system().elements()[contact.element].law;
             let restitution = law.rigid().map_or(0.0, |stop| stop.restitution());
             // An impact without restitution leaves no speed; what is pressed on sticks.
             let leaves = if restitution > 0.0 {
-                -behind > REBOUNDS * restitution * begin.velocity
+                -behind > REBOUNDS * restitution * touchdown.velocity
             } else {
                 acceleration < 0.0
             };
@@ -95,8 +96,8 @@ pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: 
                     element: contact.element,
                     side: Side::Impact,
                     phase,
-                    state: scaled(&begin.state, &scales),
-                    speed: begin.velocity.abs() / largest_speed(problem, contact.element),
+                    state: scaled(&touchdown.state, &scales),
+                    speed: touchdown.velocity.abs() / largest_speed(problem, contact.element),
                 });
             }
         }
@@ -171,7 +172,7 @@ fn turns(
     for (sample, element, level, at) in turns {
         let way = Stretch { frequency_hz, start: phases[sample], end: at };
         let Ok(state) = problem.integrator().advance(&way, &samples[sample]) else { continue };
-        // A sample near the turn tells its clearance to the cube of the time in between: the turn itself is
+        // A sample near the turn gives its clearance to the cube of the time in between: the turn itself is
         // asked.
         let [r, after, acceleration] = problem.system().relative_motion(element, frequency_hz, at, &state);
         let depth = after * after / (-2.0 * acceleration);

@@ -11,10 +11,10 @@ use crate::{OrbitError, OrbitMaxima, solve};
 /// Times this near the touch are the touch [cycles].
 const TOUCH: f64 = 1e-3;
 impl Shooting {
-    /// The parts of a stretch of an orbit from `begin` on, and whether touched elements are left out in them.
-    pub fn parts(&self, stretch: Stretch, begin: f64) -> Vec<(Stretch, bool)> {
+    /// The parts of a stretch of an orbit from `start` on, and whether touched elements are left out in them.
+    pub fn parts(&self, stretch: Stretch, start: f64) -> Vec<(Stretch, bool)> {
         let Some(passing) = &self.passing else { return vec![(stretch, false)] };
-        let windows = passing.windows(begin, f64::from(self.period_multiple));
+        let windows = passing.windows(start, f64::from(self.period_multiple));
         let mut cuts: Vec<f64> = windows.iter().flatten().copied().collect();
         cuts.retain(|cut| stretch.start < *cut && *cut < stretch.end);
         cuts.extend([stretch.start, stretch.end]);
@@ -27,10 +27,10 @@ impl Shooting {
         cuts.windows(2).map(part).collect()
     }
 
-    /// The state at the end of a stretch of the orbit that begins at the phase `begin`, in its own units.
-    pub fn advance(&mut self, stretch: Stretch, begin: f64, state: &[f64]) -> Result<Vec<f64>, MotionError> {
+    /// The state at the end of a stretch of the orbit that starts at the phase `start`, in its own units.
+    pub fn advance(&mut self, stretch: Stretch, start: f64, state: &[f64]) -> Result<Vec<f64>, MotionError> {
         let mut state = state.to_vec();
-        for (part, passes) in self.parts(stretch, begin) {
+        for (part, passes) in self.parts(stretch, start) {
             state = self.integrator_of(passes).advance(&part, &state)?;
         }
         Ok(state)
@@ -44,21 +44,21 @@ impl Shooting {
         }
     }
 
-    /// Leaves touched elements out as long as their other contacts allow, over the orbit that begins with
+    /// Leaves touched elements out as long as their other contacts allow, over the orbit that starts with
     /// `state` at its touch.
-    pub fn fit_passing(&mut self, frequency_hz: f64, begin: f64, state: &[f64]) -> Result<(), MotionError> {
+    pub fn fit_passing(&mut self, frequency_hz: f64, start: f64, state: &[f64]) -> Result<(), MotionError> {
         let Some(passing) = &self.passing else { return Ok(()) };
         let (touches, opposite) = (passing.touches.clone(), passing.behind);
         let cycles = f64::from(self.period_multiple);
-        let first = Stretch { frequency_hz, start: begin, end: begin + TOUCH };
+        let first = Stretch { frequency_hz, start, end: start + TOUCH };
         let state = self.integrator_of(true).advance(&first, state)?;
-        let rest = Stretch { frequency_hz, start: first.end, end: begin + cycles - TOUCH };
+        let rest = Stretch { frequency_hz, start: first.end, end: start + cycles - TOUCH };
         let trace = self.integrator.trace(&rest, &state, &[])?;
         let length = (rest.end - rest.start) / frequency_hz;
         let of_elements =
             trace.contacts.iter().filter(|contact| touches.iter().any(|t| t.element == contact.element));
         let distances = of_elements.filter_map(|contact| {
-            // Times behind the begin of the orbit [cycles].
+            // Times behind the start of the orbit [cycles].
             let from = TOUCH + contact.since() * frequency_hz;
             let to = TOUCH + contact.clear.unwrap_or(length) * frequency_hz;
             let to_ends = from.min(cycles - to);
@@ -74,16 +74,16 @@ impl Shooting {
         Ok(())
     }
 
-    /// Maxima of the orbit whose segments begin at these phases with these states.
+    /// Maxima of the orbit whose segments start at these phases with these states.
     pub fn observe(&mut self, stretches: &[Stretch], nodes: &[Vec<f64>]) -> Result<OrbitMaxima, OrbitError> {
         if self.passing.is_none() {
             return solve::observe(&mut self.integrator, stretches, nodes);
         }
-        let begin = stretches[0].start;
+        let start = stretches[0].start;
         let mut all: Option<Maxima> = None;
         for (stretch, node) in stretches.iter().zip(nodes) {
             let mut state = node.clone();
-            for (part, passes) in self.parts(*stretch, begin) {
+            for (part, passes) in self.parts(*stretch, start) {
                 let integrator = self.integrator_of(passes);
                 let maxima = integrator.observe(&[(part, &state)])?;
                 state = integrator.advance(&part, &state)?;

@@ -10,7 +10,7 @@ use hammerbeam_path::DenseLu;
 use super::{
     linear::Linear,
     null::null_space,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::by_rows::{dot, shifted, times, transposed};
 
@@ -75,7 +75,11 @@ impl Bordered {
     }
 
     /// `g` and its gradient, and the tests `w^T v` and `w^T D^2 Z (v, v)`, for vectors of length one.
-    pub fn evaluate(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<Linear>, MotionError> {
+    pub fn evaluate(
+        &self,
+        shooting: &mut Shooting,
+        place: &CurveOrbit,
+    ) -> Result<Option<Linear>, MotionError> {
         let Some(Vectors { value, left, right }) = self.vectors(shooting) else { return Ok(None) };
         let mut gradient = shooting.gradient(place, &left, &right)?;
         gradient.iter_mut().for_each(|entry| *entry = -*entry);

@@ -1,4 +1,4 @@
-//! An orbit cut where fundamental matrices do not jump, before a curve is followed from it (`recut.rs`).
+//! An orbit cut where fundamental matrices do not jump, before a curve is followed from it (`start_phase.rs`).
 
 use hammerbeam_motion::{Stretch, exact::ExactIntegrator};
 

@@ -7,7 +7,7 @@ use super::{
     linear::Linear,
     lyapunov, normal_form,
     pair::Pair,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
     touched::Touch,
 };
 
@@ -22,7 +22,11 @@ pub(super) enum Condition {
 impl Condition {
     /// The condition at the place where the shooting equations were evaluated last; `None` where it is not
     /// defined.
-    pub fn evaluate(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<Linear>, MotionError> {
+    pub fn evaluate(
+        &self,
+        shooting: &mut Shooting,
+        place: &CurveOrbit,
+    ) -> Result<Option<Linear>, MotionError> {
         match self {
             Self::Multiplier(bordered) => bordered.evaluate(shooting, place),
             Self::Pair(pair) => pair.evaluate(shooting, place),
@@ -43,8 +47,12 @@ impl Condition {
     }
 
     /// The coefficient of the normal form at the place where the shooting equations were evaluated last, in a
-    /// form that is bounded; `None` where it cannot be told, or is none that changes its sign.
-    pub fn criticality(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<f64>, MotionError> {
+    /// form that is bounded; `None` where it cannot be computed, or is none that changes its sign.
+    pub fn criticality(
+        &self,
+        shooting: &mut Shooting,
+        place: &CurveOrbit,
+    ) -> Result<Option<f64>, MotionError> {
         let coefficient = match self {
             Self::Multiplier(bordered) if bordered.multiplier < 0.0 => {
                 let Some(vectors) = bordered.vectors(shooting) else { return Ok(None) };
@@ -68,7 +76,7 @@ impl Condition {
         }
     }
 
-    /// Adapts the condition to orbits that are cut elsewhere, at the last evaluated place (`recut.rs`).
+    /// Adapts the condition to orbits that are cut elsewhere, at the last evaluated place (`start_phase.rs`).
     pub fn carry(&mut self, shooting: &Shooting, matrix: &[f64]) {
         match self {
             Self::Multiplier(bordered) => bordered.carry(shooting, matrix),

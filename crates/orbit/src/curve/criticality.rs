@@ -1,9 +1,9 @@
-//! The test function that tells sub- from supercritical bifurcations, over places where its value is not
-//! known.
+//! The test function that distinguishes sub- from supercritical bifurcations, over places where its value is
+//! not known.
 //!
-//! Beside a grazing no coefficient can be told. There the test has no value and keeps its sign, and where it
-//! has one again, whatever that is, it begins anew with that sign: no change behind such a place is taken for
-//! a zero.
+//! Beside a grazing no coefficient can be computed. There the test has no value and keeps its sign, and where
+//! it has one again, whatever that is, it starts anew with that sign: no change behind such a place is taken
+//! for a zero.
 
 use hammerbeam_path::TestValue;
 
@@ -28,7 +28,7 @@ impl Criticality {
         self.asked.as_ref().filter(|(at, _)| at == point).map(|(_, coefficient)| *coefficient)
     }
 
-    pub fn remember(&mut self, point: &[f64], coefficient: Option<f64>) {
+    pub fn keep(&mut self, point: &[f64], coefficient: Option<f64>) {
         self.asked = Some((point.to_vec(), coefficient));
     }
 

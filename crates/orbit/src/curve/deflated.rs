@@ -14,7 +14,7 @@ use crate::{
     eigenvalues::{NoEigenvalues, eigenvalues},
 };
 
-/// Eigenvalues `[re, im]` of a matrix, given by rows, but those of an invariant subspace.
+/// Eigenvalues `[re, im]` of a matrix, given by rows, but the ones of an invariant subspace.
 ///
 /// * `invariant`: linearly independent columns that span it.
 pub(super) fn other_eigenvalues(

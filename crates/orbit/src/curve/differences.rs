@@ -3,11 +3,11 @@
 //! Beside a grazing at the distance D matrices go like `sqrt(D)`. The *bend* of a difference, its second over
 //! its first, is `h/(4 D)` then for a step h, and the quotient is off by twice its square; across the grazing
 //! the bend stays about one. So steps are shortened until the bend is [`BEND`], or rounding, which goes like
-//! one over the step, is more than is gained. The bend that is left tells the distance.
+//! one over the step, is more than is gained. The bend that is left gives the distance.
 
 use hammerbeam_motion::exact::MotionError;
 
-use super::shooting::{Place, Segment, Shooting};
+use super::shooting::{CurveOrbit, Segment, Shooting};
 
 /// Step of central differences along a vector, relative to the orbit.
 const DIFFERENCE: f64 = 1e-4;
@@ -15,7 +15,7 @@ const DIFFERENCE: f64 = 1e-4;
 const LEAST_DIFFERENCE: f64 = 1e-11;
 /// Part of a difference that its second difference may be.
 const BEND: f64 = 0.001;
-/// A bend that is left at the shortest step and says that the orbit grazes, as far as can be told.
+/// A bend that is left at the shortest step and says that the orbit grazes, as far as can be resolved.
 const BREAK: f64 = 0.1;
 /// Rounding of a matrix, relative to its largest entry.
 const ROUNDING: f64 = 1e-11;
@@ -45,7 +45,7 @@ impl Shooting {
     /// by central differences.
     pub fn differences(
         &mut self,
-        place: &Place,
+        place: &CurveOrbit,
         directions: &[Vec<f64>],
     ) -> Result<Vec<Segment>, MotionError> {
         let by_segment = directions.iter().enumerate();
@@ -54,7 +54,12 @@ impl Shooting {
 
     /// That of one segment, with a step that is shortened as long as the difference is bent and rounding
     /// allows it.
-    fn difference(&mut self, k: usize, place: &Place, direction: &[f64]) -> Result<Segment, MotionError> {
+    fn difference(
+        &mut self,
+        k: usize,
+        place: &CurveOrbit,
+        direction: &[f64],
+    ) -> Result<Segment, MotionError> {
         let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
         let mut step = DIFFERENCE;
         let mut found = self.quotients(k, place, direction, step / length)?;
@@ -85,7 +90,7 @@ impl Shooting {
     fn with_number(
         &mut self,
         k: usize,
-        place: &Place,
+        place: &CurveOrbit,
         direction: &[f64],
         found: Segment,
     ) -> Result<Segment, MotionError> {
@@ -105,7 +110,7 @@ impl Shooting {
     fn quotients(
         &mut self,
         segment: usize,
-        place: &Place,
+        place: &CurveOrbit,
         direction: &[f64],
         step: f64,
     ) -> Result<Quotients, MotionError> {

@@ -37,8 +37,7 @@ impl CurveWalk {
             .ok_or(CurveEnd::FrequencyRangeEnd)
     }
 
-    /// The point between two others whose frequency is that of the end of the range, with its last
-    /// correction.
+    /// The point between two others at the frequency of the range's end, with its last correction.
     fn point_at_frequency_end(&mut self, from: &[f64], beyond: &[f64]) -> Option<(Vec<f64>, f64)> {
         let index = self.problem.frequency_index();
         let (low, high) = self.settings.range_hz;

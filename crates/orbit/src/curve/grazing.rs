@@ -2,8 +2,8 @@
 //!
 //! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit; `s u`
 //! is the sum over the supports. Their derivatives: by the state `phi`; by the phase `r'/f` and `r''/f` as
-//! far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale
-//! `a` those of `u` over `a`; by the gap `-1` in the first.
+//! far as `u` has them; by the frequency the derivatives of `s u` and `s u'` at a fixed phase; by the
+//! excitation scale `a` the derivatives of `u` over `a`; by the gap `-1` in the first.
 //!
 //! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its
 //! penetration is. A law whose force depends on the velocity opens where its force vanishes, with
@@ -14,7 +14,7 @@ use hammerbeam_motion::{Parameter, Stretch, exact::MotionError};
 
 use super::{
     linear::Linear,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
     touched::Touch,
 };
 use crate::OrbitError;
@@ -48,7 +48,7 @@ impl Touch {
             .map(|(element, contact)| Self { element, contact, from_inside: false })
     }
 
-    /// Whether it is that of a round hole: its clearance is no row of the state, and no curve of its grazings
+    /// Whether it belongs to a round hole: its clearance is no row of the state, and no curve of its grazings
     /// is followed.
     fn is_of_hole(self, shooting: &Shooting) -> bool {
         shooting.integrator.system().elements()[self.element].law.round_hole().is_some()
@@ -64,7 +64,7 @@ impl Touch {
     ///
     /// # Errors
     /// [`MotionError::Parameter`]: the structure cannot be built with a neighbouring value of the parameter.
-    pub fn evaluate(self, shooting: &mut Shooting, place: &Place) -> Result<Linear, MotionError> {
+    pub fn evaluate(self, shooting: &mut Shooting, place: &CurveOrbit) -> Result<Linear, MotionError> {
         let scales = shooting.scale.values().to_vec();
         let n = scales.len() / 2;
         let state: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
@@ -157,24 +157,24 @@ impl Touch {
         Ok(None)
     }
 
-    /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one
-    /// of their two elements alone.
+    /// Whether the opposite contact stays that when the parameter changes: it does not where the parameter
+    /// belongs to one of their two elements alone.
     fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
         parameter.constant_of(self.element) == parameter.constant_of(other.element)
     }
 
-    /// Where the contact of the orbit with these nodes, the first at the phase `begin`, turns nearest to its
+    /// Where the contact of the orbit with these nodes, the first at the phase `start`, turns nearest to its
     /// level, if that is near enough for a grazing.
     fn find(
         self,
         shooting: &mut Shooting,
-        (begin, nodes): (f64, &[Vec<f64>]),
+        (start, nodes): (f64, &[Vec<f64>]),
         frequency_hz: f64,
     ) -> Result<Option<Turn>, OrbitError> {
         let periods = f64::from(shooting.period_multiple);
         let looks = LOOKS * shooting.period_multiple as usize;
-        let phases: Vec<f64> = (0..=looks).map(|k| begin + periods * k as f64 / looks as f64).collect();
-        let orbit = Stretch { frequency_hz, start: begin, end: begin + periods };
+        let phases: Vec<f64> = (0..=looks).map(|k| start + periods * k as f64 / looks as f64).collect();
+        let orbit = Stretch { frequency_hz, start, end: start + periods };
         let looked = samples(shooting, (&orbit, nodes), &phases)?;
         let clearances: Vec<[f64; 2]> = phases
             .iter()

@@ -16,7 +16,7 @@ use hammerbeam_motion::exact::MotionError;
 
 use super::{
     closing::half_of,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 
 /// The first node of an orbit beside its image, scaled.
@@ -29,7 +29,7 @@ pub(super) struct Apart {
 }
 
 /// How far the orbit, which is a whole one, is from its image.
-pub(super) fn apart(shooting: &mut Shooting, place: &Place) -> Result<Apart, MotionError> {
+pub(super) fn apart(shooting: &mut Shooting, place: &CurveOrbit) -> Result<Apart, MotionError> {
     let scales = shooting.scale.values().to_vec();
     let (size, between) = (scales.len(), shooting.count / 2);
     let half = 0.5 * shooting.cycles();
@@ -47,7 +47,7 @@ pub(super) fn apart(shooting: &mut Shooting, place: &Place) -> Result<Apart, Mot
 }
 
 /// All nodes of the orbit with the first one of a place, scaled.
-pub(super) fn nodes_from_first(shooting: &mut Shooting, place: &Place) -> Result<Vec<f64>, MotionError> {
+pub(super) fn nodes_from_first(shooting: &mut Shooting, place: &CurveOrbit) -> Result<Vec<f64>, MotionError> {
     let scales = shooting.scale.values().to_vec();
     let mut node: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
     let mut nodes = place.nodes.clone();
@@ -59,14 +59,14 @@ pub(super) fn nodes_from_first(shooting: &mut Shooting, place: &Place) -> Result
     Ok(nodes)
 }
 
-/// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those
-/// of `like` are when they begin at a phase.
+/// The orbit at a place, or as much of it as another one's segments are long, with its nodes where the nodes
+/// of `like` are when they start at a phase.
 pub(super) fn unfolded(
     shooting: &mut Shooting,
-    place: &Place,
+    place: &CurveOrbit,
     like: &Shooting,
     phase: f64,
-) -> Result<Place, MotionError> {
+) -> Result<CurveOrbit, MotionError> {
     let scales = shooting.scale.values().to_vec();
     let cycles = shooting.cycles();
     let length = cycles / shooting.count as f64;
@@ -85,5 +85,5 @@ pub(super) fn unfolded(
         let sign = if halves.rem_euclid(2.0) == 1.0 { shooting.closing.sign() } else { 1.0 };
         nodes.extend(later.iter().zip(like.scale.values()).map(|(z, s)| sign * z / s));
     }
-    Ok(Place { nodes, phase, ..place.clone() })
+    Ok(CurveOrbit { nodes, phase, ..place.clone() })
 }

@@ -6,7 +6,7 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     normal_form::{Bend, Coefficient, answer, bends, is_answer, settled, summed},
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::by_rows::{dot, times};
 
@@ -26,7 +26,7 @@ pub(super) struct PairVectors {
 /// `d`, for a right vector of length one.
 pub(super) fn of_pair(
     shooting: &mut Shooting,
-    place: &Place,
+    place: &CurveOrbit,
     pair: &PairVectors,
 ) -> Result<Option<Coefficient>, MotionError> {
     let PairVectors { multiplier, right, left } = upright(pair);
@@ -136,7 +136,7 @@ fn combine(x: f64, a: &[f64], y: f64, b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| x * a + y * b).collect()
 }
 
-/// `(by I - A)^-1` of a vector; `None` if there is no inverse, as far as can be told.
+/// `(by I - A)^-1` of a vector; `None` if there is no inverse, as far as can be resolved.
 fn complex_answer(shooting: &Shooting, by: c64, [re, im]: &Complex) -> Option<Complex> {
     let size = shooting.size();
     let monodromy = shooting.monodromy();

@@ -15,9 +15,9 @@ const CRITICAL: f64 = 1e-4;
 
 /// Test functions of a curve.
 ///
-/// * `own`: those of its condition.
+/// * `own`: the test functions of its condition.
 /// * `others`: the multipliers that the condition does not hold.
-/// * `criticality`: that of the coefficient of its normal form.
+/// * `criticality`: the test of the coefficient of its normal form.
 pub(super) fn tests(
     condition: &Condition,
     own: &[f64],
@@ -45,7 +45,7 @@ pub(super) fn signed(value: f64) -> TestValue {
     TestValue::sign_change(value, u32::from(value < 0.0))
 }
 
-/// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve
+/// The zero, among the zeros of the tests, of the clearance of the opposite contact on a grazing curve
 /// (`opposite.rs`), which comes behind [`tests`].
 pub(super) const OPPOSITE_BIT: u32 = 4;
 

@@ -26,7 +26,7 @@ use super::{
     image::{Apart, apart, nodes_from_first, unfolded},
     problem::CurveProblem,
     row::CurveSettings,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::{OrbitError, OrbitSettings, Response, by_rows::dot, solve::integrator};
 
@@ -36,7 +36,7 @@ const NEAR: f64 = 0.05;
 const OWN: f64 = 1e-6;
 /// How far the asymmetry comes down before it is looked for again.
 const AGAIN: f64 = 0.5;
-/// How far before it the curve of flips begins, in hundredths of the range of the parameter.
+/// How far before it the curve of flips starts, in hundredths of the range of the parameter.
 const AHEAD: f64 = 0.02;
 /// Distance of the place from where the rows lead, relative to their own distance.
 const OFF: f64 = 0.5;
@@ -61,15 +61,15 @@ impl Beside {
 
 /// Where a curve ends.
 pub(super) struct Met {
-    /// The orbit that is its own image, cut like those of the curve.
-    pub place: Place,
+    /// The orbit that is its own image, cut like the orbits of the curve.
+    pub place: CurveOrbit,
     /// How well that is known, relative to the orbit.
     pub off: f64,
     /// Whether the last row lies behind it.
     pub is_behind: bool,
 }
 
-/// What the rows of a curve tell about such an end.
+/// What the rows of a curve show about such an end.
 #[derive(Debug)]
 pub(super) struct Approach {
     response: Response,
@@ -83,18 +83,22 @@ pub(super) struct Approach {
 pub(super) struct DegenerateFlip {
     /// The equations of the half.
     pub shooting: Shooting,
-    pub place: Place,
+    pub place: CurveOrbit,
     /// How well it is known.
     pub off: f64,
 }
 
 /// The first degenerate flip on the curve of flips of a map over half a period, from a place on in a
 /// direction; `None` if it has none within some rows, or no curve is found there.
-pub(super) type FollowHalf =
-    fn(Shooting, &Place, StartDirection<'_>, &CurveSettings) -> Result<Option<DegenerateFlip>, OrbitError>;
+pub(super) type FollowHalf = fn(
+    Shooting,
+    &CurveOrbit,
+    StartDirection<'_>,
+    &CurveSettings,
+) -> Result<Option<DegenerateFlip>, OrbitError>;
 
-/// Where rows seem to lead to.
-struct Aim {
+/// The own image to which rows seem to lead.
+struct ExtrapolatedImage {
     mean: Vec<f64>,
     phase: f64,
     at: [f64; 2],
@@ -111,7 +115,7 @@ impl Approach {
     pub fn meets(
         &mut self,
         problem: &mut CurveProblem,
-        place: &Place,
+        place: &CurveOrbit,
         settings: &CurveSettings,
         follow: FollowHalf,
     ) -> Option<Met> {
@@ -123,7 +127,7 @@ impl Approach {
             return None;
         }
         // What cannot be followed there is no such end.
-        let (place, off) = self.find(problem, &aim(&last, &new), settings, follow).ok().flatten()?;
+        let (place, off) = self.find(problem, &extrapolate(&last, &new), settings, follow).ok().flatten()?;
         Some(Met { place, off, is_behind: dot(&last.apart.odd, &new.apart.odd) < 0.0 })
     }
 
@@ -139,30 +143,34 @@ impl Approach {
     }
 
     /// The zero to which the curve of flips of the half leads, and how well it is known, if it is where rows
-    /// aim.
+    /// lead.
     fn find(
         &self,
         problem: &mut CurveProblem,
-        aim: &Aim,
+        expected: &ExtrapolatedImage,
         settings: &CurveSettings,
         follow: FollowHalf,
-    ) -> Result<Option<(Place, f64)>, OrbitError> {
+    ) -> Result<Option<(CurveOrbit, f64)>, OrbitError> {
         for (direction, sign) in [(StartDirection::Increasing, 1.0), (StartDirection::Decreasing, -1.0)] {
-            let (shooting, mut place) = self.half(&problem.shooting, aim)?;
+            let (shooting, mut place) = self.half(&problem.shooting, expected)?;
             place.value -= sign * AHEAD * problem.units[1];
             if let Some(mut flip) = follow(shooting, &place, direction, settings)? {
                 let units = problem.units;
                 let at = [flip.place.frequency_hz, flip.place.value];
-                let is_there = distance(at, aim.at, units) <= OFF * distance(at, aim.from, units);
-                let whole = unfolded(&mut flip.shooting, &flip.place, &problem.shooting, problem.begin)?;
+                let is_there = distance(at, expected.at, units) <= OFF * distance(at, expected.from, units);
+                let whole = unfolded(&mut flip.shooting, &flip.place, &problem.shooting, problem.cut_phase)?;
                 return Ok(is_there.then_some((whole, flip.off)));
             }
         }
         Ok(None)
     }
 
-    /// The map over half the period, and the own image at which rows aim.
-    fn half(&self, of: &Shooting, aim: &Aim) -> Result<(Shooting, Place), OrbitError> {
+    /// The map over half the period, and the own image to which rows lead.
+    fn half(
+        &self,
+        of: &Shooting,
+        expected: &ExtrapolatedImage,
+    ) -> Result<(Shooting, CurveOrbit), OrbitError> {
         let (period_multiple, closing) = half_of(of.period_multiple);
         let mut integrator = integrator(of.integrator.system(), &self.response, &self.orbits)?;
         integrator.differentiate_by(Some(of.parameter))?;
@@ -179,16 +187,16 @@ impl Approach {
             grazing_distance: f64::INFINITY,
             passing: None,
         };
-        let [frequency_hz, value] = aim.at;
+        let [frequency_hz, value] = expected.at;
         half.set_parameter(value)?;
-        let one = Place { nodes: aim.mean.clone(), frequency_hz, phase: aim.phase, value };
+        let one = CurveOrbit { nodes: expected.mean.clone(), frequency_hz, phase: expected.phase, value };
         let nodes = nodes_from_first(&mut half, &one)?;
-        Ok((half, Place { nodes, ..one }))
+        Ok((half, CurveOrbit { nodes, ..one }))
     }
 }
 
 /// Where the line through two rows over `x^2` comes to zero.
-fn aim(last: &Beside, new: &Beside) -> Aim {
+fn extrapolate(last: &Beside, new: &Beside) -> ExtrapolatedImage {
     let (far, near) = if last.square() < new.square() { (new, last) } else { (last, new) };
     let ratio = near.square() / far.square();
     let share = if ratio < APART { ratio / (1.0 - ratio) } else { 0.0 };
@@ -196,7 +204,12 @@ fn aim(last: &Beside, new: &Beside) -> Aim {
         far.iter().zip(near).map(|(far, near)| near + share * (near - far)).collect()
     };
     let at = line(&far.at, &near.at);
-    Aim { mean: line(&far.apart.mean, &near.apart.mean), phase: new.phase, at: [at[0], at[1]], from: far.at }
+    ExtrapolatedImage {
+        mean: line(&far.apart.mean, &near.apart.mean),
+        phase: new.phase,
+        at: [at[0], at[1]],
+        from: far.at,
+    }
 }
 
 fn distance(a: [f64; 2], b: [f64; 2], units: [f64; 2]) -> f64 {

@@ -34,14 +34,14 @@
 //!   Neimark-Sacker*; *degenerate Neimark-Sacker* (Chenciner)
 //! - grazing: multipliers at +1 and -1, a pair on the circle, the touch without curvature (`r'' = 0`)
 //!
-//! What further multipliers do is told by the functions of `stability.rs`, of all but the critical ones,
-//! which are taken out by reflections that turn their vectors into axes (`deflated.rs`). A zero is marked
-//! where a multiplier is in its place: neutral saddles, pairs that become real and multipliers that jump over
-//! their place are none. Criticality is that of normal forms (`normal_form.rs`, `lyapunov.rs`), whose tensors
-//! are differences of fundamental matrices; where these cannot be told, its test has no value
+//! The functions of `stability.rs` show what further multipliers do. They leave out the critical ones, which
+//! are removed by reflections that turn their vectors into axes (`deflated.rs`). A zero is marked where a
+//! multiplier is in its place: neutral saddles, pairs that become real and multipliers that jump over their
+//! place are none. Criticality follows from normal forms (`normal_form.rs`, `lyapunov.rs`), whose tensors are
+//! differences of fundamental matrices; where these cannot be computed, its test has no value
 //! (`criticality.rs`).
 //!
-//! A curve of folds ends where its orbits become those of half their period (*degenerate flip*) or symmetric
+//! A curve of folds ends where its orbits become orbits of half their period (*degenerate flip*) or symmetric
 //! (*degenerate branch point*): there lies the degenerate point of the flips of the map over half the period,
 //! and behind it the curve is its own image (`image.rs`, `meeting.rs`).
 //!
@@ -61,9 +61,9 @@
 //! with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
 //! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used
 //! up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to
-//! 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither
-//! is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its
-//! monodromy matrix too sharply. Where a contact splits it ends (`splits.rs`). Where a fold, flip or
+//! 1e-7, and so near to a grazing that derivatives of third order cannot be computed they are not marked;
+//! neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change
+//! its monodromy matrix too sharply. Where a contact reopens it ends (`reopening.rs`). Where a fold, flip or
 //! Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and
 //! says so; the place itself is not located. Where the orbits of a curve become images of themselves in more
 //! than one way at once, as orbits of two periods that become symmetric ones of one, the end is not
@@ -90,12 +90,12 @@ mod opposite;
 mod pair;
 mod passing;
 mod problem;
-mod recut;
+mod reopening;
 mod row;
 mod rows;
 mod shooting;
-mod splits;
 mod start;
+mod start_phase;
 mod touched;
 mod walk;
 

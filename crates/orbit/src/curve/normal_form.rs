@@ -1,5 +1,5 @@
-//! The coefficients of normal forms that tell on which side of a bifurcation what branches off lies, and
-//! whether it is stable.
+//! The coefficients of normal forms: on which side of a bifurcation what branches off lies, and whether it is
+//! stable.
 //!
 //! On the centre manifold the map of a period is at a flip `x -> -x + c x^3`, at a Neimark-Sacker point `x ->
 //! e^{i a} x + C x |x|^2` with `d = Re(e^{-i a} C)`: for `c > 0` and `d < 0` the orbit is stable in it, and
@@ -15,7 +15,7 @@
 //! with a scale s of the derivatives, which passes that point without a zero.
 //!
 //! Over segments with the matrices `G_k` the terms are carried from node to node: `s -> G_k s + DG_k[v] v`
-//! for those of second order, and `w_k^T (D^2 G_k[v, v] v + 3 DG_k[v] s)` is what each adds to the third.
+//! for the terms of second order, and `w_k^T (D^2 G_k[v, v] v + 3 DG_k[v] s)` is what each adds to the third.
 //! `DG[v]` and `D^2 G[v, v]` are the first and the second central difference of the exact fundamental
 //! matrices along v: two evaluations for a flip, four for a pair (`D^2 G[q, q'] = D^2 G[a, a] + D^2 G[b, b]`,
 //! `q = a + i b`). Near a zero, or where differences are bent as beside a grazing, two steps are taken and
@@ -30,7 +30,7 @@ use hammerbeam_path::DenseLu;
 
 use super::{
     bordered::Vectors,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::by_rows::{dot, times};
 
@@ -101,7 +101,7 @@ pub(super) fn settled(
 /// `c w^T v` of a flip, for vectors of length one.
 pub(super) fn of_flip(
     shooting: &mut Shooting,
-    place: &Place,
+    place: &CurveOrbit,
     Vectors { left, right, .. }: &Vectors,
 ) -> Result<Option<Coefficient>, MotionError> {
     let [left, right] = [left, right].map(|vector| unit(vector));
@@ -128,7 +128,7 @@ pub(super) fn of_flip(
 /// * `step`: relative to the orbit.
 pub(super) fn bends(
     shooting: &mut Shooting,
-    place: &Place,
+    place: &CurveOrbit,
     vectors: &[Vec<f64>],
     step: f64,
 ) -> Result<Vec<Bend>, MotionError> {
@@ -139,7 +139,7 @@ pub(super) fn bends(
 fn bend(
     shooting: &mut Shooting,
     k: usize,
-    place: &Place,
+    place: &CurveOrbit,
     vector: &[f64],
     step: f64,
 ) -> Result<Bend, MotionError> {
@@ -165,8 +165,8 @@ pub(super) fn summed(shooting: &Shooting, own: &[Vec<f64>]) -> Vec<f64> {
     each.fold(zero, |sum, (segment, own)| add(&times(&segment.matrix, &sum), own))
 }
 
-/// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as
-/// can be told.
+/// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as can
+/// be resolved.
 pub(super) fn answer(shooting: &Shooting, by: f64, vector: &[f64]) -> Option<(Vec<f64>, f64)> {
     let size = shooting.size();
     let mut matrix: Vec<f64> = shooting.monodromy().iter().map(|entry| -entry).collect();
@@ -178,7 +178,8 @@ pub(super) fn answer(shooting: &Shooting, by: f64, vector: &[f64]) -> Option<(Ve
     is_answer(&answer, vector).then_some((answer, sign))
 }
 
-/// Whether an inverse is known well enough: a further multiplier is not at its pole as far as can be told.
+/// Whether an inverse is known well enough: a further multiplier is not at its pole as far as can be
+/// resolved.
 pub(super) fn is_answer(answer: &[f64], vector: &[f64]) -> bool {
     dot(answer, answer) <= LARGEST * LARGEST * dot(vector, vector)
 }

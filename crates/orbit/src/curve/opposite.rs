@@ -1,20 +1,20 @@
-//! The contact opposite to that of a grazing curve, which is touched half a period later as long as orbits
+//! The contact opposite to the one of a grazing curve, which is touched half a period later as long as orbits
 //! are symmetric.
 //!
 //! # Mathematics
 //! Over a parameter that breaks the symmetry a curve of the first contact has the clearance `c` at the
-//! second, with `c = 0` where the symmetry holds. It is that of orbits that pass the second contact, which is
-//! left out beside its touch (`passing.rs`): where `c > 0` it is not missed, where `c < 0` it would be
-//! struck, and these are orbits of another system. So `c` is a test function of the curve, and its zero an
-//! end: beyond, both contacts are grazed at once only at single points, and the curve of the first contact
-//! with impacts at the second begins there.
+//! second, with `c = 0` where the symmetry holds. It is the clearance of orbits that pass the second contact,
+//! which is left out beside its touch (`passing.rs`): where `c > 0` it is not missed, where `c < 0` it would
+//! be struck, and these are orbits of another system. So `c` is a test function of the curve, and its zero an
+//! end. Beyond, both contacts are grazed at once only at single points, and the curve of the first contact
+//! with impacts at the second starts there.
 //!
-//! Where the symmetry holds all along the curve, `c` is zero up to errors of points. The zero is that of `c +
-//! e`, therefore, with the depth `e` of [`TOUCHED`], to which the second contact is grazed at the end.
+//! Where the symmetry holds all along the curve, `c` is zero up to errors of points. Therefore the zero of `c
+//! + e` is taken, with the depth `e` of [`TOUCHED`], to which the second contact is grazed at the end.
 
 use hammerbeam_motion::{Stretch, exact::MotionError};
 
-use super::shooting::{Place, Shooting};
+use super::shooting::{CurveOrbit, Shooting};
 
 /// Depth to which a contact is grazed, in parts of the orbit.
 const TOUCHED: f64 = 1e-6;
@@ -23,7 +23,10 @@ const LOOKS: usize = 64;
 
 /// Least clearance of the opposite contact beside its touch, in parts of the orbit, beyond the depth to
 /// which it is grazed; `None` if the curve has no such contact.
-pub(super) fn opposite_clearance(shooting: &mut Shooting, place: &Place) -> Result<Option<f64>, MotionError> {
+pub(super) fn opposite_clearance(
+    shooting: &mut Shooting,
+    place: &CurveOrbit,
+) -> Result<Option<f64>, MotionError> {
     let Some(passing) = &shooting.passing else { return Ok(None) };
     let Some((touch, behind)) = passing.opposite() else { return Ok(None) };
     let (frequency_hz, width) = (place.frequency_hz, passing.width);
@@ -53,15 +56,15 @@ pub(super) fn opposite_clearance(shooting: &mut Shooting, place: &Place) -> Resu
 }
 
 /// The state of an orbit at a phase, in its own units, from the node before it.
-fn state_at(shooting: &mut Shooting, place: &Place, phase: f64) -> Result<Vec<f64>, MotionError> {
+fn state_at(shooting: &mut Shooting, place: &CurveOrbit, phase: f64) -> Result<Vec<f64>, MotionError> {
     let size = shooting.size();
     let length = shooting.cycles() / shooting.count as f64;
     let from = (((phase - place.phase) / length).max(0.0) as usize).min(shooting.count - 1);
     let node = &place.nodes[from * size..(from + 1) * size];
     let state: Vec<f64> = node.iter().zip(shooting.scale.values()).map(|(x, s)| x * s).collect();
-    let begin = shooting.stretch(from, place.frequency_hz, place.phase).start;
-    let stretch = Stretch { frequency_hz: place.frequency_hz, start: begin, end: phase };
-    if phase > begin { shooting.advance(stretch, place.phase, &state) } else { Ok(state) }
+    let start = shooting.stretch(from, place.frequency_hz, place.phase).start;
+    let stretch = Stretch { frequency_hz: place.frequency_hz, start, end: phase };
+    if phase > start { shooting.advance(stretch, place.phase, &state) } else { Ok(state) }
 }
 
 /// Name of the element of the opposite contact.

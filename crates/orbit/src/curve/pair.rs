@@ -12,7 +12,7 @@ use super::{
     linear::Linear,
     lyapunov,
     null::null_space,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::{
     by_rows::{dot, multiply, times, transposed},
@@ -115,7 +115,11 @@ impl Pair {
     }
 
     /// `ln d` and its gradient, and the test `k`.
-    pub fn evaluate(self, shooting: &mut Shooting, place: &Place) -> Result<Option<Linear>, MotionError> {
+    pub fn evaluate(
+        self,
+        shooting: &mut Shooting,
+        place: &CurveOrbit,
+    ) -> Result<Option<Linear>, MotionError> {
         let Some(plane) = self.plane(shooting) else { return Ok(None) };
         let (determinant, [a, b, c, d]) = (plane.determinant(), plane.matrix);
         if determinant <= 0.0 {

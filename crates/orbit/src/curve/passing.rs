@@ -3,18 +3,18 @@
 //! Beside a touch the flow depends on which side of it the motion lies: where the contact closes for an
 //! instant its force acts for as short a time as one likes, its law may need the speed of the impact, and a
 //! rigid stop throws the motion back, with a fundamental matrix that is like the root of the depth. A grazing
-//! orbit is the end of those that pass without contact. So for a short time after the begin and before the
-//! end the touched element is left out, its gap opened wide: the equations are those of the motions that
-//! pass, smooth on both sides of the touch, and on the curve, where the clearance and its rate vanish, those
-//! of the system itself.
+//! orbit is the end of those that pass without contact. So for a short time after the start and before the
+//! end the touched element is left out, its gap opened wide. The equations then describe the motions that
+//! pass, smooth on both sides of the touch. On the curve, where the clearance and its rate vanish, they
+//! describe the system itself.
 //!
 //! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that
 //! opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
 //!
 //! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well,
-//! and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is
-//! that of the first contact and holds only to the side on which the motion leaves the other: where it would
-//! be struck the curve ends (`opposite.rs`).
+//! and so it is as long as the curve goes. Over a parameter that breaks the symmetry, too: there the curve
+//! belongs to the first contact and holds only to the side on which the motion leaves the other. Where it
+//! would be struck the curve ends (`opposite.rs`).
 //!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The
 //! solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
@@ -39,7 +39,7 @@ pub(super) struct Passing {
     pub integrator: ExactIntegrator,
     /// What is touched at the ends of the orbit, and what opposite.
     pub touches: Vec<Touch>,
-    /// How long behind the begin of the orbit the opposite contact is touched [cycles].
+    /// How long behind the start of the orbit the opposite contact is touched [cycles].
     pub behind: Option<f64>,
     /// How long elements are left out, at each side of a touch [cycles].
     pub width: f64,
@@ -85,15 +85,15 @@ impl Passing {
         }
     }
 
-    /// The contact that is touched opposite, and how long behind the begin of the orbit [cycles].
+    /// The contact that is touched opposite, and how long behind the start of the orbit [cycles].
     pub fn opposite(&self) -> Option<(Touch, f64)> {
         Some((*self.touches.get(1)?, self.behind?))
     }
 
-    /// Where elements are left out, of an orbit from `begin` over `cycles`.
-    pub fn windows(&self, begin: f64, cycles: f64) -> Vec<[f64; 2]> {
-        let mut windows = vec![[begin, begin + self.width], [begin + cycles - self.width, begin + cycles]];
-        windows.extend(self.behind.map(|o| [begin + o - self.width, begin + o + self.width]));
+    /// Where elements are left out, of an orbit from `start` over `cycles`.
+    pub fn windows(&self, start: f64, cycles: f64) -> Vec<[f64; 2]> {
+        let mut windows = vec![[start, start + self.width], [start + cycles - self.width, start + cycles]];
+        windows.extend(self.behind.map(|o| [start + o - self.width, start + o + self.width]));
         windows
     }
 }

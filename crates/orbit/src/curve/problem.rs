@@ -13,7 +13,7 @@ use super::{
     linear::Linear,
     marks,
     opposite::opposite_clearance,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
 };
 use crate::by_rows::times;
 
@@ -23,7 +23,7 @@ pub(super) struct CurveProblem {
     pub shooting: Shooting,
     pub condition: Condition,
     /// Phase at which orbits are cut, unless it is an unknown [cycles].
-    pub begin: f64,
+    pub cut_phase: f64,
     /// What counts like a change of the orbit by its own size, of frequency and parameter.
     pub units: [f64; 2],
     weights: Vec<f64>,
@@ -39,9 +39,9 @@ pub(super) struct CurveProblem {
 }
 
 impl CurveProblem {
-    /// * `begin`: phase at which orbits are cut, unless it is an unknown [cycles].
+    /// * `cut_phase`: phase at which orbits are cut, unless it is an unknown [cycles].
     /// * `units`: what counts like a change of the orbit by its own size, of frequency and parameter.
-    pub fn new(shooting: Shooting, condition: Condition, begin: f64, units: [f64; 2]) -> Self {
+    pub fn new(shooting: Shooting, condition: Condition, cut_phase: f64, units: [f64; 2]) -> Self {
         let nodes = shooting.size() * shooting.count;
         let mut weights = vec![1.0 / shooting.count as f64; nodes];
         weights.push(units[0].powi(-2));
@@ -53,7 +53,7 @@ impl CurveProblem {
         Self {
             shooting,
             condition,
-            begin,
+            cut_phase,
             units,
             residual: vec![0.0; unknowns],
             jacobian: vec![0.0; unknowns * (unknowns + 1)],
@@ -75,11 +75,11 @@ impl CurveProblem {
         self.shooting.size() * self.shooting.count
     }
 
-    /// Place of a point.
-    pub fn place(&self, point: &[f64]) -> Place {
+    /// CurveOrbit of a point.
+    pub fn place(&self, point: &[f64]) -> CurveOrbit {
         let nodes = self.shooting.size() * self.shooting.count;
-        let phase = if self.condition.has_phase() { point[nodes + 1] } else { self.begin };
-        Place {
+        let phase = if self.condition.has_phase() { point[nodes + 1] } else { self.cut_phase };
+        CurveOrbit {
             nodes: point[..nodes].to_vec(),
             frequency_hz: point[nodes],
             phase,
@@ -88,7 +88,7 @@ impl CurveProblem {
     }
 
     /// Point of a place.
-    pub fn point(&self, place: &Place) -> Vec<f64> {
+    pub fn point(&self, place: &CurveOrbit) -> Vec<f64> {
         let mut point = place.nodes.clone();
         point.push(place.frequency_hz);
         if self.condition.has_phase() {
@@ -98,7 +98,7 @@ impl CurveProblem {
         point
     }
 
-    fn fill_shooting(&mut self, place: &Place) {
+    fn fill_shooting(&mut self, place: &CurveOrbit) {
         let (size, count) = (self.shooting.size(), self.shooting.count);
         let nodes = size * count;
         let width = self.weights.len();
@@ -121,7 +121,7 @@ impl CurveProblem {
     }
 
     /// Derivative of a segment by the phase at which it begins.
-    fn by_phase(&self, place: &Place, k: usize) -> Vec<f64> {
+    fn by_phase(&self, place: &CurveOrbit, k: usize) -> Vec<f64> {
         let size = self.shooting.size();
         let stretch = self.shooting.stretch(k, place.frequency_hz, place.phase);
         let segment = &self.shooting.segments[k];
@@ -146,7 +146,7 @@ impl CurveProblem {
         self.tests = linear.tests;
     }
 
-    fn evaluate_at(&mut self, place: &Place) -> Result<bool, MotionError> {
+    fn evaluate_at(&mut self, place: &CurveOrbit) -> Result<bool, MotionError> {
         self.shooting.evaluate(place)?;
         self.fill_shooting(place);
         let Some(linear) = self.condition.evaluate(&mut self.shooting, place)? else { return Ok(false) };
@@ -154,14 +154,14 @@ impl CurveProblem {
         Ok(true)
     }
 
-    /// The coefficient of the normal form at the last evaluated place, where it can be told.
+    /// The coefficient of the normal form at the last evaluated place, where it can be computed.
     fn coefficient(&mut self) -> Option<f64> {
         if let Some(coefficient) = self.criticality.known_at(&self.evaluated) {
             return coefficient;
         }
         let place = self.place(&self.evaluated);
         let coefficient = self.condition.criticality(&mut self.shooting, &place).ok().flatten();
-        self.criticality.remember(&self.evaluated, coefficient);
+        self.criticality.keep(&self.evaluated, coefficient);
         coefficient
     }
 

@@ -127,8 +127,8 @@ pub struct CurveRow {
 
 impl CurveEvents {
     /// What the end of a curve makes of its last row: where a fold, flip or Neimark-Sacker point meets a
-    /// grazing, its multipliers are those of a grazing orbit. Such a *resonant grazing* is a point of
-    /// codimension two, at which the curve ends on that of the grazing.
+    /// grazing, its multipliers belong to a grazing orbit. Such a *resonant grazing* is a point of
+    /// codimension two, at which the curve ends on the grazing curve.
     pub fn mark_end(&mut self, kind: CurveKind, end: &CurveEnd) {
         if !matches!(end, CurveEnd::Grazing { .. }) {
             return;
@@ -177,7 +177,7 @@ pub enum CurveEnd {
         mirrored: bool,
     },
     /// The bifurcation has met a grazing, where matrices jump or go like the root of the distance: no step
-    /// led on, or rows one after the other were at it as far as can be told.
+    /// led on, or rows one after the other were at it as far as can be resolved.
     Grazing {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,
@@ -192,8 +192,8 @@ pub enum CurveEnd {
         /// Name of the local element.
         element: String,
     },
-    /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a
-    /// contact began, its force jumps there, and so does the motion.
+    /// Beyond the last row a contact opens and is pressed on again at once. With an impact-speed-dependent
+    /// law its force jumps there, and so does the motion.
     ContactReopens {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,

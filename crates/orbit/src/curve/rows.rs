@@ -5,7 +5,7 @@ use hammerbeam_path::{PathEvents, PathProblem};
 
 use super::{
     row::{CurveEvents, CurveKind, CurveRow},
-    shooting::Place,
+    shooting::CurveOrbit,
     walk::CurveWalk,
 };
 use crate::{OrbitError, PeriodicSolution, spectrum::Spectrum};
@@ -62,11 +62,11 @@ impl CurveWalk {
             shooting.fit_passing(place.frequency_hz, place.phase, &nodes[0])?;
         }
         let maxima = shooting.observe(&stretches, &nodes)?;
-        let nodes = if has_phase { self.nodes_from_begin(&place, &nodes)? } else { nodes };
+        let nodes = if has_phase { self.nodes_from_start(&place, &nodes)? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
-            phase: self.problem.begin,
+            phase: self.problem.cut_phase,
             nodes,
             floquet_multipliers: multipliers,
             on_circle,
@@ -78,15 +78,19 @@ impl CurveWalk {
         Ok(CurveRow { parameter: place.value, solution, phase, events })
     }
 
-    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere: each from the
-    /// node before it.
-    fn nodes_from_begin(&mut self, place: &Place, nodes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, OrbitError> {
-        let begin = self.problem.begin;
+    /// Nodes at equal phases, from the phase of the start on, of the orbit that is cut elsewhere: each from
+    /// the node before it.
+    fn nodes_from_start(
+        &mut self,
+        place: &CurveOrbit,
+        nodes: &[Vec<f64>],
+    ) -> Result<Vec<Vec<f64>>, OrbitError> {
+        let cut_phase = self.problem.cut_phase;
         let shooting = &mut self.problem.shooting;
         let cycles = f64::from(shooting.period_multiple);
         let length = cycles / nodes.len() as f64;
         let node = |k: usize| {
-            let behind = (begin + k as f64 * length - place.phase).rem_euclid(cycles);
+            let behind = (cut_phase + k as f64 * length - place.phase).rem_euclid(cycles);
             let from = ((behind / length) as usize).min(nodes.len() - 1);
             let [start, end] = [from as f64 * length, behind].map(|offset| place.phase + offset);
             let stretch = Stretch { frequency_hz: place.frequency_hz, start, end };

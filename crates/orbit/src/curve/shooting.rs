@@ -20,7 +20,7 @@ use crate::{
 
 /// Where the equations are evaluated; nodes are scaled, one after the other.
 #[derive(Debug, Clone)]
-pub(super) struct Place {
+pub(super) struct CurveOrbit {
     pub nodes: Vec<f64>,
     pub frequency_hz: f64,
     pub phase: f64,
@@ -119,7 +119,7 @@ impl Shooting {
         Stretch { frequency_hz, start: cycle(segment), end: cycle(segment + 1) }
     }
 
-    pub fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
+    pub fn flow(&mut self, segment: usize, place: &CurveOrbit, node: &[f64]) -> Result<Segment, MotionError> {
         let stretch = self.stretch(segment, place.frequency_hz, place.phase);
         let mut parts = self.parts(stretch, place.phase).into_iter();
         let whole = parts.next().unwrap_or((stretch, false));
@@ -166,7 +166,7 @@ impl Shooting {
     }
 
     /// Evaluates all segments at a place.
-    pub fn evaluate(&mut self, place: &Place) -> Result<(), MotionError> {
+    pub fn evaluate(&mut self, place: &CurveOrbit) -> Result<(), MotionError> {
         self.set_parameter(place.value)?;
         let size = self.size();
         self.grazing_distance = f64::INFINITY;
@@ -204,7 +204,12 @@ impl Shooting {
     }
 
     /// Derivative of `w^T A v` by all nodes, the frequency and the parameter, with vectors fixed.
-    pub fn gradient(&mut self, place: &Place, left: &[f64], right: &[f64]) -> Result<Vec<f64>, MotionError> {
+    pub fn gradient(
+        &mut self,
+        place: &CurveOrbit,
+        left: &[f64],
+        right: &[f64],
+    ) -> Result<Vec<f64>, MotionError> {
         let directions = self.carried(right);
         let lefts = self.carried_back(left);
         let differences = self.differences(place, &directions)?;
@@ -219,7 +224,7 @@ impl Shooting {
     }
 
     /// Rate of a scaled state at a phase.
-    pub fn rate(&self, place: &Place, phase: f64, node: &[f64]) -> Vec<f64> {
+    pub fn rate(&self, place: &CurveOrbit, phase: f64, node: &[f64]) -> Vec<f64> {
         let scales = self.scale.values();
         let state: Vec<f64> = node.iter().zip(scales).map(|(x, s)| x * s).collect();
         let rate = self.integrator.system().rate(place.frequency_hz, phase, &state);

@@ -8,7 +8,7 @@ use super::{
     grazing::Turn,
     pair::Pair,
     row::{CurveKind, CurveSettings},
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
     touched::Touch,
 };
 use crate::{OrbitError, PeriodicSolution};
@@ -21,13 +21,14 @@ pub(super) fn first_condition(
     start: &PeriodicSolution,
     (kind, value): (CurveKind, f64),
     touch: Option<(Touch, Turn)>,
-) -> Result<Option<(Condition, Place)>, OrbitError> {
+) -> Result<Option<(Condition, CurveOrbit)>, OrbitError> {
     let scaled = |nodes: &[Vec<f64>], scales: &[f64]| -> Vec<f64> {
         nodes.iter().flat_map(|node| node.iter().zip(scales).map(|(z, s)| z / s)).collect()
     };
     let frequency_hz = start.frequency_hz;
     let scales = shooting.scale.values().to_vec();
-    let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
+    let mut place =
+        CurveOrbit { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
     if let Some((touch, Turn { phase, state, .. })) = touch {
         let mut nodes = vec![state];
         shooting.fit_passing(frequency_hz, phase, &nodes[0])?;
@@ -35,7 +36,7 @@ pub(super) fn first_condition(
             let stretch = shooting.stretch(k - 1, frequency_hz, phase);
             nodes.push(shooting.advance(stretch, phase, &nodes[k - 1])?);
         }
-        place = Place { nodes: scaled(&nodes, &scales), phase, ..place };
+        place = CurveOrbit { nodes: scaled(&nodes, &scales), phase, ..place };
         return Ok(Some((Condition::Touch(touch), place)));
     }
     shooting.evaluate(&place)?;

@@ -18,7 +18,7 @@ use super::{
     normal_form::{self, answer},
     pair::Pair,
     problem::CurveProblem,
-    shooting::{Place, Shooting},
+    shooting::{CurveOrbit, Shooting},
     touched::Touch,
 };
 use crate::{OrbitSettings, Response, by_rows::dot, solve::integrator, state_scale::StateScale};
@@ -68,10 +68,10 @@ fn shooting(parameter: Parameter) -> Shooting {
 
 /// The place of the orbit from a state, cut into so many segments that lead from node to node; the last one
 /// need not close.
-fn cut(state: &[f64], count: usize) -> (Shooting, Place) {
+fn cut(state: &[f64], count: usize) -> (Shooting, CurveOrbit) {
     let mut shooting = shooting(Parameter::ExcitationScale);
     shooting.count = count;
-    let mut place = Place { nodes: state.to_vec(), frequency_hz: 0.21, phase: 0.0, value: 1.0 };
+    let mut place = CurveOrbit { nodes: state.to_vec(), frequency_hz: 0.21, phase: 0.0, value: 1.0 };
     for k in 0..count - 1 {
         let end = shooting.flow(k, &place, &place.nodes[4 * k..]).unwrap().end;
         place.nodes.extend(end);
@@ -86,7 +86,7 @@ fn extrapolated(h: f64, mut with_step: impl FnMut(f64) -> f64) -> f64 {
 }
 
 /// `6 c w^T v` is the third derivative of `w^T Z(z + t v + t^2 s/2)` by t, `(I - A) s = D^2 Z (v, v)`:
-/// differences of states, where the coefficient is made of those of matrices, with one step.
+/// differences of states, where the coefficient is made of differences of matrices, with one step.
 #[test]
 fn coefficients_do_not_depend_on_segments_and_are_third_derivatives_of_the_flow() {
     let state = [0.9, -0.2, 0.4, 0.1];
@@ -117,7 +117,7 @@ fn coefficients_do_not_depend_on_segments_and_are_third_derivatives_of_the_flow(
     }
 }
 
-/// The vectors need not be those of the orbit for that.
+/// The vectors need not belong to the orbit for that.
 #[test]
 fn first_lyapunov_coefficients_do_not_depend_on_segments() {
     let pair = PairVectors {
@@ -151,8 +151,8 @@ fn jacobians_agree_with_differences_of_the_residual() {
             let mut shooting = shooting(parameter);
             let value = shooting.integrator.system().parameter(parameter).unwrap();
             let nodes = vec![0.9, -0.2, 0.4, 0.1, -0.6, 0.3, -0.5, 0.2];
-            let place = Place { nodes, frequency_hz: 0.21, phase: 0.07, value };
-            let place = if kind == 3 { place } else { Place { phase: 0.0, ..place } };
+            let place = CurveOrbit { nodes, frequency_hz: 0.21, phase: 0.07, value };
+            let place = if kind == 3 { place } else { CurveOrbit { phase: 0.0, ..place } };
             shooting.evaluate(&place).unwrap();
             let condition = make(&shooting);
             let mut problem = CurveProblem::new(shooting, condition, place.phase, [1.0, 1.0]);

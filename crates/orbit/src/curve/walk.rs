@@ -1,10 +1,10 @@
 //! Walking along a curve of bifurcations, one row at a time.
 //!
-//! A curve has met a grazing where its rows are at one as far as can be told, where [`SHORT_AT_GRAZING`] of
-//! them were short beside one (it goes on along the grazing, and matrices like the root
-//! of the distance leave nothing of the tangent), and where no step leads on from a row beside one.
-//! Differences are made only as short as they must be, so they may know of no grazing at such a row: a step
-//! across a change of contacts tells of it.
+//! A curve has met a grazing in three cases: its rows are at one as far as can be resolved;
+//! [`SHORT_AT_GRAZING`] of them were short beside one (it goes on along the grazing, and matrices like the
+//! root of the distance leave nothing of the tangent); no step leads on from a row beside one. Differences
+//! are made only as short as they must be, so they may know of no grazing at such a row: a step across a
+//! change of contacts shows it.
 
 use hammerbeam_motion::{System, exact::MotionError};
 use hammerbeam_path::{
@@ -21,9 +21,9 @@ use super::{
     opposite::opposite_name,
     passing::Passing,
     problem::CurveProblem,
+    reopening::{ReopeningWatch, may_reopen, reopens_here},
     row::{CurveEnd, CurveKind, CurveRow, CurveSettings},
-    shooting::{Place, Shooting},
-    splits::{SplitWatch, may_split, splits_here},
+    shooting::{CurveOrbit, Shooting},
     start::{first_condition, path_settings},
     touched::Touch,
 };
@@ -40,8 +40,8 @@ const AHEAD: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
 /// Short rows that longer ones have not made up for, the last of them so near to a grazing, after which the
 /// curve has met it: one that only passes it has steps that grow again.
 const SHORT_AT_GRAZING: u64 = 50;
-/// So many rows that have got no further than [`LEAST_WAY`] lead nowhere: two hundred go over a whole range
-/// else.
+/// So many rows that have got no further than [`LEAST_WAY`] make no progress: two hundred go over a whole
+/// range else.
 const MANY_ROWS: u32 = 2000;
 /// A way of next to nothing, in hundredths of the ranges.
 const LEAST_WAY: f64 = 0.5;
@@ -69,7 +69,7 @@ pub struct CurveWalk {
     last_row: Option<CurveRow>,
     /// Whether the last row lies behind it.
     is_behind: bool,
-    splits: SplitWatch,
+    reopening: ReopeningWatch,
     pub(super) end: Option<CurveEnd>,
 }
 
@@ -132,7 +132,8 @@ impl CurveWalk {
             Side::Up => StartDirection::Increasing,
             Side::Down => StartDirection::Decreasing,
         };
-        let mut walk = Self::begin((shooting, condition), (place, start.phase), (kind, direction), settings)?;
+        let mut walk =
+            Self::from_start((shooting, condition), (place, start.phase), (kind, direction), settings)?;
         walk.approach = (kind == CurveKind::Fold).then(|| Approach::new(response, orbits));
         Ok(walk)
     }
@@ -140,13 +141,13 @@ impl CurveWalk {
     /// Begins on the curve of flips of the map over half a period (`image.rs`).
     fn of_half(
         mut shooting: Shooting,
-        place: &Place,
+        place: &CurveOrbit,
         direction: StartDirection<'_>,
         settings: &CurveSettings,
     ) -> Result<Self, OrbitError> {
         shooting.evaluate(place)?;
         let condition = Condition::Multiplier(Bordered::new(-1.0, &shooting));
-        Self::begin(
+        Self::from_start(
             (shooting, condition),
             (place.clone(), place.phase),
             (CurveKind::Flip, direction),
@@ -155,9 +156,9 @@ impl CurveWalk {
     }
 
     /// * `phase`: at which orbits are cut, unless it is an unknown.
-    fn begin(
+    fn from_start(
         (shooting, condition): (Shooting, Condition),
-        (place, phase): (Place, f64),
+        (place, phase): (CurveOrbit, f64),
         (kind, direction): (CurveKind, StartDirection<'_>),
         settings: &CurveSettings,
     ) -> Result<Self, OrbitError> {
@@ -180,7 +181,7 @@ impl CurveWalk {
             approach: None,
             last_row: None,
             is_behind: false,
-            splits: SplitWatch::default(),
+            reopening: ReopeningWatch::default(),
             end: None,
         })
     }
@@ -206,13 +207,13 @@ impl CurveWalk {
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
-        let before = may_split(&self.problem, &self.follower);
+        let before = may_reopen(&self.problem, &self.follower);
         self.keep_phase_clear();
         let from = self.follower.current().point.clone();
         let reason = match self.follower.step(&mut self.problem) {
             StepOutcome::Accepted => {
                 self.end = before.and_then(|before| {
-                    self.splits.comes_to_splitting(&mut self.problem, &self.follower, &before)
+                    self.reopening.comes_to_reopening(&mut self.problem, &self.follower, &before)
                 });
                 return match &self.end {
                     Some(end) => Ok(Err(end.clone())),
@@ -239,8 +240,8 @@ impl CurveWalk {
                     None => other.to_string(),
                 };
                 let no_step = matches!(other, PathStop::StepTooShort { .. });
-                if let Some(splits) = splits_here(&mut self.problem, &self.follower) {
-                    return splits;
+                if let Some(reopening) = reopens_here(&mut self.problem, &self.follower) {
+                    return reopening;
                 }
                 if no_step && (self.grazing_distance < AT_GRAZING || self.contacts_change_ahead()) {
                     CurveEnd::Grazing { parameter, cause: Some(message) }
@@ -262,11 +263,11 @@ impl CurveWalk {
         } else if let Some(element) = opposite {
             Some(CurveEnd::GrazedAsWell { parameter, element })
         } else if self.follower.stop_reason().is_some() {
-            // The next step tells it.
+            // The next step shows it.
             None
         } else if self.rows_at_grazing >= ROWS_AT_GRAZING || self.is_short_at_grazing() {
             Some(
-                splits_here(&mut self.problem, &self.follower)
+                reopens_here(&mut self.problem, &self.follower)
                     .unwrap_or(CurveEnd::Grazing { parameter, cause: None }),
             )
         } else if no_progress {
@@ -285,8 +286,8 @@ impl CurveWalk {
         AHEAD.map(|share| share * AT_GRAZING).into_iter().any(|distance| {
             let ahead = current.point.iter().zip(&current.tangent).map(|(z, t)| z + distance * t);
             let ahead: Vec<f64> = ahead.collect();
-            let is_told = self.problem.evaluate(&ahead).is_ok();
-            is_told && self.problem.signature() != current.signature
+            let is_resolved = self.problem.evaluate(&ahead).is_ok();
+            is_resolved && self.problem.signature() != current.signature
         })
     }
 
@@ -295,13 +296,13 @@ impl CurveWalk {
         self.grazing_distance < AT_GRAZING && self.follower.counters().short_steps >= SHORT_AT_GRAZING
     }
 
-    /// Whether the contact opposite to that of a grazing curve would be struck behind the present row.
+    /// Whether the contact opposite to the one of a grazing curve would be struck behind the present row.
     fn strikes_opposite(&self) -> bool {
         let zeros = self.follower.current().events.zeros;
         matches!(self.kind, CurveKind::Grazing { .. }) && zeros >> OPPOSITE_BIT & 1 == 1
     }
 
-    /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].
+    /// Whether the last rows made no progress, asked once in [`MANY_ROWS`].
     fn makes_no_progress(&mut self) -> bool {
         self.since.0 += 1;
         if self.since.0 < MANY_ROWS {
@@ -348,7 +349,7 @@ impl CurveWalk {
 /// The first degenerate flip on the curve of flips of a map over half a period, for [`Approach`].
 fn degenerate_flip_of_half(
     shooting: Shooting,
-    place: &Place,
+    place: &CurveOrbit,
     direction: StartDirection<'_>,
     settings: &CurveSettings,
 ) -> Result<Option<DegenerateFlip>, OrbitError> {

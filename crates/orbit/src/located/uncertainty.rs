@@ -28,7 +28,7 @@
 
 use hammerbeam_path::{PathProblem, norm, weighed};
 
-use super::place::{Approach, Place};
+use super::event_location::{Approach, EventLocation};
 use crate::{
     shooting::ShootingProblem,
     stability::{MOST_COUNTED, nearest_to_one, without_at_minus_one},
@@ -45,7 +45,7 @@ const ARM: f64 = 2.0;
 /// * `multiplier`: that which makes it, and whether it does not lie in its place.
 pub(super) fn of_place(
     problem: &mut ShootingProblem,
-    place: &Place<'_>,
+    place: &EventLocation<'_>,
     (multiplier, jumps): (Option<[f64; 2]>, bool),
 ) -> f64 {
     // A multiplier jumps over its place at corners only.
@@ -76,7 +76,7 @@ pub(super) fn of_place(
 }
 
 /// Arc length within which a grazing lies.
-fn of_contacts(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
+fn of_contacts(problem: &mut ShootingProblem, place: &EventLocation<'_>, approach: &Approach) -> f64 {
     let Some([clearance, squared_speed]) = approach.near else { return 0.0 };
     let [displacement, speed] = contact_scale(problem);
     // What appears was a clearance or a penetration before, what vanishes a touch.
@@ -114,7 +114,7 @@ fn of_multiplier(
 }
 
 /// Interval of the frequency within which a branch point lies.
-fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &Approach) -> f64 {
+fn of_branch_point(problem: &mut ShootingProblem, place: &EventLocation<'_>, approach: &Approach) -> f64 {
     let before = approach.before.as_ref().and_then(|before| before.last());
     before.map_or(approach.chord, |before| {
         let way = (before - place.point.parameter()).abs();
@@ -125,7 +125,7 @@ fn of_branch_point(problem: &mut ShootingProblem, place: &Place<'_>, approach: &
 /// The part of a way from the point before within which a multiplier is +1, by the motion at both points.
 fn of_unit_multiplier(
     problem: &mut ShootingProblem,
-    place: &Place<'_>,
+    place: &EventLocation<'_>,
     approach: &Approach,
     way: f64,
 ) -> f64 {
@@ -155,7 +155,7 @@ fn distances(multipliers: &[[f64; 2]], place: f64, least: f64) -> f64 {
     multipliers.iter().map(|[re, im]| (re - place).hypot(*im).max(least).min(MOST_COUNTED)).product()
 }
 
-/// The part of the chord over which a test function with this value at its beginning changes by so much.
+/// The part of the chord over which a test function with this value at its start changes by so much.
 fn share_of(approach: &Approach, change: f64, test: f64) -> f64 {
     (change * approach.chord / test.abs().max(f64::MIN_POSITIVE)).min(approach.chord)
 }
@@ -179,7 +179,7 @@ struct Moved {
 }
 
 /// The largest of what two closure errors move.
-fn response_to_closure(problem: &mut ShootingProblem, place: &Place<'_>) -> Option<Moved> {
+fn response_to_closure(problem: &mut ShootingProblem, place: &EventLocation<'_>) -> Option<Moved> {
     let weights = problem.weights().to_vec();
     problem.factorise(&weighed(&weights, &place.point.tangent)).ok()?;
     let last = weights.len() - 1;

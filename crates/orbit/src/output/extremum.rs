@@ -62,14 +62,14 @@ fn legendre(s: f64) -> [[f64; 3]; PANEL_NODES] {
     values.map(|[value, slope, curvature]| [value, 2.0 * slope, 4.0 * curvature])
 }
 
-/// The smallest and the largest value, of those given and those of a panel with these values at its nodes.
+/// The smallest and the largest value, of the given ones and of a panel with these values at its nodes.
 pub(super) fn extrema(values: &Nodal, [minimum, maximum]: [f64; 2]) -> [f64; 2] {
     let largest = largest(values, maximum);
     let turned = values.map(|value| -value);
     [-self::largest(&turned, -minimum), largest]
 }
 
-/// The largest of a value and those of a panel.
+/// The largest of a value and the values of a panel.
 fn largest(values: &Nodal, mut best: f64) -> f64 {
     let table = Table::get();
     let at: Vec<f64> = table.places.iter().map(|weights| dot(weights, values)).collect();

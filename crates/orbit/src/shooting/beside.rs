@@ -1,6 +1,6 @@
 //! Motions beside the one that was evaluated, by an integrator of their own, since the other one holds what
-//! was evaluated last: how far an orbit is from those of shorter period, or from symmetric ones, where its
-//! nodes do not tell, as no two of them lie so far apart; and how it begins some periods later.
+//! was evaluated last. They give the distance of an orbit from orbits of shorter period, or from symmetric
+//! ones, where its nodes do not, as no two of them lie so far apart; and its start some periods later.
 
 use hammerbeam_motion::{
     Parameter, Stretch, System,
@@ -23,9 +23,9 @@ pub(super) struct KnownImages {
 /// Orbits whose distance is kept: a trial is the next current point.
 const KEPT: usize = 8;
 
-/// Where an orbit begins, and in which units.
+/// Where an orbit starts, and in which units.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Beginning<'a> {
+pub(super) struct OrbitStart<'a> {
     /// Its first node in these units.
     pub scaled: &'a [f64],
     pub scales: &'a [f64],
@@ -37,12 +37,12 @@ pub(super) struct Beginning<'a> {
     pub parameter: Option<(Parameter, f64)>,
 }
 
-/// The orbits that lie in those of a walk as a special case.
+/// Orbits that are special cases of the orbits of a walk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Simpler {
-    /// Those of shorter period.
+    /// Orbits of shorter period.
     Shorter,
-    /// Those that are their own mirror images.
+    /// Orbits that are their own mirror images.
     Symmetric,
 }
 
@@ -90,22 +90,22 @@ impl Beside {
     /// - From orbits of shorter period: the norm of `Z(z_0) - z_0` after k excitation periods, the least one
     ///   over the proper divisors k of N.
     /// - From symmetric ones: the norm of `Z(z_0) + z_0` after N/2 periods.
-    pub fn distance(&mut self, begin: Beginning<'_>, from: Simpler) -> f64 {
-        let parameter = begin.parameter.map_or(0.0, |(_, value)| value);
-        let place = [begin.phase, begin.frequency_hz, parameter];
+    pub fn distance(&mut self, start: OrbitStart<'_>, from: Simpler) -> f64 {
+        let parameter = start.parameter.map_or(0.0, |(_, value)| value);
+        let place = [start.phase, start.frequency_hz, parameter];
         let is_same =
-            |known: &&Known| known.from == from && known.place == place && known.scaled == begin.scaled;
+            |known: &&Known| known.from == from && known.place == place && known.scaled == start.scaled;
         if let Some(known) = self.known.iter().find(is_same) {
             return known.distance;
         }
-        let distance = self.after_periods(begin, from).unwrap_or(f64::INFINITY);
+        let distance = self.after_periods(start, from).unwrap_or(f64::INFINITY);
         self.known.drain(..self.known.len().saturating_sub(KEPT - 1));
-        self.known.push(Known { from, scaled: begin.scaled.to_vec(), place, distance });
+        self.known.push(Known { from, scaled: start.scaled.to_vec(), place, distance });
         distance
     }
 
-    fn after_periods(&mut self, begin: Beginning<'_>, from: Simpler) -> Result<f64, MotionError> {
-        let Beginning { scaled, scales, phase, frequency_hz, period_multiple, parameter } = begin;
+    fn after_periods(&mut self, start: OrbitStart<'_>, from: Simpler) -> Result<f64, MotionError> {
+        let OrbitStart { scaled, scales, phase, frequency_hz, period_multiple, parameter } = start;
         if let Some((parameter, value)) = parameter {
             self.integrator.set_parameter(parameter, value)?;
         }

@@ -38,7 +38,7 @@ impl ShootingProblem {
         width
     }
 
-    /// All of them: `G_k d_k - d_{k+1} + g_k df`. The determinant is that of the condensed ones.
+    /// All of them: `G_k d_k - d_{k+1} + g_k df`. The condensed ones have the same determinant.
     pub(super) fn put_whole(&mut self, row: &[f64]) -> usize {
         let (size, m) = (self.node_size(), self.segments);
         let width = m * size + 1;

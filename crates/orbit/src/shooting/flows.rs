@@ -186,7 +186,7 @@ impl ShootingProblem {
         Err(NoEigenvalues)
     }
 
-    /// The point whose nodes lie this much later on the motion from those of another one [cycles].
+    /// The point whose nodes lie this much later on the motion from the nodes of another one [cycles].
     fn carried_nodes(&mut self, point: &[f64], offset: f64) -> Result<Vec<f64>, EvaluationError> {
         let frequency_hz = self.frequency(point);
         let mut nodes = self.nodes(point);

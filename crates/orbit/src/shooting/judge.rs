@@ -11,7 +11,7 @@ use hammerbeam_path::{
 
 use super::{
     ShootingProblem,
-    beside::{Beginning, Beside, KnownImages, Simpler},
+    beside::{Beside, KnownImages, OrbitStart, Simpler},
     carried::{Along, Carried},
 };
 use crate::{by_rows::norm, corner, stability};
@@ -21,7 +21,7 @@ const NEIMARK_SACKER: usize = 1;
 /// Distance of an orbit from its mirror image, relative to it, up to which it may be a symmetric one: of
 /// those that Newton's method finds the images lie nearer.
 const SYMMETRIC: f64 = 1e-5;
-/// Images that are known less well tell nothing.
+/// Images that are known less well are of no use.
 const MOST_MAGNIFIED: f64 = 1e3;
 
 impl Judge for ShootingProblem {
@@ -155,7 +155,7 @@ impl ShootingProblem {
     /// Distance of a point from simpler orbits by its motion; infinite where that cannot be computed.
     fn distance_by_motion(&mut self, point: &[f64], from: Simpler) -> f64 {
         let Ok(mut beside) = self.take_beside() else { return f64::INFINITY };
-        let begin = Beginning {
+        let start = OrbitStart {
             scaled: &point[..self.scale.values().len()],
             scales: self.scale.values(),
             phase: self.phase,
@@ -163,7 +163,7 @@ impl ShootingProblem {
             period_multiple: self.period_multiple,
             parameter: self.varied.parameter().map(|parameter| (parameter, point[point.len() - 1])),
         };
-        let distance = beside.distance(begin, from);
+        let distance = beside.distance(start, from);
         self.beside = Some(beside);
         self.length_per_norm * distance
     }
@@ -176,7 +176,7 @@ impl ShootingProblem {
         }
     }
 
-    /// The orbit and its tangent as they begin k excitation periods later; `None` where the motion cannot be
+    /// The orbit and its tangent as they start k excitation periods later; `None` where the motion cannot be
     /// computed, or parts by more than [`MOST_MAGNIFIED`] until then: then a branch may be stored again some
     /// periods later.
     fn image_by_periods(&mut self, k: usize, of: &Node) -> Option<Image> {

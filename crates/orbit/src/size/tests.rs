@@ -37,21 +37,21 @@ fn resting(phase: f64) -> (System, Response) {
     (System::new(model, &load, vec![stop]).unwrap(), Response { shape: vec![1.0], support_ratios: vec![0.0] })
 }
 
-struct Found {
+struct MeasuredStart {
     integrator: ExactIntegrator,
     orbit: PeriodicSolution,
     unit: StateScale,
 }
 
-fn found(phase: f64) -> Found {
+fn found(phase: f64) -> MeasuredStart {
     let (system, response) = resting(phase);
     let settings = OrbitSettings::default();
     let orbit = find_start(&system, &response, FREQUENCY_HZ, 1, &settings).unwrap();
     let unit = unit_scale(&system, FREQUENCY_HZ);
-    Found { integrator: integrator(&system, &response, &settings).unwrap(), orbit, unit }
+    MeasuredStart { integrator: integrator(&system, &response, &settings).unwrap(), orbit, unit }
 }
 
-impl Found {
+impl MeasuredStart {
     fn size(&mut self) -> f64 {
         Cut::of(&self.orbit).size(&mut self.integrator, &self.unit).unwrap()
     }
@@ -66,7 +66,7 @@ fn assert_near(found: f64, expected: f64, relative: f64) {
 /// of a motion that is thrown off its stop and comes back show: the eight states make the mean of the squares
 /// to about a fiftieth.
 #[test]
-fn size_does_not_depend_on_the_phase_at_which_an_orbit_begins() {
+fn size_does_not_depend_on_the_phase_at_which_an_orbit_starts() {
     let expected = found(0.0).size();
     for eighth in 1..8 {
         // Orbits are found to 1e-10 of their size.
@@ -109,8 +109,8 @@ fn size_does_not_depend_on_the_number_of_nodes() {
     let mut found = found(0.0);
     let expected = found.size();
     for segments in [2, 4, 8, 16] {
-        let begin = (found.orbit.phase, found.orbit.nodes[0].clone());
-        let nodes = nodes_from(&mut found.integrator, (begin.0, &begin.1), FREQUENCY_HZ, 1, segments);
+        let start = (found.orbit.phase, found.orbit.nodes[0].clone());
+        let nodes = nodes_from(&mut found.integrator, (start.0, &start.1), FREQUENCY_HZ, 1, segments);
         found.orbit.nodes = nodes.unwrap();
         // Sixteen states instead of eight, as above; else the same ones, to the accuracy of the motion.
         let tolerance = if segments > 8 { 0.02 } else { 1e-9 };

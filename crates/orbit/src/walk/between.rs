@@ -1,7 +1,7 @@
 //! Flips and Neimark-Sacker points that only the numbers of multipliers outside the unit circle show.
 //!
-//! The path keeps books of them from point to point, but not over its shortest steps; and a pair that leaves
-//! the circle and comes back within one step leaves no trace in them, where a row between the points
+//! The path counts them from point to point, but not over its shortest steps; and a pair that leaves the
+//! circle and comes back within one step leaves no trace in them, where a row between the points
 //! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ,
 //! although nothing happens at either that accounts for it, the place between is found by halving. Where the
 //! contacts change, multipliers may jump, and nothing is asked.
@@ -82,7 +82,7 @@ fn hidden_event(
 ) -> Result<Option<Between>, OrbitError> {
     let [mut near, mut far] = ends.map(ContinuationPoint::clone);
     let settings = path.settings_between();
-    // At an event the number is that of either side by rounding.
+    // At an event rounding decides for which side the number holds.
     let is_far_known = !far.events.any();
     let known = if is_far_known { &far } else { &near };
     if known.events.any() {
@@ -138,8 +138,8 @@ struct Way {
     change: usize,
 }
 
-/// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what
-/// so many more or fewer outside tell.
+/// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that does not follow
+/// from so many more or fewer outside.
 fn event_row(
     path: &mut OrbitPath,
     mut point: ContinuationPoint,
@@ -161,7 +161,7 @@ fn event_row(
         test_before(known, staying, is_pair),
         (&path.problem, point.correction_norm),
     );
-    let place = located::Place { at_corners, ..located::Place::reached(&point, approach) };
+    let place = located::EventLocation { at_corners, ..located::EventLocation::reached(&point, approach) };
     let located = located::describe(&mut path.problem, place);
     let row = BranchRow { located, ..row_at(path, &point)? };
     Ok(Some(Between { point, row }))

@@ -29,7 +29,7 @@ pub(super) fn chatters(system: &System, motion: &LastMotion) -> Option<(String, 
 fn impacts(system: &System, motion: &LastMotion) -> Vec<Vec<f64>> {
     let mut speeds = vec![Vec::new(); system.elements().len()];
     for impact in motion.impacts() {
-        speeds[impact.element].push(impact.begin.velocity.abs());
+        speeds[impact.element].push(impact.touch.velocity.abs());
     }
     speeds.into_iter().map(|once| once.repeat(2)).collect()
 }

@@ -12,7 +12,7 @@
 //! takes over: a kink at the share `u` shows as a change `c` of the chord's slope that was not to be
 //! expected, and makes an error of `u h c` at most.
 //!
-//! Where the sum may exceed [`ESTIMATED`], the orbit at the middle is solved and becomes a row. It tells the
+//! Where the sum may exceed [`ESTIMATED`], the orbit at the middle is solved and becomes a row. It gives the
 //! true error there, which for one kink is at least half the largest one; above [`MEASURED`] both halves are
 //! cut again.
 //!
@@ -36,7 +36,7 @@ use crate::{BranchRow, OrbitError};
 const ESTIMATED: f64 = 5e-4;
 /// Error in the middle, relative to `y`, from which on both halves are looked at.
 const MEASURED: f64 = 4e-4;
-/// Displacement to which errors are relative at least, over that of the motion.
+/// Displacement to which errors are relative at least, over the displacement of the motion.
 const LEAST: f64 = 1e-6;
 /// An interval is halved so often at most.
 const MOST_HALVINGS: u32 = 10;
@@ -106,7 +106,7 @@ impl RowRecord {
         };
         let middle = RowPlace::new(&point, row.solution.maxima.displacement);
         let least = self.least_displacement(path);
-        let is_missed = |&begin: &RowPlace| missed(begin, middle, end, least);
+        let is_missed = |&start: &RowPlace| missed(start, middle, end, least);
         let again = halvings > 0 && self.last_rows.0.last().is_some_and(is_missed);
         if again {
             self.halve(path, [from, &point], (middle, halvings - 1), rows)?;
@@ -120,11 +120,11 @@ impl RowRecord {
     }
 }
 
-/// Whether the straight line from begin to end misses the row between by too much; `least` is the
+/// Whether the straight line from start to end misses the row between by too much; `least` is the
 /// displacement to which that is relative at least.
-fn missed(begin: RowPlace, middle: RowPlace, end: RowPlace, least: f64) -> bool {
-    let share = (middle.frequency_hz - begin.frequency_hz) / (end.frequency_hz - begin.frequency_hz);
-    let line = begin.displacement + share * (end.displacement - begin.displacement);
+fn missed(start: RowPlace, middle: RowPlace, end: RowPlace, least: f64) -> bool {
+    let share = (middle.frequency_hz - start.frequency_hz) / (end.frequency_hz - start.frequency_hz);
+    let line = start.displacement + share * (end.displacement - start.displacement);
     let error = (middle.displacement - line).abs();
     error.is_nan() || error > MEASURED * middle.displacement.max(least)
 }

@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(end, Some(wanted));
     }
 
-    /// Steps of a millionth of the range are none that get on; those of a thousandth are.
+    /// Steps of a millionth of the range make no progress; steps of a thousandth do.
     #[test]
     fn a_side_ends_where_a_part_of_its_work_does_not_move_it() {
         for (step, ends) in [(1e-6, true), (1e-3, false)] {

@@ -7,9 +7,9 @@ use super::{
     growth::{end_at_mode, free_mode, has_no_losses, is_far_beyond_gaps},
     last_motion::LastMotion,
     orbit_path::OrbitPath,
+    reopening::reopens_here,
     row::largest_multiplier,
     shorter_period::is_near_shorter_period,
-    splits::splits_here,
     symmetric::has_come_to_symmetric,
     together::struck_together,
 };
@@ -70,13 +70,13 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         PathStop::RangeEnd => StopReason::RangeEnd { place },
         PathStop::Closed => StopReason::Closed,
         PathStop::StepTooShort { step, residual, doubt, .. } => {
-            splits_here(path, place).unwrap_or_else(|| {
+            reopens_here(path, place).unwrap_or_else(|| {
                 let doubt = doubt_in_unstable(path, doubt.to_string());
                 StopReason::StepTooShort { place, step, residual, doubt, has_no_losses }
             })
         }
         PathStop::NoProgress { steps, .. } => {
-            splits_here(path, place).unwrap_or_else(|| StopReason::NoProgress {
+            reopens_here(path, place).unwrap_or_else(|| StopReason::NoProgress {
                 place,
                 solutions: steps,
                 largest_multiplier: largest_multiplier(path),
@@ -88,7 +88,7 @@ pub(super) fn stop_reason(path: &mut OrbitPath, reason: PathStop) -> StopReason 
         }
         PathStop::EvaluationFailed { parameter, error, .. } => {
             let message = path.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
-            splits_here(path, place).unwrap_or(StopReason::Motion { place: parameter, message })
+            reopens_here(path, place).unwrap_or(StopReason::Motion { place: parameter, message })
         }
         PathStop::Budget => StopReason::Budget { solutions: path.follower.counters().accepted as usize },
     }

@@ -11,10 +11,10 @@
 //!   reached.
 //!
 //! At a part of an undamped eigenfrequency nothing resonates, but the mode vibrates freely besides: orbits of
-//! every amplitude and phase belong to one frequency, and a walk among them gets nowhere. It ends where the
-//! last points have the same parameter to rounding, and a mode has such a frequency. A branch with contacts
-//! may lead there, too, to free vibrations that just touch: so touches do not count here, since what presses
-//! would change the parameter.
+//! every amplitude and phase belong to one frequency, and a walk among them makes no progress. It ends where
+//! the last points have the same parameter to rounding, and a mode has such a frequency. A branch with
+//! contacts may lead there, too, to free vibrations that just touch: so touches do not count here, since what
+//! presses would change the parameter.
 //!
 //! Where nothing takes energy out of the motion, a branch may climb at a part of the frequency with which the
 //! structure vibrates in contact: the slope there goes like a power of the amplitude, and the parameter never

@@ -3,7 +3,7 @@
 //! Beside the flip an orbit of doubled period is one of half its period and a small part `d` that alternates.
 //! Its equations are singular there, and rounding can hold up the steps before the branch point is met. For
 //! the orbit of half the period the flip is a place like any other: `A - I` is regular, since the multiplier
-//! is -1. So a walk begins on that branch, at the mean of the two halves, which is `O(d^2)` away from it, and
+//! is -1. So a walk starts on that branch, at the mean of the two halves, which is `O(d^2)` away from it, and
 //! goes to both sides until a multiplier passes -1. The orbit there, run through twice, is the last one of
 //! the branch of doubled period.
 //!
@@ -29,7 +29,7 @@ use crate::{
 
 /// The flip lies no farther from the mean of the two halves than they from each other, since it goes with
 /// the square of that; or within this part of a longest step of the walk, if that is more: of halves that
-/// rounding alone tells apart the distance says little.
+/// differ by rounding alone the distance says little.
 const PART: f64 = 2e-3;
 /// Steps to each side, at most.
 const STEPS_TO_FLIP: usize = 16;
@@ -96,11 +96,11 @@ fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<(Br
     let nodes = if problem.segments().is_multiple_of(2) {
         [flip.nodes.as_slice(), &flip.nodes].concat()
     } else {
-        let begin = (problem.phase(), flip.nodes[0].as_slice());
+        let start = (problem.phase(), flip.nodes[0].as_slice());
         let (multiple, segments) = (problem.period_multiple(), problem.segments());
         problem.move_to(&flip.point.point)?;
         let frequency_hz = problem.frequency(&flip.point.point);
-        nodes_from(problem.integrator(), begin, frequency_hz, multiple, segments)?
+        nodes_from(problem.integrator(), start, frequency_hz, multiple, segments)?
     };
     // The branch arrives along the direction that alternates, as the present tangent nearly does.
     let last = ContinuationPoint {
@@ -116,7 +116,7 @@ fn row_of_flip(path: &mut OrbitPath, evaluations: &mut u64) -> Result<Option<(Br
     };
     evaluate(problem, &last.point)?;
     *evaluations += 1;
-    let located = located::describe(problem, located::Place::alone(&last, Some(flip.uncertainty)));
+    let located = located::describe(problem, located::EventLocation::alone(&last, Some(flip.uncertainty)));
     Ok(Some((BranchRow { located, ..row_at(path, &last)? }, flip.grazes)))
 }
 
@@ -149,8 +149,8 @@ fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
     let frequency_hz = problem.frequency(present);
     let mut nodes = problem.nodes(present);
     if !segments.is_multiple_of(2) {
-        let begin = (problem.phase(), nodes[0].as_slice());
-        nodes = nodes_from(problem.integrator(), begin, frequency_hz, multiple, 2)?;
+        let start = (problem.phase(), nodes[0].as_slice());
+        nodes = nodes_from(problem.integrator(), start, frequency_hz, multiple, 2)?;
     }
     let later = nodes.split_off(nodes.len() / 2);
     let (scale, length) = (problem.scale().clone(), problem.length_per_norm());
@@ -161,7 +161,7 @@ fn half_orbit(path: &mut OrbitPath) -> Result<Option<Half>, OrbitError> {
     }
     let integrator = ExactIntegrator::new(problem.system().clone(), problem.integrator().settings())?;
     let cut = (multiple / 2, nodes.len());
-    let mut half = ShootingProblem::new(integrator, cut, scale, length).beginning_at(problem.phase());
+    let mut half = ShootingProblem::new(integrator, cut, scale, length).starting_at(problem.phase());
     half.watch_stability();
     half.vary(problem.varied())?;
     let mean = half.point(&nodes, present[present.len() - 1]);
@@ -206,7 +206,7 @@ fn flip_ahead(
         }
         let is_smooth = !point.events.corner && follower.passed_corner().is_none();
         let approach = located::Approach::of(&follower, problem, point);
-        let located = located::describe(problem, located::Place::reached(point, approach))?;
+        let located = located::describe(problem, located::EventLocation::reached(point, approach))?;
         let off = located.multiplier.map_or(f64::INFINITY, |[re, im]| (1.0 + re).hypot(im));
         let is_flip = is_near && is_smooth && off <= located::SHARP_MULTIPLIER;
         return is_flip.then(|| Flip {
@@ -271,7 +271,7 @@ mod tests {
         }
     }
 
-    /// An orbit run through twice alternates nowhere; where it flips far away there is no end.
+    /// An orbit run through twice does not alternate; where it flips far away there is no end.
     #[test]
     fn a_flip_far_away_is_none() {
         let settings = OrbitSettings { max_step: 0.001, ..OrbitSettings::default() };

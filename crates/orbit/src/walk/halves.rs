@@ -7,11 +7,11 @@
 //! `1/v` of all touches, so an orbit of several slow impacts is better cut, too, and if two segments are not
 //! enough, each of them again.
 //!
-//! The phases at which a cut orbit begins and is cut must all be clear of impacts. Where an impact comes
-//! near one of them all segments begin later (`recut.rs`); where that cannot be, or there is no longer more
-//! than one impact, each two segments are joined, and a single one may begin elsewhere. An orbit with an
+//! The phases at which a cut orbit starts and is cut must all be clear of impacts. Where an impact comes near
+//! one of them all segments start later (`start_phase.rs`). Where that cannot be, or there is no longer more
+//! than one impact, each two segments are joined, and a single one may start elsewhere. An orbit with an
 //! impact near the ends of its new segments, as behind the corner of two stops, is cut elsewhere
-//! (`recut.rs`). A branch of doubled period begins with twice the segments of the orbit that it leaves.
+//! (`start_phase.rs`). A branch of doubled period starts with twice the segments of the orbit that it leaves.
 
 use hammerbeam_path::{ContinuationPoint, Node};
 
@@ -28,8 +28,8 @@ pub(super) fn cut_in_halves(path: &mut OrbitPath) -> bool {
     let Ok(current) = refine(problem, follower.current(), 2) else {
         return false;
     };
-    let begun = Some(&follower.state().start).filter(|_| follower.state().has_start());
-    let start = begun.and_then(|start| refine(problem, start, 2).ok());
+    let started = Some(&follower.state().start).filter(|_| follower.state().has_start());
+    let start = started.and_then(|start| refine(problem, start, 2).ok());
     let segments = 2 * path.problem.segments();
     go_on_with(path, segments, &current, start.as_ref())
 }
@@ -46,7 +46,7 @@ pub(super) fn join_segments(path: &mut OrbitPath) -> bool {
     go_on_with(path, segments / joined, &current, start.as_ref())
 }
 
-/// By how much later the present orbit would have to begin for the ends of so many segments to be clear of
+/// By how much later the present orbit would have to start for the ends of so many segments to be clear of
 /// impacts [cycles]; zero if they are. None where it has a single impact, for which more than one segment is
 /// of no use, where impacts leave next to no time for the ends of more than two, or where it cannot be
 /// followed.

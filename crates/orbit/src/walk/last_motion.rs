@@ -18,11 +18,11 @@ pub(super) struct Impact<'m> {
     pub frequency_hz: f64,
     /// Of the excitation [cycles].
     pub phase: f64,
-    pub begin: &'m Touchdown,
+    pub touch: &'m Touchdown,
 }
 
 impl LastMotion {
-    /// That of the present point; `None` if it cannot be computed.
+    /// The motion of the present point; `None` if it cannot be computed.
     pub fn of(path: &mut OrbitPath) -> Option<Self> {
         let OrbitPath { problem, follower, .. } = path;
         let point = &follower.current().point;
@@ -41,13 +41,13 @@ impl LastMotion {
     pub fn impacts(&self) -> impl Iterator<Item = Impact<'_>> {
         self.segments.iter().flat_map(|(stretch, contacts)| {
             contacts.iter().filter(|contact| contact.jump.is_some()).filter_map(|contact| {
-                let begin = contact.begin.as_ref()?;
+                let touch = contact.begin.as_ref()?;
                 let (element, frequency_hz) = (contact.element, stretch.frequency_hz);
                 Some(Impact {
                     element,
                     frequency_hz,
-                    phase: stretch.start + begin.time * frequency_hz,
-                    begin,
+                    phase: stretch.start + touch.time * frequency_hz,
+                    touch,
                 })
             })
         })

@@ -2,7 +2,7 @@
 
 use hammerbeam_path::ContinuationPoint;
 
-/// Rows before the interval that the estimate uses, the beginning of the interval included.
+/// Rows before the interval that the estimate uses, the start of the interval included.
 const KEPT: usize = 3;
 /// Rows closer than this share of the next interval are left out of the estimate: rounding of `y` shows in
 /// their chords.
@@ -60,12 +60,12 @@ impl LastRows {
     /// * `slopes`: `df/ds` at both.
     pub fn estimate(&self, end: RowPlace, slopes: [f64; 2], least: f64) -> f64 {
         let chain = self.with(end);
-        let [.., begin, _] = chain[..] else { return 0.0 };
-        let (h, rise) = (end.arc_length - begin.arc_length, end.displacement - begin.displacement);
-        let size = begin.displacement.min(end.displacement).max(least);
+        let [.., start, _] = chain[..] else { return 0.0 };
+        let (h, rise) = (end.arc_length - start.arc_length, end.displacement - start.displacement);
+        let size = start.displacement.min(end.displacement).max(least);
         let Some(newest) = chain.last_chunk().map(divided_difference) else { return rise.abs() / size };
         let earlier = chain[..chain.len() - 1].last_chunk().map_or(0.0, divided_difference);
-        let bend = bend(begin, end, slopes);
+        let bend = bend(start, end, slopes);
         let error = |u: f64, sag: f64| (sag * h * h * u * (1.0 - u) + rise * bend(u)).abs();
         let shares = (1..8).map(|k| f64::from(k) / 8.0);
         let smooth = shares.fold(0.0_f64, |worst, u| worst.max(error(u, newest)).max(error(u, earlier)));
@@ -82,9 +82,9 @@ fn divided_difference(places: &[RowPlace; 3]) -> f64 {
 }
 
 /// `(f(u) - f_a)/(f_b - f_a) - u` of the cubic Hermite polynomial, as a function of the share u.
-fn bend(begin: RowPlace, end: RowPlace, slopes: [f64; 2]) -> impl Fn(f64) -> f64 {
-    let h = end.arc_length - begin.arc_length;
-    let rise = end.frequency_hz - begin.frequency_hz;
+fn bend(start: RowPlace, end: RowPlace, slopes: [f64; 2]) -> impl Fn(f64) -> f64 {
+    let h = end.arc_length - start.arc_length;
+    let rise = end.frequency_hz - start.frequency_hz;
     move |u| {
         let v = 1.0 - u;
         let cubic = u * v * ((v - u) * -rise + h * (v * slopes[0] - u * slopes[1]));

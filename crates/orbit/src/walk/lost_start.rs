@@ -1,16 +1,16 @@
 //! A loop that comes back to a start which its follower no longer holds, or no longer knows well enough.
 //!
-//! Where the orbits of a walk come to begin at another phase, or are cut elsewhere (`recut.rs`), the start is
-//! an orbit of other unknowns. It is brought along if its motion allows that; but where it does not, or where
-//! motions part so fast that what was brought along is another orbit, the loop would be walked again and
-//! again. So each step over the parameter of the start, in the direction in which the walk began,
-//! ends at the orbit there if that is the start: if its motion comes to the state with which the walk began,
-//! at that phase or whole excitation periods later.
+//! Where the orbits of a walk come to start at another phase, or are cut elsewhere (`start_phase.rs`), the
+//! start of the walk is an orbit of other unknowns. It is brought along if its motion allows that. Where it
+//! does not, or where motions part so fast that what was brought along is another orbit, the loop would be
+//! walked again and again. So each step over the parameter of the start, in the direction in which the walk
+//! began, ends at the orbit there if that is the start: if its motion comes to the state with which the walk
+//! began, at that phase or whole excitation periods later.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, PathEvents, PathProblem, distance};
 
-use super::{orbit_path::OrbitPath, splits::along_tangent};
+use super::{orbit_path::OrbitPath, reopening::along_tangent};
 use crate::{
     OrbitError, OrbitSettings,
     solve::{correct, evaluate},
@@ -79,8 +79,8 @@ fn is_start(path: &mut OrbitPath, start: &[f64], there: &ContinuationPoint) -> b
     (0..problem.period_multiple()).any(|periods| {
         let later = (phase + f64::from(periods) - problem.phase()).rem_euclid(cycles);
         let node = ((later / part) as usize).min(nodes.len() - 1);
-        let begin = problem.phase() + node as f64 * part;
-        let stretch = Stretch { frequency_hz, start: begin, end: problem.phase() + later };
+        let start = problem.phase() + node as f64 * part;
+        let stretch = Stretch { frequency_hz, start, end: problem.phase() + later };
         let state = match stretch.end > stretch.start {
             true => problem.integrator().advance(&stretch, &nodes[node]),
             false => Ok(nodes[node].clone()),

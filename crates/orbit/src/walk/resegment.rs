@@ -1,14 +1,14 @@
 //! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
-//! Where nodes have to keep clear of impacts on rigid stops each segment becomes two (`halves.rs`), and those
-//! of laws that remember how a contact began are not cut.
+//! Where nodes have to keep clear of impacts on rigid stops each segment becomes two (`halves.rs`), and
+//! orbits with impact-speed-dependent laws are not cut.
 //!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k +
 //! dZ/df t_f`. The present point and the start of the walk are cut anew, and the follower goes on in the new
 //! unknowns with all that it knows: a loop still closes at its start. Neither the orientation of the path nor
 //! its memory, which holds first nodes alone, depends on the number of segments.
 
-use super::{orbit_path::OrbitPath, recut::halve, refine::refine};
-use crate::{OrbitError, cut::begins_with_care};
+use super::{orbit_path::OrbitPath, refine::refine, start_phase::halve};
+use crate::{OrbitError, cut::must_start_off_contacts};
 
 /// Segments become this many times as many,
 const FACTOR: usize = 4;
@@ -20,7 +20,7 @@ const MOST: usize = 64;
 pub(super) fn resegment(path: &mut OrbitPath) -> Result<bool, OrbitError> {
     let OrbitPath { problem, follower, .. } = path;
     let segments = problem.segments();
-    if begins_with_care(problem.system()) {
+    if must_start_off_contacts(problem.system()) {
         return Ok(halve(path));
     }
     if segments * FACTOR > MOST {

@@ -42,15 +42,15 @@ impl RowRecord {
             current.events.zeros &= !2;
         }
         let settings = path.follower.settings();
-        // Beside a rigid stop speeds that the tolerance leaves are no longer told from none.
+        // Beside a rigid stop speeds that the tolerance leaves are no longer distinguished from none.
         let at_corners =
             if path.problem.has_root_corners() { settings.correction_tolerance } else { settings.min_step };
         let approach = located::Approach::of(&path.follower, &path.problem, &current);
-        let place = located::Place {
+        let place = located::EventLocation {
             at_corners,
             contacts: self.contact_changes(path),
             computed: path.follower.passed_corner().map(|corner| corner.uncertainty),
-            ..located::Place::reached(&current, approach)
+            ..located::EventLocation::reached(&current, approach)
         };
         let located = located::describe(&mut path.problem, place);
         Ok(BranchRow { located, ..row_at(path, &current)? })
@@ -69,8 +69,8 @@ impl RowRecord {
         self.touches.extend_from_slice(path.problem.touches());
     }
 
-    /// The row of the present point, at which the problem was evaluated last, and before it that of a corner
-    /// that was computed and lies between it and the point before: what happened did so there.
+    /// The row of the present point, at which the problem was evaluated last, and before it the row of a
+    /// corner that was computed and lies between it and the point before: what happened did so there.
     pub fn rows_here(&mut self, path: &mut OrbitPath) -> Result<(Option<BranchRow>, BranchRow), OrbitError> {
         let passed = path.follower.passed_corner().filter(|corner| !corner.is_accepted).cloned();
         let Some(corner) = passed else { return Ok((None, self.row(path)?)) };
@@ -79,8 +79,10 @@ impl RowRecord {
         evaluate(&mut path.problem, &corner.beside)?;
         let correction_norm = correction_due(path, &current.tangent);
         let at_corner = ContinuationPoint { point: corner.beside, correction_norm, ..current.clone() };
-        let place =
-            located::Place { contacts, ..located::Place::alone(&at_corner, Some(corner.uncertainty)) };
+        let place = located::EventLocation {
+            contacts,
+            ..located::EventLocation::alone(&at_corner, Some(corner.uncertainty))
+        };
         let located = located::describe(&mut path.problem, place);
         let first = BranchRow { located, ..row_at(path, &at_corner)? };
         evaluate(&mut path.problem, &current.point)?;
@@ -119,7 +121,7 @@ fn correction_due(path: &mut OrbitPath, direction: &[f64]) -> f64 {
 fn pair_becomes_real(path: &mut OrbitPath, point: &ContinuationPoint) -> Result<bool, OrbitError> {
     // At a corner multipliers jump, also from inside the circle to far outside.
     let is_smooth = !point.events.corner && !point.events.signature_change;
-    // Pairs that stay on the circle, as some do without damping, cross it nowhere.
+    // Pairs that stay on the circle, as some do without damping, do not cross it.
     let left_out = path.follower.tests().before.get(1).map_or(0, |test| test.left_out);
     let multipliers = stability::without_pairs(path.problem.spectrum()?, left_out);
     Ok(is_smooth && stability::pair_turns_real(&multipliers)

@@ -90,7 +90,7 @@ pub(super) fn is_near_shorter_period(path: &mut OrbitPath) -> bool {
 }
 
 /// Whether the present orbit is one of shorter period: by its motion, or, beside a grazing impact, behind
-/// which motions part so fast that its own does not tell, by its nodes, each of which Newton's method has
+/// which motions part so fast that its own does not decide, by its nodes, each of which Newton's method has
 /// found.
 fn is_one_of_shorter_period(path: &mut OrbitPath) -> bool {
     let by_motion = distance_to_shorter_period(path);

@@ -7,10 +7,10 @@ use super::{
     end::{end_of_path, stop_reason},
     half_orbit::end_in_flip,
     lost_start::passed_lost_start,
-    recut::{flee_phase, keep_phase_clear},
+    reopening::{Departure, comes_to_reopening, is_lost_at_reopening, may_reopen, tends_to_reopening, work},
     resegment::resegment,
     shorter_period::{grazes_shorter_period, meets_shorter_period},
-    splits::{Departure, comes_to_splitting, is_lost_at_splitting, may_split, tends_to_splitting, work},
+    start_phase::{flee_phase, keep_phase_clear},
     symmetric::has_come_to_symmetric,
 };
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
@@ -21,11 +21,11 @@ const OUTGROWN: f64 = 4.0;
 /// At every so many accepted points the motion is gone through for its size.
 const LOOK: u64 = 16;
 
-/// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more
+/// Growth over a segment, as far as the largest multiplier shows, from which on the orbit is cut into more
 /// segments. A segment of 3e6 makes steps of a millionth of a hertz.
 const MOST_GROWTH: f64 = 1e4;
 
-/// So often a step that fails is tried again with orbits that begin at another phase.
+/// So often a step that fails is tried again with orbits that start at another phase.
 const MOST_FLIGHTS: u32 = 3;
 
 impl BranchWalk {
@@ -39,7 +39,7 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
-        if std::mem::take(&mut self.begins_with_present) {
+        if std::mem::take(&mut self.starts_with_present) {
             evaluate(&mut self.path.problem, &self.path.follower.current().point)?;
             rows.push(self.record.row(&mut self.path)?);
             return Ok(None);
@@ -54,9 +54,9 @@ impl BranchWalk {
             return end_in_flip(&mut self.path, &mut self.record, end, rows).map(Some);
         }
         let Self { path, record, .. } = self;
-        if let Some((last, splits)) = comes_to_splitting(path, record, &departure, &from)? {
+        if let Some((last, reopening)) = comes_to_reopening(path, record, &departure, &from)? {
             record.append_last(path, [&from, &last], rows)?;
-            return Ok(Some(splits));
+            return Ok(Some(reopening));
         }
         if let Some(start) = passed_lost_start(path, &from)? {
             record.append_last(path, [&from, &start], rows)?;
@@ -82,8 +82,8 @@ impl BranchWalk {
             Err(error) => return Err(error),
         };
         let largest = row.solution.largest_multiplier();
-        if let Some(splits) = is_lost_at_splitting(path, departure, largest)? {
-            return Ok(Some(splits));
+        if let Some(reopening) = is_lost_at_reopening(path, departure, largest)? {
+            return Ok(Some(reopening));
         }
         if let Some(at_corner) = at_corner.as_ref().filter(|_| grazes_shorter_period(path)) {
             let place = at_corner.parameter.unwrap_or(at_corner.solution.frequency_hz);
@@ -116,8 +116,8 @@ impl BranchWalk {
             return Ok(Some(stop_reason(&mut self.path, reason)));
         }
         let Self { path, record, .. } = self;
-        if let Some((_, splits)) = comes_to_splitting(path, record, &departure, &from)? {
-            return Ok(Some(splits));
+        if let Some((_, reopening)) = comes_to_reopening(path, record, &departure, &from)? {
+            return Ok(Some(reopening));
         }
         if passed_lost_start(path, &from)?.is_some() {
             return Ok(Some(StopReason::Closed));
@@ -132,10 +132,10 @@ impl BranchWalk {
     /// Makes ready to leave the present point; or why the walk ends there.
     fn depart(&mut self) -> Result<Departure, StopReason> {
         let path = &mut self.path;
-        if let Some(end) = meets_shorter_period(path).or_else(|| tends_to_splitting(path)) {
+        if let Some(end) = meets_shorter_period(path).or_else(|| tends_to_reopening(path)) {
             return Err(end);
         }
-        let place = may_split(path);
+        let place = may_reopen(path);
         let evaluations = self.evaluations();
         let used_up = self.effort.end_of(&self.path, evaluations);
         if let Some(end) = used_up.or_else(|| self.keep_to_scale()) {
@@ -185,7 +185,7 @@ impl BranchWalk {
     /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself
     /// decides, at every [`LOOK`]th point, or where the nodes have outgrown the units, and then the orbit
     /// with them. Points are counted in the checkpoint. Displacements are measured beside velocities as the
-    /// present frequency asks: with those of a fast orbit a slow one would be known too coarsely.
+    /// present frequency asks: with the units of a fast orbit a slow one would be known too coarsely.
     ///
     /// # Returns
     /// Why the walk ends, if its amplitude has no bound.

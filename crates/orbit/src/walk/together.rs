@@ -43,9 +43,9 @@ fn is_struck_with(system: &System, impact: &Impact<'_>, other: usize) -> bool {
         return false;
     }
     let [r, velocity, _] =
-        system.relative_motion(other, impact.frequency_hz, impact.phase, &impact.begin.state);
+        system.relative_motion(other, impact.frequency_hz, impact.phase, &impact.touch.state);
     // One that was struck just before leaves.
-    let (one, two) = (impact.begin.velocity.abs(), velocity.abs());
+    let (one, two) = (impact.touch.velocity.abs(), velocity.abs());
     let cycles = (stop.level() - r) / velocity * impact.frequency_hz;
     one.min(two) > SLOWER * one.max(two) && cycles.abs() < AT_ONE_INSTANT
 }

@@ -97,9 +97,9 @@ impl Bilinear {
         [rest + size * (re * cosine + im * sine), size * omega * (im * cosine - re * sine)]
     }
 
-    /// State a time after a state at `begin` in a region.
-    fn moved(self, stiffness: f64, omega: f64, (begin, time): (f64, f64), state: [f64; 2]) -> [f64; 2] {
-        let [before, after] = [begin, begin + time].map(|time| self.steady(stiffness, omega, time));
+    /// State a time after a state at `start` in a region.
+    fn moved(self, stiffness: f64, omega: f64, (start, time): (f64, f64), state: [f64; 2]) -> [f64; 2] {
+        let [before, after] = [start, start + time].map(|time| self.steady(stiffness, omega, time));
         let e = exponential(stiffness, time);
         let free = [state[0] - before[0], state[1] - before[1]];
         [0, 1].map(|i| after[i] + e[i][0] * free[0] + e[i][1] * free[1])

@@ -1,5 +1,5 @@
 //! Oscillators that do not touch each other, as one system, of which the solver knows no better: its
-//! multipliers are those of all of them.
+//! multipliers are the multipliers of all of them.
 
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};

@@ -128,7 +128,7 @@ impl Attempt<'_> {
         progress(&self.frame.weights, &base.tangent, &node.point, &base.point)
     }
 
-    /// Whether the signature of the trial differs from that of the point before.
+    /// Whether the trial has another signature than the point before.
     pub fn changes_signature(&self) -> bool {
         self.trial.signature != self.state.current.signature
     }

@@ -5,7 +5,7 @@
 //! `D` itself. So a search that ends at `|D| = 0` knows the place to about the root of `r`. Beside it, at
 //! `±w` and `±2w` with `w` a fiftieth of the step, points are sharp and `D` is smooth: the cubic polynomial
 //! of the path's length over `D` through these four gives the length at `D = 0`, the Hermite polynomial
-//! through the inner two the point. The quadratic polynomial through three of them tells how far that can be
+//! through the inner two the point. The quadratic polynomial through three of them shows how far that can be
 //! trusted. Where the step is so long that this point is not on the path, a quarter of `w` serves, with less
 //! than a hundredth of the error.
 
@@ -19,7 +19,7 @@ use crate::{
 const ASIDES: [f64; 2] = [0.02, 0.005];
 
 /// Makes the probe, evaluated last, the branch point at this share of the step; returns the arc length within
-/// which it lies. If points beside it do not tell, the probe stays where it was.
+/// which it lies. If points beside it do not decide, the probe stays where it was.
 pub(super) fn sharpen(attempt: &mut Attempt<'_>, locator: &mut Locator, share: f64) -> f64 {
     let found = locator.probe.clone();
     for aside in ASIDES {

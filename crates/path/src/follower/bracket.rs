@@ -43,8 +43,8 @@ impl Bracket {
         (value.abs() / self.slope().max(f64::MIN_POSITIVE)).min(self.width())
     }
 
-    /// Whether no probe had the sign of the beginning.
-    pub fn begins_at_start(&self) -> bool {
+    /// Whether no probe had the sign of the start.
+    pub fn is_open_at_start(&self) -> bool {
         self.low.0 == 0.0
     }
 

@@ -1,7 +1,7 @@
 //! Locating a branch point: the zero of `D = det [R_x R_λ; (W t)ᵀ]` on the way to the trial.
 //!
 //! A jump to a sheet that runs the other way also changes the sign of `D`, but there `D` has no zero between:
-//! the bracket shrinks and `|D|` does not. That tells the two apart.
+//! the bracket shrinks and `|D|` does not. This distinguishes the two.
 
 use super::{arrival::Arrival, attempt::Attempt, beside, bracket::Bracket, locator::Locator};
 use crate::{
@@ -91,7 +91,7 @@ fn jumps(attempt: &Attempt<'_>, locator: &Locator, smallness: f64) -> bool {
     smallness > SHARP.max(JUMP_SIZE * (own - before.max(behind)).exp())
 }
 
-/// The matrix could not even be factorised: the probe lies on the branch point as far as numbers tell.
+/// The matrix could not even be factorised: the probe lies on the branch point as far as the numbers show.
 fn exactly_singular(
     attempt: &Attempt<'_>,
     locator: &mut Locator,
@@ -140,7 +140,7 @@ pub(super) fn meets_simpler(attempt: &mut Attempt<'_>, point: &[f64], near: f64)
     attempt.problem.judge().distance_to_simpler(point) < near
 }
 
-/// At a branch point the direction from the factorisation is that of no branch; both ends of the step have
+/// At a branch point the direction from the factorisation belongs to no branch; both ends of the step have
 /// one.
 fn interpolate_tangent(attempt: &Attempt<'_>, locator: &mut Locator, share: f64) {
     let (base, node) = (attempt.state.base(), &attempt.trial.node);

@@ -9,7 +9,7 @@
 //! to the new tangent. The corner is where both straight lines meet, or where the probe comes to when it is
 //! moved back towards there.
 
-use super::{arrival::Arrival, attempt::Attempt, finding::turned, locator::Locator};
+use super::{arrival::Arrival, assessment::turned, attempt::Attempt, locator::Locator};
 use crate::{
     corrector::{CorrectorError, Limits},
     error::StepDoubt,
@@ -72,7 +72,7 @@ fn step_behind_corner(attempt: &mut Attempt<'_>, length: f64, advance: f64) -> R
     correct_behind_corner(attempt, &direction, limits)
 }
 
-/// Corrects the trial with the present border; its tangent must be about that of the probe.
+/// Corrects the trial with the present border; its tangent must nearly agree with the tangent of the probe.
 pub(super) fn correct_behind_corner(
     attempt: &mut Attempt<'_>,
     direction: &[f64],
@@ -172,7 +172,7 @@ pub(super) fn arrive_behind_corner(attempt: &mut Attempt<'_>) -> Result<Arrival,
     Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
 }
 
-/// Whether the tangent of the trial differs from that of its base by more than a step may turn.
+/// Whether the tangent of the trial is turned against the tangent of its base by more than a step may turn.
 fn turns(attempt: &Attempt<'_>) -> bool {
     let (base, trial) = (attempt.state.base(), &attempt.trial.node);
     let cosine = product(&attempt.frame.weights, &base.tangent, &trial.tangent);
@@ -199,8 +199,8 @@ fn evaluate_corner(
     Ok(())
 }
 
-/// On the corner the matrix may be that of either side: a border for both is the sum of their tangents,
-/// unless they are nearly opposite; then either serves.
+/// On the corner the matrix may belong to either side: a border for both is the sum of their tangents, unless
+/// they are nearly opposite; then either serves.
 fn border_both_sides(attempt: &mut Attempt<'_>) {
     let (weights, base) = (&attempt.frame.weights, attempt.state.base());
     if product(weights, &base.tangent, &attempt.trial.node.tangent) < -0.5 {

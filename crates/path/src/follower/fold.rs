@@ -2,9 +2,9 @@
 
 use super::{
     arrival::Arrival,
+    assessment::parameter_slope,
     attempt::Attempt,
     bracket::Bracket,
-    finding::parameter_slope,
     locator::{Locator, Probing},
 };
 use crate::error::StepDoubt;

@@ -1,6 +1,6 @@
 //! Folds beside a simpler path, at which the sign of the slope says nothing yet.
 //!
-//! There a slope that has changed its sign may be rounding (`turned` in `finding.rs`), and where it no
+//! There a slope that has changed its sign may be rounding (`turned` in `assessment.rs`), and where it no
 //! longer can be, some points later, the fold is passed. So a step at whose end the sign is another one
 //! but not beyond doubt is decided by what comes: the path is followed on, without its memory, until the
 //! parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old
@@ -8,7 +8,7 @@
 
 use super::{
     Follower, StepOutcome,
-    finding::{BESIDE, ROUNDED},
+    assessment::{BESIDE, ROUNDED},
 };
 use crate::{corrector::CorrectorError, error::StepDoubt, problem::PathProblem, settings::Settings};
 

@@ -6,13 +6,14 @@
 //! | a try | in |
 //! |---|---|
 //! | predicted, corrected | `attempt.rs` |
-//! | judged: what lies between, or in doubt | `finding.rs`, `simpler.rs`, `outside.rs`, `hidden_zeros.rs` |
+//! | assessed: what lies between, or doubt | `assessment.rs`, `simpler.rs`, `outside.rs`, `hidden_zeros.rs` |
 //! | ends at an event on its way | `fold.rs`, `branch_point.rs` with `beside.rs`, `zero.rs`, `change.rs` |
 //! | ends at an end of the branch | `range_end.rs`, `closing.rs` |
 //! | turns a corner, where no step is short enough | `corner.rs`, `known_corner.rs`, `root_corner.rs` |
-//! | passes another such place | `recut.rs`, `leap.rs` |
+//! | passes another such place | `sign_jump.rs`, `jump_over.rs` |
 
 mod arrival;
+mod assessment;
 mod attempt;
 mod beside;
 mod bracket;
@@ -21,17 +22,16 @@ mod change;
 mod closing;
 mod corner;
 mod direction;
-mod finding;
 mod fold;
 mod hidden_zeros;
+mod jump_over;
 mod known_corner;
-mod leap;
 mod locator;
 mod look_ahead;
 mod outside;
 mod range_end;
-mod recut;
 mod root_corner;
+mod sign_jump;
 mod simpler;
 mod start;
 mod step_control;
@@ -58,20 +58,20 @@ use crate::{
     test_record::TestRecord,
 };
 use arrival::Arrival;
+use assessment::StepAssessment;
 use attempt::{Attempt, Frame};
 use branch_point::arrive_at_branch_point;
 use change::arrive_at_change;
 use closing::arrive_at_start;
 use corner::turn_corner;
-use finding::Finding;
 use fold::arrive_at_fold;
+use jump_over::jump_over;
 use known_corner::{Looks, turn_known_corner};
-use leap::leap;
 use locator::Locator;
 use outside::check_outside;
 use range_end::arrive_at_end;
-use recut::pass_recut;
 use root_corner::turn_root_corner;
+use sign_jump::pass_sign_jump;
 use simpler::check_simpler;
 use step_control::{Accepted, Attempts, next_step};
 use zero::{stop_at_zeros, zeros_at_once};
@@ -309,22 +309,22 @@ impl Follower {
         if !attempt.is_in_range() {
             return arrive_at_end(&mut attempt, attempts.most_earlier);
         }
-        let mut finding = finding::find(&mut attempt, locator)?;
-        let turns = finding == Finding::Regular && self.turns_for_good(problem)?;
+        let mut assessment = assessment::assess(&mut attempt, locator)?;
+        let turns = assessment == StepAssessment::Regular && self.turns_for_good(problem)?;
         let has_gone = turns && self.has_gone_its_way();
         if has_gone {
-            finding = Finding::Fold;
+            assessment = StepAssessment::Fold;
         }
         let parameter_sign = (turns && !has_gone).then(|| -self.state.parameter_sign);
         let (mut attempt, locator) = self.attempt(problem, attempts.step);
-        let arrival = match finding {
-            Finding::Regular if attempt.changes_signature() => {
+        let arrival = match assessment {
+            StepAssessment::Regular if attempt.changes_signature() => {
                 arrive_at_change(&mut attempt, locator, earlier)
             }
-            Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
-            Finding::Closing(image) => arrive_at_start(&mut attempt, locator, image),
-            Finding::Fold => arrive_at_fold(&mut attempt, locator),
-            Finding::Reversed => arrive_at_branch_point(&mut attempt, locator),
+            StepAssessment::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
+            StepAssessment::Closing(image) => arrive_at_start(&mut attempt, locator, image),
+            StepAssessment::Fold => arrive_at_fold(&mut attempt, locator),
+            StepAssessment::Reversed => arrive_at_branch_point(&mut attempt, locator),
         }?;
         Ok(Arrival { parameter_sign: arrival.parameter_sign.or(parameter_sign), ..arrival })
     }
@@ -351,16 +351,16 @@ impl Follower {
         Ok((arrival, turned.length))
     }
 
-    /// What is left when the shortest step is still in doubt: a corner, other equations on the same path, or
-    /// a place that is known less well.
+    /// What remains to be tried when the shortest step is still in doubt: a corner, other equations on the
+    /// same path, or a place that is known less well.
     fn pass_by_force(&mut self, problem: &mut dyn PathProblem, step: f64) -> Option<(Arrival, f64)> {
         let (mut attempt, locator) = self.attempt(problem, step);
         let attempt = &mut attempt;
         let (arrival, length) = turn_root_corner(attempt, locator)
             .or_else(|_| turn_corner(attempt, locator))
             .and_then(|(arrival, length)| Ok((check_simpler(attempt, arrival)?, length)))
-            .or_else(|_| pass_recut(attempt))
-            .or_else(|_| leap(attempt))
+            .or_else(|_| pass_sign_jump(attempt))
+            .or_else(|_| jump_over(attempt))
             .ok()?;
         Some((zeros_at_once(attempt, arrival), length))
     }

@@ -1,6 +1,6 @@
 //! The end of the range: the last point is solved with the parameter fixed there.
 
-use super::{arrival::Arrival, attempt::Attempt, finding::check_defect};
+use super::{arrival::Arrival, assessment::check_defect, attempt::Attempt};
 use crate::{
     corrector::Limits,
     error::{PathStop, StepDoubt},

@@ -8,7 +8,7 @@
 //!
 //! **Onto the root.** The old tangent `t` (`J⁰ t = 0`, `g · t > 0`) leads through the surface. At the
 //! distance s behind it `R` is b, in units of ν in which `ν = 1` there, so `g · t = 1/(2 s)`. A second place,
-//! four times as far, tells where exactly the surface is. With x so that `J⁰ x = b`, normal to t, and `g · x`
+//! four times as far, shows where exactly the surface is. With x so that `J⁰ x = b`, normal to t, and `g · x`
 //! from what a displacement along x does to ν, `w = −x + 2 s (g · x) t`. A guess at the distance h along w is
 //! moved along t until R has no component along b any more, that is, until ν fits; from there Newton's method
 //! converges, since what it has to change of ν is of the order `h²`.

@@ -3,9 +3,9 @@
 //!
 //! The judge knows the distance `d` of a point from it. On the path `d` is as smooth as the path and zero
 //! at branch points alone; after a jump it is what Newton's method left. A step in which `d` falls to a
-//! hundredth, or to where it cannot be told from zero, is in doubt. A step that ends so close to a branch
-//! point by chance is in doubt as well, which does no harm: of a hundred steps over a branch point one is
-//! halved, and the halves are beyond doubt.
+//! hundredth, or to where it cannot be distinguished from zero, is in doubt. A step that ends so close to a
+//! branch point by chance is in doubt as well, which does no harm: of a hundred steps over a branch point one
+//! is halved, and the halves are beyond doubt.
 
 use super::{arrival::Arrival, attempt::Attempt};
 use crate::error::StepDoubt;
@@ -21,7 +21,7 @@ pub(super) fn check_simpler(attempt: &mut Attempt<'_>, arrival: Arrival) -> Resu
     if arrival.events.branch_point {
         return Ok(arrival);
     }
-    // Distance that is not told from zero at a point with this correction still due.
+    // Distance that cannot be distinguished from zero at a point with this correction still due.
     let tolerance = attempt.settings().correction_tolerance;
     let indistinct = |correction_norm: f64| NOTHING * correction_norm.max(tolerance);
     let (current, judge) = (&attempt.state.current, attempt.problem.judge());

@@ -94,7 +94,7 @@ pub(super) fn start_limits(settings: &Settings) -> Limits {
     }
 }
 
-/// The orientation is that of the border times the sign of the direction.
+/// The orientation equals the sign of the bordered determinant times the sign of the direction.
 fn first_point(trial: &Candidate, sign: f64, counters: Counters) -> ContinuationPoint {
     ContinuationPoint {
         point: trial.point.clone(),

@@ -130,9 +130,9 @@ pub(super) struct Accepted<'a> {
 pub(super) fn next_step(frame: &Frame, state: &PathState, accepted: &Accepted<'_>) -> f64 {
     let &Accepted { trial, step, angle, earlier, rejected } = accepted;
     let by_angle = 0.5 * frame.settings.max_angle / angle.max(1e-12);
-    let aim = 0.25 * frame.allowed_displacement(&state.current, step);
+    let target = 0.25 * frame.allowed_displacement(&state.current, step);
     let displacement = trial.displacement - NOISE * trial.correction_norm;
-    let by_displacement = (aim / displacement.max(1e-300)).powf(1.0 / order(earlier));
+    let by_displacement = (target / displacement.max(1e-300)).powf(1.0 / order(earlier));
     let effort = if trial.effort > MOST_EFFORT { 0.7 } else { MOST_GROWTH };
     let hold = if rejected > 0 { 1.0 } else { MOST_GROWTH };
     let factor = by_angle.min(by_displacement).min(effort).min(hold).max(0.3);

@@ -27,7 +27,7 @@ impl Follower {
     /// Goes on from the present point in the unknowns that the problem has now; the problem was then
     /// evaluated last there.
     ///
-    /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be those of before. The predictor
+    /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be the same as before. The predictor
     /// begins anew.
     ///
     /// * `current`, `start`: the present point and the start in the new unknowns, with the directions of

@@ -6,8 +6,8 @@
 //! running, the `g_i` stays at zero, and its sign is no event: the function is compared without it at both.
 //!
 //! With the numbers u of undecided `g_i` at the last point and at the trial, `j = min(u_0, u_1)` are left out
-//! at both. At a point at which there are more than before the sign is that of the point before, and the next
-//! one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and
+//! at both. At a point at which there are more than before the sign of the point before is kept, and the next
+//! one decides: either the function comes out of zero, on the same side or on the other one, or it stays, and
 //! nothing has happened. Nor has anything where it leaves zero after a stretch of it. On the other side there
 //! was a zero, perhaps before the point whose sign was taken over: then it is given just behind that point,
 //! with the way back to the point before as what it is known to (`zero.rs`).
@@ -70,7 +70,7 @@ fn compare_last_point_without(attempt: &mut Attempt<'_>, rule: &[u32]) -> Result
         if before.left_out >= rule[index] {
             continue;
         }
-        // A sign that was taken over is that of all; of fewer it is known only where none was beyond zero.
+        // A sign that was taken over belongs to all; of fewer it is known only where none was beyond zero.
         let (taken_over, none_beyond) = (value.undecided > rule[index], before.count == 0);
         lost |= u32::from(taken_over && !none_beyond) << index;
         *before = if taken_over && none_beyond {

@@ -35,7 +35,7 @@ impl Branch {
 /// A path through its start, from one end to the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoSidedBranch {
-    /// All points from the end of the backward direction to that of the forward direction; tangents point
+    /// All points from the end of the backward direction to the end of the forward direction; tangents point
     /// forward, the arc length is negative behind the start.
     pub points: Vec<ContinuationPoint>,
     /// Index of the start.

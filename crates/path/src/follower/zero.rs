@@ -101,7 +101,7 @@ pub(super) fn zeros_at_once(attempt: &mut Attempt<'_>, mut arrival: Arrival) -> 
 }
 
 /// Behind a corner some of what a test function is made of may be known so badly that its sign is not; where
-/// none was beyond zero before, it counts as not beyond it, and the others tell.
+/// none was beyond zero before, it counts as not beyond it, and the others decide.
 fn take_undecided_over(attempt: &mut Attempt<'_>) {
     let rule = |(before, after): (&TestValue, &TestValue)| {
         let was_clear = before.undecided + before.left_out + before.count == 0;
@@ -200,7 +200,7 @@ impl Ends {
     ///
     /// * `value`: of the newest probe.
     fn lies_behind(&self, bracket: &Bracket, value: f64) -> Option<f64> {
-        let at_last_point = bracket.begins_at_start() && bracket.newest() <= JUMP_WIDTH * self.length;
+        let at_last_point = bracket.is_open_at_start() && bracket.newest() <= JUMP_WIDTH * self.length;
         self.taken_over.filter(|_| at_last_point && value.abs() > JUMP_SIZE * self.low.abs())
     }
 }
@@ -224,7 +224,7 @@ fn arrive_at_zero(
             }
         }
     }
-    let Found { bracket, value, counted, .. } = found;
+    let NarrowedZero { bracket, value, counted, .. } = found;
     let mut uncertainty = bracket.uncertainty(value);
     if let Some(behind) = ends.lies_behind(&bracket, value) {
         // The last point is as near to it as the step can end.
@@ -246,14 +246,14 @@ fn arrive_at_zero(
     Ok(Some(arrival))
 }
 
-/// Whether the sign of a probe off the path was wrong, as far as the end of a search tells: the value there
+/// Whether the sign of a probe off the path was wrong, as far as the end of a search shows: the value there
 /// is not small. Where the function seems to jump, which it often does, the other end of the bracket is
 /// probed once more, on the path.
 fn is_false(
     attempt: &mut Attempt<'_>,
     locator: &mut Locator,
     (ends, index): (&Ends, usize),
-    found: &Found,
+    found: &NarrowedZero,
 ) -> Result<bool, StepDoubt> {
     let size = found.value.abs() / ends.size;
     let lies_behind = ends.lies_behind(&found.bracket, found.value).is_some();
@@ -283,11 +283,11 @@ fn asked(
 }
 
 /// Where a search for a zero ended.
-struct Found {
+struct NarrowedZero {
     bracket: Bracket,
     /// The function at its newest probe.
     value: f64,
-    /// Where a probe lay that tells how many multipliers are outside, and how many.
+    /// Where a probe lay at which it is known how many multipliers are outside, and how many.
     counted: Option<(f64, u32)>,
     /// Whether an end of the bracket is a probe that is off the path, or was one.
     is_loose: bool,
@@ -301,7 +301,7 @@ fn narrow(
     locator: &mut Locator,
     (ends, index): (&Ends, usize),
     sharply: bool,
-) -> Result<Found, StepDoubt> {
+) -> Result<NarrowedZero, StepDoubt> {
     let floor = attempt.settings().correction_floor;
     let mut bracket = Bracket::new((0.0, ends.low), (ends.length, ends.high));
     let (mut value, mut counted, mut is_loose) = (ends.low, None, false);
@@ -323,5 +323,5 @@ fn narrow(
         let outside = outside.filter(|outside| outside.least == outside.most);
         counted = outside.map(|outside| (place, outside.least)).or(counted);
     }
-    Ok(Found { bracket, value, counted, is_loose })
+    Ok(NarrowedZero { bracket, value, counted, is_loose })
 }

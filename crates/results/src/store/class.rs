@@ -1,7 +1,7 @@
 //! The kind of a motion, as six columns: class, period, doubt, largest exponent, its half width, K of the 0-1
 //! test.
 
-use hammerbeam_attractor::{Class, Doubt, Estimate};
+use hammerbeam_attractor::{Class, Estimate, MotionDoubt};
 use rusqlite::{Row as SqlRow, types::Value};
 
 use super::{StoreError, values::whole};
@@ -56,7 +56,7 @@ fn class(name: String, period: Option<i64>, doubt: Option<String>) -> Result<Cla
         ("chaotic", _) => Ok(Class::Chaotic),
         ("doubtful", _) => {
             let reason = doubt.unwrap_or_default();
-            let named = Doubt::ALL.into_iter().find(|doubt| doubt.reason() == reason);
+            let named = MotionDoubt::ALL.into_iter().find(|doubt| doubt.reason() == reason);
             Ok(Class::Doubtful(named.ok_or(StoreError::Unknown { what: "doubt", found: reason })?))
         }
         _ => Err(StoreError::Unknown { what: "class of a motion", found: name }),

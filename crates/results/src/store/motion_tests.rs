@@ -1,6 +1,8 @@
 //! Requests and what is stored for them.
 
-use hammerbeam_attractor::{Attractor, Class, Convergence, Doubt, Estimate, Round, Spectrum, SweepPoint};
+use hammerbeam_attractor::{
+    Attractor, Class, Convergence, Estimate, MotionDoubt, Round, Spectrum, SweepPoint,
+};
 use hammerbeam_study::file::StudyFile;
 use tempfile::{TempDir, tempdir};
 
@@ -32,7 +34,7 @@ fn kinds() -> Vec<(Class, Option<Estimate>, Option<f64>)> {
         (Class::QuasiPeriodic, Some(ESTIMATE), Some(-0.01)),
         (Class::Chaotic, Some(ESTIMATE), Some(0.99)),
     ];
-    kinds.extend(Doubt::ALL.map(|doubt| (Class::Doubtful(doubt), Some(ESTIMATE), None)));
+    kinds.extend(MotionDoubt::ALL.map(|doubt| (Class::Doubtful(doubt), Some(ESTIMATE), None)));
     kinds
 }
 

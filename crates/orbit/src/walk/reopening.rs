@@ -1,9 +1,9 @@
-//! Whether a walk has come to the place where a contact splits, and how far it goes before that.
+//! Whether a walk has come to the place where a contact reopens, and how far it goes before that.
 //!
-//! A step that has passed the place tells no more than that the branch ends within its length. The end is
-//! found by halving: from the last orbit that is known, half of what is left is gone along its tangent, and
-//! the orbit there is the next one if the corrector comes to it, its contacts are those of the branch, and it
-//! is told from the other side.
+//! A step that has passed the place says no more than that the branch ends within its length. The end is
+//! found by halving: from the last orbit that is known, half of what is left is gone along its tangent. The
+//! orbit there is the next one if the corrector comes to it, it has the contacts of the branch, and it is
+//! distinguished from the other side.
 
 use hammerbeam_path::{ContinuationPoint, solve_between};
 
@@ -13,15 +13,15 @@ use super::{
 };
 use crate::{
     BranchRow, OrbitError, StopReason,
+    reopening::{self, Reopening},
     solve::evaluate,
     spectrum::largest_modulus,
-    splitting::{self, Splitting},
 };
 
-/// Halvings of a step that has passed a splitting, to an interval of rounding.
+/// Halvings of a step that has passed a reopening, to an interval of rounding.
 const HALVINGS: u32 = 40;
 
-/// A point of a walk and the phase at which its orbit begins.
+/// A point of a walk and the phase at which its orbit starts.
 pub(super) struct Departed {
     /// Phase of the excitation [cycles].
     phase: f64,
@@ -32,7 +32,7 @@ pub(super) struct Departed {
 
 /// Work of a walk; differences of it depend on nothing but the path.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Work {
+pub(super) struct StepWork {
     /// Steps of the motion with forces.
     force_steps: u64,
     /// Shooting evaluations.
@@ -41,12 +41,12 @@ pub(super) struct Work {
 
 /// What is known of a walk before a step.
 pub(super) struct Departure {
-    /// The point that is left; `None` where no contact can split.
+    /// The point that is left; `None` where no contact can reopen.
     pub place: Option<Departed>,
-    pub work: Work,
+    pub work: StepWork,
 }
 
-impl Work {
+impl StepWork {
     fn since(self, earlier: Self) -> Self {
         Self {
             force_steps: self.force_steps - earlier.force_steps,
@@ -56,26 +56,26 @@ impl Work {
 
     /// Whether an orbit with so many touches took far more steps of the motion than touches take.
     fn takes_too_many_steps(self, touches: u64) -> bool {
-        self.force_steps > splitting::MOST_STEPS_AT_TOUCH * touches.max(1) * self.evaluations.max(1)
+        self.force_steps > reopening::MOST_STEPS_AT_TOUCH * touches.max(1) * self.evaluations.max(1)
     }
 }
 
-/// If the last steps were short, and a contact of the present orbit splits: the way to the border is no
+/// If the last steps were short, and a contact of the present orbit reopens: the way to the border is no
 /// longer resolved.
-pub(super) fn tends_to_splitting(path: &mut OrbitPath) -> Option<StopReason> {
+pub(super) fn tends_to_reopening(path: &mut OrbitPath) -> Option<StopReason> {
     let short = path.follower.counters().short_steps;
-    if short == 0 || !short.is_multiple_of(splitting::SHORT_STEPS) {
+    if short == 0 || !short.is_multiple_of(reopening::SHORT_STEPS) {
         return None;
     }
-    splits_here(path, path.parameter())
+    reopens_here(path, path.parameter())
 }
 
-/// If the step from `departure` has passed a splitting, or takes too many force steps beside one: the last
+/// If the step from `departure` has passed a reopening, or takes too many force steps beside one: the last
 /// orbit before that, with why the walk ends.
 ///
 /// * `record`: at the row before.
 /// * `from`: the point before the present one, cut in the same way.
-pub(super) fn comes_to_splitting(
+pub(super) fn comes_to_reopening(
     path: &mut OrbitPath,
     record: &mut RowRecord,
     departure: &Departure,
@@ -83,18 +83,18 @@ pub(super) fn comes_to_splitting(
 ) -> Result<Option<(ContinuationPoint, StopReason)>, OrbitError> {
     let Some(before) = &departure.place else { return Ok(None) };
     let spent = work(path).since(departure.work);
-    if let Some(splitting) = passes_splitting(path, &record.touches, before)? {
-        let last = last_before_splitting(path, record, from);
-        let reason = splits_at(last.parameter(), splitting);
+    if let Some(found) = passes_reopening(path, &record.touches, before)? {
+        let last = last_before_reopening(path, record, from);
+        let reason = reopens_at(last.parameter(), found);
         return Ok(Some((last, reason)));
     }
-    let labours = labours_at_splitting(path, before, spent)?;
+    let labours = labours_at_reopening(path, before, spent)?;
     Ok(labours.map(|reason| (from.clone(), reason)))
 }
 
-/// The last orbit of a branch that is found behind `from` before the splitting that the step to the present
+/// The last orbit of a branch that is found behind `from` before the reopening that the step to the present
 /// orbit has passed.
-fn last_before_splitting(
+fn last_before_reopening(
     path: &mut OrbitPath,
     record: &mut RowRecord,
     from: &ContinuationPoint,
@@ -107,7 +107,7 @@ fn last_before_splitting(
         let ahead = along_tangent(&last, length);
         if let Ok(found) = solve_between(&mut path.problem, [&last, &ahead], 1.0, &settings) {
             record.evaluations_between += found.evaluations;
-            if path.problem.touches() == record.touches && is_told(path) {
+            if path.problem.touches() == record.touches && is_resolved(path) {
                 last = found;
             }
         }
@@ -115,9 +115,9 @@ fn last_before_splitting(
     last
 }
 
-/// Whether the orbit at which the problem was evaluated last is told from those on the other side.
-fn is_told(path: &mut OrbitPath) -> bool {
-    path.problem.multipliers().is_ok_and(|multipliers| largest_modulus(multipliers) < splitting::UNRESOLVED)
+/// Whether the orbit at which the problem was evaluated last is distinguished from those on the other side.
+fn is_resolved(path: &mut OrbitPath) -> bool {
+    path.problem.multipliers().is_ok_and(|multipliers| largest_modulus(multipliers) < reopening::UNRESOLVED)
 }
 
 /// The point at a length ahead on the tangent of another one.
@@ -127,8 +127,8 @@ pub(super) fn along_tangent(from: &ContinuationPoint, length: f64) -> Continuati
 }
 
 impl RowRecord {
-    /// Appends the row of the last orbit before a splitting, and those between `from` and it; none if it is
-    /// `from`.
+    /// Appends the row of the last orbit before a reopening, and the rows between `from` and it; none if it
+    /// is `from`.
     pub fn append_last(
         &mut self,
         path: &mut OrbitPath,
@@ -148,25 +148,25 @@ impl RowRecord {
     }
 }
 
-/// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and
-/// one of its contacts begins with next to no speed.
-pub(super) fn is_lost_at_splitting(
+/// If the multipliers of the present orbit are too large to decide on which side of a reopening it is, and
+/// one of its contacts starts with next to no speed.
+pub(super) fn is_lost_at_reopening(
     path: &mut OrbitPath,
     departure: &Departure,
     largest_multiplier: f64,
 ) -> Result<Option<StopReason>, OrbitError> {
     match &departure.place {
-        Some(before) if largest_multiplier >= splitting::UNRESOLVED => has_just_split(path, before),
+        Some(before) if largest_multiplier >= reopening::UNRESOLVED => has_just_reopened(path, before),
         _ => Ok(None),
     }
 }
 
-/// If the motion of the last step, which led away from `before`, took far more work than its contacts
-/// need, that of the orbit reached does, and one of its contacts begins with next to no speed.
-fn labours_at_splitting(
+/// If the motion of the last step, which led away from `before`, took far more work than its contacts need,
+/// the evaluation of the orbit reached does, and one of its contacts starts with next to no speed.
+fn labours_at_reopening(
     path: &mut OrbitPath,
     before: &Departed,
-    spent: Work,
+    spent: StepWork,
 ) -> Result<Option<StopReason>, OrbitError> {
     let touches = path.problem.touches().iter().map(|&touches| u64::from(touches)).sum();
     if !spent.takes_too_many_steps(touches) {
@@ -176,65 +176,64 @@ fn labours_at_splitting(
     // A correction on a wrong way may have been what cost so much.
     let earlier = work(path);
     evaluate(&mut path.problem, &present.point.point)?;
-    let alone = Work { evaluations: 1, ..work(path).since(earlier) };
+    let alone = StepWork { evaluations: 1, ..work(path).since(earlier) };
     if !alone.takes_too_many_steps(touches) {
         return Ok(None);
     }
-    has_just_split(path, before)
+    has_just_reopened(path, before)
 }
 
-/// If one of the contacts of the present orbit, at which the problem is evaluated again, begins with next
-/// to no speed.
-fn has_just_split(path: &mut OrbitPath, before: &Departed) -> Result<Option<StopReason>, OrbitError> {
+/// If one of the contacts of the present orbit, at which the problem is evaluated again, starts with next to
+/// no speed.
+fn has_just_reopened(path: &mut OrbitPath, before: &Departed) -> Result<Option<StopReason>, OrbitError> {
     let present = place(path);
     let span = move_to_orbit(path, &present);
-    let begin = (present.phase, present.state);
+    let start = (present.phase, present.state);
     let found =
-        span.and_then(|span| splitting::find_slow_begin(path.problem.integrator(), begin, span).ok()?);
+        span.and_then(|span| reopening::find_slow_start(path.problem.integrator(), start, span).ok()?);
     evaluate(&mut path.problem, &present.point.point)?;
-    Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
+    Ok(found.map(|found| reopens_at(before.point.parameter(), found)))
 }
 
-/// If a step has passed a splitting: the number of contacts of an element has changed since the last row,
-/// and a contact of it splits in the orbit `before` the step or in the present one, at which the problem
-/// was evaluated last.
+/// If a step has passed a reopening: the number of contacts of an element has changed since the last row, and
+/// a contact of it reopens in the orbit `before` the step or in the present one, at which the problem was
+/// evaluated last.
 ///
-/// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one
-/// onto the other, in a step or where the orbit is cut anew. That is no way on.
-fn passes_splitting(
+/// Beside a reopening two sheets of orbits lie close to one another, and a corrector may fall from one onto
+/// the other, in a step or where the orbit is cut anew. That is no way on.
+fn passes_reopening(
     path: &mut OrbitPath,
     touches: &[u32],
     before: &Departed,
-) -> Result<Option<Splitting>, OrbitError> {
+) -> Result<Option<Reopening>, OrbitError> {
     let (system, now) = (path.problem.system(), path.problem.touches());
-    let changed = splitting::elements_with_other_touches(system, touches, now);
+    let changed = reopening::elements_with_other_touches(system, touches, now);
     if changed.is_empty() {
         return Ok(None);
     }
     let current = place(path);
-    let among = |found: Splitting| Some(found).filter(|found| changed.contains(&found.element));
-    let splits = splitting_of(path, before).and_then(among);
-    let splits = splits.or_else(|| splitting_of(path, &current).and_then(among));
+    let among = |found: Reopening| Some(found).filter(|found| changed.contains(&found.element));
+    let found = reopening_of(path, before).and_then(among);
+    let found = found.or_else(|| reopening_of(path, &current).and_then(among));
     evaluate(&mut path.problem, &current.point.point)?;
-    Ok(splits)
+    Ok(found)
 }
 
-/// If a contact of the present orbit is about to open and to be pressed on again at once, or has just
-/// begun to.
-pub(super) fn splits_here(path: &mut OrbitPath, place: f64) -> Option<StopReason> {
-    let present = may_split(path)?;
-    splitting_of(path, &present).map(|splitting| splits_at(place, splitting))
+/// If a contact of the present orbit is about to reopen or has just done so.
+pub(super) fn reopens_here(path: &mut OrbitPath, place: f64) -> Option<StopReason> {
+    let present = may_reopen(path)?;
+    reopening_of(path, &present).map(|found| reopens_at(place, found))
 }
 
-/// Where the present orbit begins, if a contact of it may split.
-pub(super) fn may_split(path: &OrbitPath) -> Option<Departed> {
+/// Where the present orbit starts, if a contact of it may reopen.
+pub(super) fn may_reopen(path: &OrbitPath) -> Option<Departed> {
     path.problem.system().remembers_impacts().then(|| place(path))
 }
 
 /// Work done so far.
-pub(super) fn work(path: &mut OrbitPath) -> Work {
+pub(super) fn work(path: &mut OrbitPath) -> StepWork {
     let force_steps = path.problem.integrator().counts().steps;
-    Work { force_steps, evaluations: path.follower.counters().evaluations }
+    StepWork { force_steps, evaluations: path.follower.counters().evaluations }
 }
 
 fn place(path: &OrbitPath) -> Departed {
@@ -242,11 +241,11 @@ fn place(path: &OrbitPath) -> Departed {
     Departed { phase: path.problem.phase(), state: path.problem.nodes(&point.point).swap_remove(0), point }
 }
 
-/// Where a contact of an orbit splits.
-fn splitting_of(path: &mut OrbitPath, orbit: &Departed) -> Option<Splitting> {
+/// Where a contact of an orbit reopens.
+fn reopening_of(path: &mut OrbitPath, orbit: &Departed) -> Option<Reopening> {
     let span = move_to_orbit(path, orbit)?;
-    let begin = (orbit.phase, orbit.state.clone());
-    splitting::find(path.problem.integrator(), begin, span).ok()?
+    let start = (orbit.phase, orbit.state.clone());
+    reopening::find(path.problem.integrator(), start, span).ok()?
 }
 
 /// Sets the parameter of an orbit; its frequency [Hz] and its excitation periods.
@@ -257,6 +256,6 @@ fn move_to_orbit(path: &mut OrbitPath, orbit: &Departed) -> Option<(f64, f64)> {
 }
 
 /// Why a walk ends whose last orbit has this frequency.
-fn splits_at(place: f64, Splitting { element, phase }: Splitting) -> StopReason {
+fn reopens_at(place: f64, Reopening { element, phase }: Reopening) -> StopReason {
     StopReason::ContactReopens { place, element, phase }
 }

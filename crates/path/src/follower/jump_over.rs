@@ -1,4 +1,4 @@
-//! Beyond a place where no short step is beyond doubt: a longer one.
+//! Jumps with a longer step over a place where no short step is beyond doubt.
 //!
 //! Beside a branch point the bordered matrix is nearly singular, and rounding of the residual moves corrected
 //! points by more than a short step allows; so it is wherever the problem is known less well than elsewhere.
@@ -7,9 +7,9 @@
 
 use super::{
     arrival::Arrival,
+    assessment::{check_defect, turned},
     attempt::Attempt,
     branch_point::meets_simpler,
-    finding::{check_defect, turned},
     simpler::check_simpler,
 };
 use crate::{error::StepDoubt, point::PathEvents};
@@ -20,17 +20,17 @@ const REACHES: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 /// A simpler path that was met within a step is no farther from its end than so many times its length.
 const PASSED: f64 = 4.0;
 
-/// Passes a place at which short steps fail, in a longer one.
+/// Jumps over a place at which short steps fail, in a longer one.
 ///
 /// # Errors
 /// No such step goes straight on along the same arc.
-pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
+pub(super) fn jump_over(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     for reach in REACHES {
         let length = reach * attempt.settings().min_step;
         if 0.1 * length > attempt.settings().sheet_distance {
             break;
         }
-        let arrival = leap_over(attempt, length);
+        let arrival = jump_by(attempt, length);
         if let Ok(arrival) = arrival.and_then(|arrival| check_simpler(attempt, arrival)) {
             return Ok((arrival, length));
         }
@@ -38,7 +38,7 @@ pub(super) fn leap(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoub
     Err(StepDoubt::NotLocated)
 }
 
-fn leap_over(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoubt> {
+fn jump_by(attempt: &mut Attempt<'_>, length: f64) -> Result<Arrival, StepDoubt> {
     attempt.border_across(&attempt.state.base().tangent);
     attempt.put_ahead(length);
     attempt.correct(attempt.limits(length))?;

@@ -2,7 +2,7 @@
 //! a jump, so one touch too many or too few is another count of contacts, a false grazing, and a product of
 //! the multipliers that lacks a factor.
 //!
-//! The load is given the phase at which the begin or the end of the contact of one orbit lies on phase 0 to
+//! The load is given the phase at which the start or the end of the contact of one orbit lies on phase 0 to
 //! rounding, and phases a rounding beside it, so that the states at both ends of the orbit lie on either side
 //! of it.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
@@ -54,7 +54,7 @@ fn instants(subject: &Subject, frequency_hz: f64) -> [f64; 3] {
 }
 
 /// The same orbit from a phase at which it touches nothing, and so does none beside it.
-fn begun_later(subject: &Subject, orbit: &PeriodicSolution) -> PeriodicSolution {
+fn started_later(subject: &Subject, orbit: &PeriodicSolution) -> PeriodicSolution {
     let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: LATER };
     let settings = GeneralSettings::with_tolerance(1e-12).state_only();
     let state = advance(&subject.0, &stretch, &orbit.nodes[0], &settings).unwrap().flow.state;
@@ -76,7 +76,7 @@ fn assert_one_contact(instant: f64, beside: i32) {
 
 /// The multipliers are those that the general integrator finds from a later phase.
 fn assert_multipliers(subject: &Subject, orbit: &PeriodicSolution) {
-    let expected = general_multipliers(&subject.0, &begun_later(subject, orbit))[0];
+    let expected = general_multipliers(&subject.0, &started_later(subject, orbit))[0];
     let found = orbit.floquet_multipliers[0];
     let error = (found[0] - expected[0]).hypot(found[1].abs() - expected[1].abs());
     assert!(error < 1e-8, "{} Hz, {found:?}, {expected:?}", orbit.frequency_hz);

@@ -1,5 +1,5 @@
-//! The judgement over a corrected candidate: the same smooth arc, an event on the way, or doubt.
-//! Equation (O8) of the book, `docs/theory`.
+//! The assessment of a corrected candidate: the same smooth arc, an event on the way, or doubt. Equation (O8)
+//! of the book, `docs/theory`.
 
 use super::{attempt::Attempt, closing, locator::Locator};
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
 
 /// What lies between the last point and a candidate that is beyond doubt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Finding {
+pub(super) enum StepAssessment {
     /// Nothing.
     Regular,
     /// One fold.
@@ -37,24 +37,24 @@ pub(super) const ROUNDED: f64 = 1e-12;
 /// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
 
-/// Judges the corrected trial, and orients its tangent.
-pub(super) fn find(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<Finding, StepDoubt> {
+/// Assesses the corrected trial, and orients its tangent.
+pub(super) fn assess(attempt: &mut Attempt<'_>, locator: &mut Locator) -> Result<StepAssessment, StepDoubt> {
     if attempt.changes_signature() && attempt.step > attempt.settings().signature_step {
         return Err(StepDoubt::Signature);
     }
     check_defect(attempt, attempt.step)?;
     if attempt.trial.sign * attempt.state.orientation < 0.0 {
-        return Ok(Finding::Reversed);
+        return Ok(StepAssessment::Reversed);
     }
     check_hidden_folds(attempt)?;
     if let Some(image) = closing::passes_start(attempt, locator) {
-        return Ok(Finding::Closing(image));
+        return Ok(StepAssessment::Closing(image));
     }
     if let Some(arc_length) = attempt.meets_earlier_stretch() {
         return Err(StepDoubt::Retraced { arc_length });
     }
     let slope = attempt.trial.tangent_parameter();
-    Ok(if turned(attempt, slope) { Finding::Fold } else { Finding::Regular })
+    Ok(if turned(attempt, slope) { StepAssessment::Fold } else { StepAssessment::Regular })
 }
 
 /// Whether the parameter has turned, when it has this slope at the trial.

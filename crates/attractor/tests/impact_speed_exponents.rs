@@ -3,7 +3,7 @@
 //! Schmidt instead of reflections.
 //!
 //! The rule for the sum of the exponents, which has a part that these laws alone have, is held to the
-//! determinants of the second method, too. Neither integrator begins within such a contact: that method goes
+//! determinants of the second method, too. Neither integrator starts within such a contact: that method goes
 //! from one excitation period at whose start the contact is open to the next such one, which is a *leg*.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
@@ -120,9 +120,9 @@ fn leg(system: &System, state: &[f64]) -> (usize, Vec<f64>, Mat<f64>) {
     unreachable!("a contact that never opens")
 }
 
-/// Along one motion, that of the exact integrator, both give the same growth in every leg: what they differ
-/// by is the error of the fundamental matrices, 1e-9 of their largest entries, over what the direction that
-/// shrinks most leaves of them, a thousandth at worst. Errors of legs have either sign.
+/// Along one motion of the exact integrator both give the same growth in every leg: what they differ by is
+/// the error of the fundamental matrices, 1e-9 of their largest entries, over what the direction that shrinks
+/// most leaves of them, a thousandth at worst. Errors of legs have either sign.
 #[test]
 fn both_methods_give_the_same_growth_along_one_motion() {
     for (name, system) in chaotic_ones() {

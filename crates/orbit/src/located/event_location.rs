@@ -14,7 +14,7 @@ pub struct ContactChange {
 }
 
 /// What the walk knows of the points at and before the event.
-pub(crate) struct Place<'a> {
+pub(crate) struct EventLocation<'a> {
     pub point: &'a ContinuationPoint,
     /// To this length along the path the place of a corner is known.
     pub at_corners: f64,
@@ -27,7 +27,7 @@ pub(crate) struct Place<'a> {
     pub approach: Option<Approach>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> EventLocation<'a> {
     /// A place of which no more is known than itself, and within which the parameter is known, if that was
     /// computed.
     pub fn alone(point: &'a ContinuationPoint, computed: Option<f64>) -> Self {
@@ -61,7 +61,7 @@ pub(crate) struct Approach {
 }
 
 impl Approach {
-    /// Over a length along the path, at the beginning of which the test function was this.
+    /// Over a length along the path, at the start of which the test function was this.
     ///
     /// * `problem`, `due`: at the event, and the norm of the correction that is still due there.
     pub fn over(chord: f64, test: Option<TestValue>, (problem, due): (&ShootingProblem, f64)) -> Self {

@@ -1,20 +1,19 @@
-//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law
-//! remembers how it began, or an impact on a rigid stop, where the state jumps.
+//! Moves the phase at which the orbits of a walk start, before a contact of an impact-speed-dependent law
+//! comes to lie over it, or an impact on a rigid stop, where the state jumps.
 //!
 //! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the
 //! orbit is cut anew in the middle of its longest time without contact: the state and its tangent are carried
 //! there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that
 //! appears by grazing just at the phase, the present phase counts as a contact. Where a rigid stop holds the
-//! structure but for an instant, the begin stays within that contact. Multipliers and the
-//! orientation of the path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix
-//! `P` in between.
+//! structure but for an instant, the start stays within that contact. Multipliers and the orientation of the
+//! path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix `P` in between.
 //!
 //! The start of the walk is cut at the new phase, too, so that a loop still closes. Where it is in contact
 //! there, it is out of reach until the path comes back to its frequency.
 //!
-//! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
+//! What is lost: the memory of the path holds first nodes, which at another phase are others. It starts anew,
 //! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
-//! All segments of an orbit that is cut (`halves.rs`) begin later by the same time, or are joined first;
+//! All segments of an orbit that is cut (`halves.rs`) start later by the same time, or are joined first;
 //! where the study gives the number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
@@ -27,7 +26,7 @@ use super::{
 };
 use crate::{
     OrbitError, Segments,
-    cut::{Gap, begins_with_care, contacts, longest_of_orbit},
+    cut::{Gap, contacts, longest_of_orbit, must_start_off_contacts},
     shooting::ShootingProblem,
 };
 
@@ -36,7 +35,7 @@ const MOST_CUT: usize = 16;
 
 /// Whether the orbits of a path may have to start at another phase.
 pub(super) fn moves_phase(path: &OrbitPath) -> bool {
-    begins_with_care(path.problem.system()) && path.problem.segments() == 1
+    must_start_off_contacts(path.problem.system()) && path.problem.segments() == 1
 }
 
 /// Keeps the phase away from contacts, and brings back the start where it can be.
@@ -69,26 +68,26 @@ fn offset(path: &mut OrbitPath, flees: bool) -> Option<f64> {
     let (frequency_hz, state) = (problem.frequency(point), problem.nodes(point).swap_remove(0));
     let contacts = contacts(problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
     let (gap, nearest) = longest_of_orbit(&contacts, cycles, flees)?;
-    let keeps_begin = !problem.system().remembers_impacts()
+    let keeps_start = !problem.system().remembers_impacts()
         && gap.is_short()
-        && lasts_over_begin(&contacts, cycles, gap.length());
-    let moves = flees || gap.asks_to_move(nearest) && !keeps_begin;
+        && lasts_over_start(&contacts, cycles, gap.length());
+    let moves = flees || gap.asks_to_move(nearest) && !keeps_start;
     let offset = gap.middle(phase).rem_euclid(cycles);
     (moves && offset > 0.0).then_some(offset)
 }
 
-/// Whether a contact lasts so long before the begin of an orbit, and behind it: a stop that holds the
-/// structure is a better begin than a flight of an instant.
-fn lasts_over_begin(contacts: &[Gap], cycles: f64, long: f64) -> bool {
-    let behind = |contact: &Gap| contact.begin <= 0.0 && contact.end > long;
-    let before = |contact: &Gap| contact.end >= cycles && contact.begin < cycles - long;
+/// Whether a contact lasts so long before the start of an orbit, and behind it: a stop that holds the
+/// structure is a better start than a flight of an instant.
+fn lasts_over_start(contacts: &[Gap], cycles: f64, long: f64) -> bool {
+    let behind = |contact: &Gap| contact.start <= 0.0 && contact.end > long;
+    let before = |contact: &Gap| contact.end >= cycles && contact.start < cycles - long;
     contacts.iter().any(behind) && contacts.iter().any(before)
 }
 
 /// Whether its orbits were cut (`halves.rs`).
 fn is_cut(path: &OrbitPath) -> bool {
     let is_given = matches!(path.settings.segments, Segments::Fixed(_));
-    begins_with_care(path.problem.system()) && path.problem.segments() > 1 && !is_given
+    must_start_off_contacts(path.problem.system()) && path.problem.segments() > 1 && !is_given
 }
 
 /// Cuts the present orbit and the start of the walk this much later; false if the walk stays as it was.
@@ -114,18 +113,18 @@ fn move_phase(path: &mut OrbitPath, offset: f64) -> bool {
         return false;
     }
     *origin = start_of_walk;
-    begin_journal_anew(path);
+    restart_journal(path);
     true
 }
 
 /// Before the phases of the new one the journal has a point without unknowns.
-fn begin_journal_anew(path: &mut OrbitPath) {
+fn restart_journal(path: &mut OrbitPath) {
     path.journal.push(ContinuationPoint::empty(0));
     path.note_in_journal();
     path.measures_anew = true;
 }
 
-/// Goes on with orbits of twice the segments, which begin elsewhere where an impact is near an end of one.
+/// Goes on with orbits of twice the segments, which start elsewhere where an impact is near an end of one.
 /// False if the walk stays as it was.
 pub(super) fn halve(path: &mut OrbitPath) -> bool {
     let segments = 2 * path.problem.segments();
@@ -139,7 +138,7 @@ pub(super) fn halve(path: &mut OrbitPath) -> bool {
     }
 }
 
-/// Whether the ends of all segments of an orbit that is cut are clear of impacts, now that they begin later
+/// Whether the ends of all segments of an orbit that is cut are clear of impacts, now that they start later
 /// if need be: over one segment a disturbance may grow so fast that the orbit is lost. Not if the start of
 /// the walk is to be found again, for which they are joined.
 fn ends_are_clear(path: &mut OrbitPath) -> bool {
@@ -151,7 +150,7 @@ fn ends_are_clear(path: &mut OrbitPath) -> bool {
     offset.is_some_and(|offset| offset == 0.0 || cut_elsewhere(path, offset, 1))
 }
 
-/// Lets the present orbit begin this much later, and cuts each of its segments into `factor`: behind a corner
+/// Lets the present orbit start this much later, and cuts each of its segments into `factor`: behind a corner
 /// in which several stops were grazed a disturbance grows so fast over one segment that its phase cannot be
 /// moved any more. The start of the walk is out of reach from then on. False if the walk stays as it was.
 fn cut_elsewhere(path: &mut OrbitPath, offset: f64, factor: usize) -> bool {
@@ -170,11 +169,11 @@ fn cut_elsewhere(path: &mut OrbitPath, offset: f64, factor: usize) -> bool {
         return false;
     }
     *origin = start_of_walk;
-    begin_journal_anew(path);
+    restart_journal(path);
     true
 }
 
-/// Point and tangent of an orbit whose nodes lie this much later than those of a point that begins at the
+/// Point and tangent of an orbit whose nodes lie this much later than the nodes of a point that starts at the
 /// phase `from`.
 fn carried(
     problem: &mut ShootingProblem,

@@ -1,10 +1,10 @@
 //! The same path in other equations: the determinant jumps to the other sign, the tangent does not turn.
 //!
-//! So it is when a problem is cut into other segments, and at grazing of laws whose force jumps. Sheets that
-//! run opposite ways beside each other would look the same within one step; they must therefore be excluded
-//! by a look ahead.
+//! This happens when a problem is cut into other segments, and at grazing of laws whose force jumps. Sheets
+//! that run opposite ways beside each other would look the same within one step; they must therefore be
+//! excluded by a look ahead.
 
-use super::{arrival::Arrival, attempt::Attempt, finding::check_defect};
+use super::{arrival::Arrival, assessment::check_defect, attempt::Attempt};
 use crate::{corrector::Limits, error::StepDoubt};
 
 /// How far ahead the path must go on straight, in steps.
@@ -15,16 +15,16 @@ const LOOK_AHEAD: f64 = 1e3;
 ///
 /// # Errors
 /// The path does not go on straight: the branch stops.
-pub(super) fn pass_recut(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
+pub(super) fn pass_sign_jump(attempt: &mut Attempt<'_>) -> Result<(Arrival, f64), StepDoubt> {
     let step = attempt.step;
     attempt.border_across(&attempt.state.base().tangent);
     correct_ahead(attempt, LOOK_AHEAD * step)?;
     let ahead = (attempt.trial.sign, attempt.trial.signature);
     correct_ahead(attempt, step)?;
-    let recut = ahead == (attempt.trial.sign, attempt.trial.signature)
+    let jumps = ahead == (attempt.trial.sign, attempt.trial.signature)
         && attempt.trial.sign * attempt.state.orientation < 0.0
         && attempt.changes_signature();
-    if !recut {
+    if !jumps {
         return Err(StepDoubt::Reversed);
     }
     check_defect(attempt, step)?;

@@ -1,5 +1,5 @@
-//! A curve of flips that comes to a contact that splits: beyond it a contact opens and is pressed on again at
-//! once, so that its flight, and with it the steps of the curve, shrink to nothing.
+//! A curve of flips that comes to the reopening of a contact: beyond it the contact opens and is pressed on
+//! again at once, so that its flight, and with it the steps of the curve, shrink to nothing.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use hammerbeam_motion::{

@@ -1,8 +1,8 @@
-//! Orbits of laws that remember their impact, on whose branches a contact comes to lie over phase 0.
+//! Orbits with impact-speed-dependent laws, on whose branches a contact comes to lie over phase 0.
 //!
-//! The oracle is the same motion told from another phase of the load: where the force is `cos(2 pi x + phi)`,
-//! every orbit is that of `phi = 0` begun `phi / 2 pi` cycles later. With `phi = PLAIN` no contact comes near
-//! phase 0, so nothing moves.
+//! The oracle is the same motion counted from another phase of the load: where the force is `cos(2 pi x +
+//! phi)`, every orbit is the orbit of `phi = 0` started `phi / 2 pi` cycles later. With `phi = PLAIN` no
+//! contact comes near phase 0, so nothing moves.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::PI;
@@ -87,8 +87,8 @@ fn events(rows: &[BranchRow]) -> Vec<(String, f64, f64)> {
         .collect()
 }
 
-/// Events of a branch do not depend on where its motion is begun to be counted, nor does the walk stop where
-/// a contact comes to lie over phase 0.
+/// Events of a branch do not depend on the phase from which its motion is counted, nor does the walk stop
+/// where a contact comes to lie over phase 0.
 #[test]
 fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
     let (plain, reason) = walk(&oscillator(PLAIN), usize::MAX);
@@ -104,8 +104,8 @@ fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
         assert_eq!(found.len(), expected.len(), "{load}: {found:?}, {expected:?}");
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found.0, expected.0);
-            // A fold is located to 1e-8 in frequency; grazing, whose place the corner of the branch tells,
-            // less well.
+            // A fold is located to 1e-8 in frequency; grazing, whose place follows from the corner of the
+            // branch, less well.
             assert_near(found.1, expected.1, 1e-7);
             assert_near(found.2, expected.2, 1e-6);
         }
@@ -114,10 +114,10 @@ fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
     assert!(moved.iter().all(|count| *count > 1), "a contact passes phase 0: {moved:?}");
 }
 
-/// The same orbit begun at several phases: frequency response, multipliers and maxima are those of the orbit,
-/// the nodes lie on its motion.
+/// The same orbit started at several phases: frequency response, multipliers and maxima do not change, the
+/// nodes lie on its motion.
 #[test]
-fn an_orbit_does_not_depend_on_where_it_begins() {
+fn an_orbit_does_not_depend_on_where_it_starts() {
     let (system, response) = oscillator(0.5 * PI);
     let (rows, _) = walk(&(system.clone(), response.clone()), usize::MAX);
     let tight = OrbitSettings { tolerance: 1e-12, ..settings() };
@@ -218,9 +218,9 @@ fn searches_find_an_orbit_that_is_in_contact_at_phase_0() {
 fn a_contact_that_never_opens_is_refused_with_a_reason() {
     let (system, response) = pressed(0.0, 8.0);
     let refused = find_start(&system, &response, 0.05, 1, &settings()).unwrap_err();
-    let told = matches!(
+    let is_refused = matches!(
         &refused,
         OrbitError::NeverOpens { .. } | OrbitError::Motion(MotionError::StartsInContact { .. })
     );
-    assert!(told, "{refused}");
+    assert!(is_refused, "{refused}");
 }

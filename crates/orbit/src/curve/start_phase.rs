@@ -29,9 +29,9 @@ impl CurveWalk {
             return;
         }
         if let Ok(Some(offset)) = self.offset() {
-            let before = (self.problem.begin, self.problem.condition.clone());
+            let before = (self.problem.cut_phase, self.problem.condition.clone());
             if self.move_phase(offset).is_err() {
-                (self.problem.begin, self.problem.condition) = before;
+                (self.problem.cut_phase, self.problem.condition) = before;
             }
         }
     }
@@ -48,15 +48,15 @@ impl CurveWalk {
 
     fn move_phase(&mut self, offset: f64) -> Result<(), OrbitError> {
         let current = self.follower.current().clone();
-        let begun = self.follower.state().has_start().then(|| self.follower.state().start.clone());
-        let start = begun.and_then(|begun| Some((carried(&mut self.problem, &begun, offset).ok()?.0, begun)));
+        let first = self.follower.state().has_start().then(|| self.follower.state().start.clone());
+        let start = first.and_then(|first| Some((carried(&mut self.problem, &first, offset).ok()?.0, first)));
         let (node, matrix) = carried(&mut self.problem, &current, offset)?;
         let cycles = f64::from(self.problem.shooting.period_multiple);
-        self.problem.begin = (self.problem.begin + offset).rem_euclid(cycles);
+        self.problem.cut_phase = (self.problem.cut_phase + offset).rem_euclid(cycles);
         let place = self.problem.place(&node.point);
         self.problem.shooting.evaluate(&place)?;
         self.problem.condition.carry(&self.problem.shooting, &matrix);
-        let with_start = start.as_ref().map(|(start, begun)| (start, begun));
+        let with_start = start.as_ref().map(|(start, first)| (start, first));
         let moved = self.follower.transfer_afresh(&mut self.problem, &node, with_start);
         if moved.is_err() && with_start.is_some() {
             self.follower.transfer_afresh(&mut self.problem, &node, None)?;
@@ -67,7 +67,7 @@ impl CurveWalk {
     }
 }
 
-/// Point and tangent of an orbit whose segments begin this much later, and the fundamental matrix from its
+/// Point and tangent of an orbit whose segments start this much later, and the fundamental matrix from its
 /// first node to the new one, by rows.
 fn carried(
     problem: &mut CurveProblem,
@@ -82,8 +82,8 @@ fn carried(
     let (by_hertz, by_value) = (tangent[size * count], tangent[size * count + 1]);
     let mut first = Vec::new();
     for k in 0..count {
-        let begin = shooting.stretch(k, place.frequency_hz, place.phase).start;
-        let stretch = Stretch { frequency_hz: place.frequency_hz, start: begin, end: begin + offset };
+        let start = shooting.stretch(k, place.frequency_hz, place.phase).start;
+        let stretch = Stretch { frequency_hz: place.frequency_hz, start, end: start + offset };
         let node = k * size..(k + 1) * size;
         let flow = shooting.flow_over((stretch, false), &point[node.clone()])?;
         let slope = crate::by_rows::times(&flow.matrix, &tangent[node.clone()]);

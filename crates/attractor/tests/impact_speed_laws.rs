@@ -51,7 +51,7 @@ fn orbit() -> (PeriodicSolution, f64) {
 }
 
 #[test]
-fn exponents_are_those_of_the_multipliers_whatever_lies_over_the_sections() {
+fn exponents_agree_with_the_multipliers_whatever_lies_over_the_sections() {
     let (orbit, phase) = orbit();
     let [[a, b], [c, d]] = [orbit.floquet_multipliers[0], orbit.floquet_multipliers[1]];
     let expected = (a * c - b * d).ln() * FREQUENCY_HZ;
@@ -116,7 +116,7 @@ fn a_contact_that_stays_closed_is_refused_by_name() {
 /// A contact that lies over phase 0 and opens in every period is none that stays closed; nor is one that is
 /// open at phase 0.
 #[test]
-fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
+fn a_contact_over_phase_0_is_distinguished_from_one_that_stays_closed() {
     let (_, over) = orbit();
     for (system, stays) in [(oscillator(over), false), (oscillator(PLAIN), false), (pressed(0.0, 8.0), true)]
     {
@@ -135,7 +135,7 @@ fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
 /// The rest and the linear motion lie within the contact of a weight; the other states of a diagram do not,
 /// whatever the law.
 #[test]
-fn a_diagram_begins_in_front_of_contacts() {
+fn a_diagram_starts_in_front_of_contacts() {
     let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };
     let observable = Observable { shape: vec![1.0], support_ratios: vec![0.0] };
     for weight in [0.0, 8.0, 1e6] {
