@@ -152,6 +152,8 @@ fn an_orbit_in_a_round_hole_is_drawn_along_its_axis() {
 fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";
     let workshop = short_run_with(orbit);
+    assert!(!workshop.path("results/structure.svg").exists(), "a run with --no-figures draws none");
+    assert_success(&workshop.hammerbeam(&RUN));
     let drawn = files(&workshop, &["--out", "again", "--jobs", "1"]);
     for name in [
         "structure.svg",
@@ -186,29 +188,6 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     assert_same(&workshop, &all, ["pdf", "pdf again"]);
     let history = fs::read_to_string(workshop.path("again/orbit_13.7Hz_period1-history.svg")).unwrap();
     assert!(history.contains("low-pass filter of 30 Hz") && history.contains("13.7 Hz, period 1"));
-}
-
-/// A run that drew nothing is drawn later, and is then what a run that draws leaves.
-#[test]
-fn a_run_without_figures_is_drawn_later_with_the_same_bytes() {
-    let workshop = short_run();
-    let drawn = |workshop: &Workshop| {
-        let results = workshop.path("results");
-        let is_drawn = |path: &std::path::Path| {
-            ["svg", "png", "html"].iter().any(|kind| path.extension().is_some_and(|found| found == *kind))
-        };
-        let files =
-            workshop.listing().into_iter().filter(|(path, _)| path.starts_with(&results) && is_drawn(path));
-        files
-            .map(|(path, bytes)| (path.strip_prefix(&results).unwrap().to_owned(), bytes))
-            .collect::<Vec<_>>()
-    };
-    assert!(drawn(&workshop).is_empty());
-    assert_success(&workshop.hammerbeam(&["figure", "results"]));
-    let other = short_run();
-    assert_success(&other.hammerbeam(&RUN));
-    let (later, at_once) = (drawn(&workshop), drawn(&other));
-    assert!(at_once.len() > 5 && at_once.iter().all(|file| later.contains(file)));
 }
 
 /// Figures are no part of a study's identity: another orbit is drawn by the same command, and nothing is

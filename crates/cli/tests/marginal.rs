@@ -170,13 +170,13 @@ fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
     assert!(marginal > 30, "{marginal} of {}", rows.len());
     assert!(rows.iter().all(|row| ["marginal", "false"].contains(&row["stable"].as_str())));
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
     let branches = document["branches"].as_array().unwrap();
     let counted: u64 = branches.iter().map(|branch| branch["marginal_solutions"].as_u64().unwrap()).sum();
     assert_eq!(counted, marginal as u64);
     assert_eq!(document["undamped_modes"].as_array().unwrap().len(), 2);
-    let summary = stdout(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    let summary = stdout(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     let mode = stored(&workshop).0.undamped_modes()[0].to_string();
     let told = summary.lines().filter(|line| line.contains(&mode)).count();
     assert!(told == 1 && summary.contains("modal_ratio"), "{summary}");
@@ -204,7 +204,7 @@ fn a_branch_that_comes_to_free_vibrations_ends_there() {
         }
     }
     assert_eq!(free, 2);
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
     let branches = document["branches"].as_array().unwrap();
     assert!(branches.iter().all(|branch| branch["folds"].as_u64() == Some(0)), "{document}");
@@ -214,6 +214,7 @@ fn a_branch_that_comes_to_free_vibrations_ends_there() {
 fn figures_without_marginal_solutions_do_not_speak_of_them() {
     let damped = CHAIN.replacen("[excitation]", "[damping]\nmodal_ratio = 0.05\n[excitation]", 1);
     let workshop = Workshop::exported(&damped);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
     assert!(!figure.contains("marginal"), "no legend entry, and nothing in the description");
 }

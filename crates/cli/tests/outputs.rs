@@ -6,7 +6,7 @@ use std::{fmt::Write, fs, sync::LazyLock};
 use serde_json::Value;
 
 use crate::common::{
-    COMPUTE, Row, Workshop, assert_bad_input, assert_success, mass_against_a_stop, number, stdout,
+    COMPUTE, RUN, Row, Workshop, assert_bad_input, assert_success, mass_against_a_stop, number, stdout,
 };
 
 const STIFFNESS: f64 = 2.0e4;
@@ -162,6 +162,7 @@ fn outputs_added_to_a_finished_folder_are_the_same_bytes_and_nothing_else_is_com
 #[test]
 fn documents_figures_and_the_page_show_outputs() {
     let workshop = WITH_OUTPUTS.copied();
+    assert_success(&workshop.hammerbeam(&RUN));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "json", "--out", "again"]));
     let text = fs::read_to_string(workshop.path("again/results.json")).unwrap();
     let document: Value = serde_json::from_str(&text).unwrap();

@@ -1,4 +1,5 @@
-//! An orbit cut where fundamental matrices do not jump, before a curve is followed from it (`start_phase.rs`).
+//! An orbit cut where fundamental matrices do not jump, before a curve is followed from it
+//! (`start_phase.rs`).
 
 use hammerbeam_motion::{Stretch, exact::ExactIntegrator};
 
