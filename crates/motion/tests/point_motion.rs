@@ -18,7 +18,7 @@ fn error(system: &System, (shape, ratios): (&[f64], &[f64]), frequency_hz: f64) 
     let state = settled(system, frequency_hz, 60, 0.3);
     let phases: Vec<f64> = (0..SAMPLES).map(|k| 0.3 + k as f64 / SAMPLES as f64).collect();
     let trace = integrator(system).trace(&stretch, &state, &phases).unwrap();
-    let point = PointMotion::of(&system, frequency_hz, shape, ratios);
+    let point = PointMotion::of(system, frequency_hz, shape, ratios);
     let of = |k: usize| point.at(phases[k], &trace.samples[k], &trace.forces[k]);
     let motion: Vec<[f64; 3]> = (0..SAMPLES).map(of).collect();
     let time = |k: usize| k as f64 / (SAMPLES as f64 * frequency_hz);
