@@ -52,7 +52,7 @@ fn column<'t>(table: &'t str, title: &str) -> Vec<&'t str> {
 fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
     let stop = "law = \"linear\"\nstiffness_n_m = 20.0\ndamping_n_s_m = 0.5\ngap_m = 0.5";
     let workshop = two_masses("[0.129, 0.132]", "3e-5", stop);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let connection = crate::common::database(workshop.path("results/results.db"));
     let corner = "SELECT id FROM solution WHERE event & 1 AND event & 16";
     let corner: i64 = connection.query_row(corner, [], |row| row.get(0)).expect("no fold at a grazing");
@@ -77,7 +77,7 @@ fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
 fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_solutions() {
     let stop = "law = \"flores\"\nrestitution = 0.7\nstiffness_n_m15 = 20.0\ngap_m = 0.5";
     let workshop = two_masses("[0.1, 0.3]", "4e-4", stop);
-    let output = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let output = workshop.compute(&[]);
     assert_success(&output);
     let text = stdout(&output);
     assert!(text.contains("s opens and is pressed on again at once"), "{text}{}", stderr(&output));
@@ -96,7 +96,7 @@ fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_s
 fn multipliers_agree_where_a_preloaded_contact_begins_to_open() {
     let stop = "law = \"hertz\"\nstiffness_n_m15 = 20.0\npreload_n = 0.2";
     let workshop = two_masses("[0.137, 0.138]", "1e-5", stop);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     assert!(workshop.csv("results").contains("grazing"), "the contact does not begin to open");
     let found = workshop.hammerbeam(&["verify", "results", "--all", "--tolerance", "1e-8"]);
     assert_eq!(found.status.code(), Some(0), "{}", stdout(&found));
@@ -164,7 +164,7 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
         max_step_hz = 0.01
         "#;
     let workshop = Workshop::with(study);
-    let output = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let output = workshop.compute(&[]);
     assert_success(&output);
     let text = stdout(&output);
     assert_eq!(text.matches("s opens and is pressed on again at once").count(), 2, "{text}");
@@ -189,7 +189,7 @@ fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
     3.7033\nstiffness_n_m15 = 3.9506e5\nloss_s_m = 54.22";
     let drive = "amplitude_n = 1.472\nfrequency_hz = [10.0, 24.0]";
     let workshop = one_mass("5564.1", drive, stop, "0.1");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let table = workshop.csv("results");
     assert!(column(&table, "contacts").iter().all(|contacts| *contacts == "1"), "{table}");
     assert!(!table.contains("grazing"));
@@ -205,6 +205,6 @@ fn a_force_that_rounding_makes_is_none() {
     };
     let stops = stop("law = \"flores\"\nstiffness_n_m15 = 2.1688e7") + &stop("law = \"rigid\"");
     let workshop = one_mass("3298.1", "amplitude_n = 6.139\nfrequency_hz = [9.0, 9.6]", &stops, "0.01");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
 }

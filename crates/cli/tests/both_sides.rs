@@ -96,15 +96,7 @@ max_step_hz = 0.01
 
 fn run(study: &str) -> (Workshop, String) {
     let workshop = Workshop::with(study);
-    assert_success(&workshop.hammerbeam(&[
-        "run",
-        "study.toml",
-        "--out",
-        "results",
-        "--no-figures",
-        "--jobs",
-        "1",
-    ]));
+    assert_success(&workshop.compute(&["--jobs", "1"]));
     let table = workshop.csv("results");
     (workshop, table)
 }

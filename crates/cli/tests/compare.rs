@@ -53,7 +53,7 @@ fn force(f: f64) -> f64 {
 /// in millimetres.
 fn measured() -> Workshop {
     let workshop = Workshop::with(OSCILLATOR);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let mut table = "frequency [Hz],tip [mm],kind,period,shaker force [N]\n".to_owned();
     for k in 0..30 {
         let f = 0.35 + 0.01 * f64::from(k);
@@ -203,7 +203,7 @@ fn points_of_another_point_are_held_against_orbits_that_are_gone_over_again() {
     let study = TWO_MASSES.replace("gap_m = 1.0e-3", "gap_m = 1.0e3").replace("[3.0, 14.0]", "[4.0, 6.0]")
         + "\n[continuation]\nmax_step_hz = 0.01\n[search]\nfrequencies = 2\nstarts = 1\ntrials = 0\n";
     let workshop = Workshop::with(&study);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     // The second mass: w0^2 = 4000 1/s^2, damping ratio 0.02 of its motion relative to the frame.
     let second = |f: f64| {
         let (w, square) = (2.0 * PI * f, 4000.0_f64);

@@ -318,7 +318,7 @@ fn nothing_is_missed_beside_a_grazing_at_which_a_stored_branch_ends() {
     let stop = "restitution = 0.82\nside = \"above\"\ngap_m = 5.5e-6";
     let study = one_mass([2.1e-6, 330.0, 0.008, 4.1e-5], [1900.0, 2100.0], stop);
     let workshop = Workshop::with(&format!("{study}[response]\nperiod_multiples = [1, 2]\n"));
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.compute(&["--json"]);
     let report: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
     let ends = report["branches"].as_array().unwrap().iter().map(|branch| &branch["up"]["stop_reason"]);
     assert!(ends.into_iter().any(|end| end == "shorter-period"), "{report}");

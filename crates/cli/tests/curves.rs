@@ -5,8 +5,6 @@ use std::fs;
 
 use crate::common::{Workshop, assert_success, stdout};
 
-const RUN: [&str; 5] = ["run", "study.toml", "--out", "results", "--no-figures"];
-
 /// A mass on a spring and a damper [kg, N/m, N s/m] beside stops, under a force [N] in a range of frequency
 /// [Hz].
 fn oscillator([mass, stiffness, damping]: [f64; 3], force: f64, range: [f64; 2], stops: &str) -> String {
@@ -285,7 +283,7 @@ parameter = "damping.modal_ratio"
 range = [0.005, 0.1]
 "#;
     let workshop = Workshop::with(study);
-    let found = workshop.hammerbeam(&RUN);
+    let found = workshop.compute(&[]);
     assert_success(&found);
     let text = stdout(&found);
     let curve = text.split("neimark-sacker curve").nth(1).unwrap_or_else(|| panic!("no curve: {text}"));

@@ -21,15 +21,7 @@ fn a_force_that_is_largest_at_the_border_of_two_steps_is_verified() {
         .replace("max_step_hz = 0.01", "max_step_hz = 2e-7")
         .replace("frequencies = 1\nstarts = 1", "frequencies = 3\nstarts = 3");
     let workshop = Workshop::with(&two_masses);
-    assert_success(&workshop.hammerbeam(&[
-        "run",
-        "study.toml",
-        "--out",
-        "results",
-        "--no-figures",
-        "--jobs",
-        "1",
-    ]));
+    assert_success(&workshop.compute(&["--jobs", "1"]));
     let verify = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
     let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
     assert_eq!(document["agree"], true, "{document}");
@@ -59,7 +51,7 @@ fn an_orbit_in_contact_at_phase_0_is_found() {
 fn a_branch_whose_contact_passes_phase_0_is_followed_and_verified() {
     let stop = "law = \"lankarani-nikravesh\"\nstiffness_n_m15 = 1e4\nrestitution = 0.7";
     let workshop = Workshop::with(&study(stop).replace("phase_rad = -2.2", "phase_rad = 1.0"));
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--jobs", "1"]);
+    let run = workshop.compute(&["--jobs", "1"]);
     assert_success(&run);
     assert!(!stdout(&run).contains("stopped early"), "{}", stdout(&run));
     let verify = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
@@ -115,7 +107,7 @@ fn pressed(amplitude_n: f64) -> Workshop {
 #[test]
 fn a_run_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     let workshop = pressed(1000.0);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let sweep = ["sweep", "study.toml", "--from", "15.1", "--to", "15.1", "--initial=-0.3,0"];
     let output = workshop.hammerbeam(&[&sweep[..], &["--results", "results", "--json"]].concat());
     assert_success(&output);
@@ -127,7 +119,7 @@ fn a_run_begins_in_front_of_a_contact_against_which_a_weight_presses() {
 /// A weak force never opens the contact: the run says why it has nothing.
 #[test]
 fn a_run_that_finds_nothing_says_why() {
-    let output = pressed(1.0).hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let output = pressed(1.0).compute(&[]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let reported = stderr(&output);
     assert!(reported.contains("no periodic solution was found between 15 Hz and 15.2 Hz"), "{reported}");

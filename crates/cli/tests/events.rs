@@ -51,7 +51,7 @@ period_multiples = [1, 2]
 /// Its results, exported.
 static RESULTS: LazyLock<Workshop> = LazyLock::new(|| {
     let workshop = Workshop::with(BILINEAR);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     workshop.csv("results");
     workshop
 });

@@ -85,7 +85,7 @@ fn number(row: &HashMap<String, String>, column: &str) -> f64 {
 
 fn followed_and_verified(law: &str, study: &str, loses: bool) {
     let workshop = Workshop::with(study);
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--jobs", "1"]);
+    let run = workshop.compute(&["--jobs", "1"]);
     assert_success(&run);
     assert!(!stdout(&run).contains("stopped early"), "{law}: {}", stdout(&run));
     let solutions = rows(&workshop.csv("results"));

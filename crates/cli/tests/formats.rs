@@ -10,7 +10,7 @@ use crate::common::{Workshop, assert_success, number, stdout};
 fn run() -> Workshop {
     let study = include_str!("../../../studies/duffing.toml");
     let workshop = Workshop::changed(study, "[0.08, 0.5]", "[0.2, 0.3]");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     workshop
 }
 

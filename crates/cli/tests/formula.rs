@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{Workshop, assert_bad_input, assert_success, extensive, stderr, stdout};
+use crate::common::{COMPUTE, Workshop, assert_bad_input, assert_success, extensive, stderr, stdout};
 use serde_json::Value;
 
 const VAN_DER_POL: &str = include_str!("../../../studies/van-der-pol.toml");
@@ -41,10 +41,7 @@ fn the_example_is_followed_and_verified() {
     let whole = format!("{}\n{vary}", quick());
     let run = |study: &str, jobs: &str| {
         let workshop = Workshop::with(study);
-        let run = document(
-            &workshop,
-            &["run", "study.toml", "--out", "results", "--no-figures", "--jobs", jobs, "--json"],
-        );
+        let run = document(&workshop, &[&COMPUTE[..], &["--jobs", jobs, "--json"]].concat());
         let branches = run["branches"].as_array().unwrap();
         assert_eq!(branches.len(), 1, "{run}");
         assert_eq!(branches[0]["mirror_image"], branches[0]["branch"], "{run}");
@@ -67,15 +64,7 @@ fn the_example_is_followed_and_verified() {
 #[test]
 fn another_formula_or_constant_is_another_study() {
     let workshop = with(FORMULA, "constants = { mu = 0.3 }");
-    assert_success(&workshop.hammerbeam(&[
-        "run",
-        "study.toml",
-        "--out",
-        "results",
-        "--no-figures",
-        "--jobs",
-        "1",
-    ]));
+    assert_success(&workshop.compute(&["--jobs", "1"]));
     for (old, new) in [("mu = 0.3 }", "mu = 0.4 }"), ("x^2 - 1)*v", "x^2 - 1)*v^3")] {
         let other = quick().replace(old, new);
         assert_ne!(other, quick());
@@ -119,9 +108,7 @@ fn what_is_no_formula_is_refused_with_its_place_and_help() {
     for (formula, constants, parts) in cases {
         let workshop = with(formula, constants);
         let before = workshop.listing();
-        for arguments in
-            [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results", "--no-figures"]]
-        {
+        for arguments in [&["check", "study.toml"][..], &COMPUTE] {
             assert_bad_input(&workshop.hammerbeam(arguments), &[&["stop[0]"], parts].concat());
         }
         assert_eq!(workshop.listing(), before);

@@ -108,7 +108,7 @@ fn rows(csv: &str) -> Vec<Row> {
 #[test]
 fn the_example_is_run_to_its_closed_form_and_verified() {
     let workshop = Workshop::with(STUDY);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let rows = rows(&workshop.csv("results"));
     // What a state is off by the speed is off, more beside the fold, and no more beside the corner.
     let with_one = rows.iter().filter(|row| row.contacts == 1);

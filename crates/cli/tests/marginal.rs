@@ -278,7 +278,7 @@ fn gears_on_an_undamped_spring_are_marginal_and_make_no_neimark_sacker_points() 
     let rows = workshop.table("results/export/branches.csv");
     assert!(rows.len() > 150 && rows.iter().all(|row| row["stable"] == "marginal"), "{} rows", rows.len());
     assert_eq!(workshop.table("results/export/events.csv").len(), 0);
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.compute(&["--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
     let named = document["undamped_in_contact"].as_array().unwrap();
     assert_eq!(named.len(), 1, "{document}");

@@ -12,7 +12,7 @@ use std::{
     time::Duration,
 };
 
-use crate::common::{BEAM, Workshop, assert_success, extensive, number, stderr};
+use crate::common::{BEAM, COMPUTE, Workshop, assert_success, extensive, number, stderr};
 
 /// Solutions of the small run and of the one with `HAMMERBEAM_EXTENSIVE=1`.
 const SOLUTIONS: [u64; 2] = [500, 100_000];
@@ -55,7 +55,7 @@ fn memory_and_results_folder_stay_below_200_megabytes() {
     let study = study.replace("[19.0, 110.0]", "[25.0, 80.0]");
     // A short search: what is looked for has little to do with what is held.
     let workshop = Workshop::with(&study.replace("trials = 0", "frequencies = 1\ntrials = 0"));
-    let peak = peak_of(&workshop, &["run", "study.toml", "--out", "results", "--no-figures"]);
+    let peak = peak_of(&workshop, &COMPUTE);
     let rows = workshop.csv("results").lines().count() as u64 - 1;
     let size = folder_size(&workshop, "results");
     assert!(rows >= solutions, "{rows} solutions");
@@ -78,7 +78,7 @@ fn a_chain_without_damping_ends_at_its_resonances_in_little_memory() {
         masses.join(", "),
         springs.join(", "),
     ));
-    let peak = peak_of(&workshop, &["run", "study.toml", "--out", "results", "--no-figures"]);
+    let peak = peak_of(&workshop, &COMPUTE);
     assert!(peak < 200_000_000, "{peak} bytes of memory");
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     let ends = workshop.table("results/export/ends.csv");

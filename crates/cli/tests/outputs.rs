@@ -6,7 +6,7 @@ use std::{fmt::Write, fs, sync::LazyLock};
 use serde_json::Value;
 
 use crate::common::{
-    COMPUTE, RUN, Row, Workshop, assert_bad_input, assert_success, mass_against_a_stop, number, stdout,
+    RUN, Row, Workshop, assert_bad_input, assert_success, mass_against_a_stop, number, stdout,
 };
 
 const STIFFNESS: f64 = 2.0e4;
@@ -127,7 +127,7 @@ fn exported(workshop: &Workshop) -> Vec<(String, Vec<u8>)> {
 /// Computes what is left, and how many solutions got their outputs.
 fn run_again(workshop: &Workshop, study: &str, jobs: &str) -> u64 {
     fs::write(workshop.path("study.toml"), study).unwrap();
-    let run = workshop.hammerbeam(&[&COMPUTE[..], &["--json", "--jobs", jobs]].concat());
+    let run = workshop.compute(&["--json", "--jobs", jobs]);
     assert_success(&run);
     let document: Value = serde_json::from_str(&stdout(&run)).unwrap();
     assert_eq!(document["outputs"]["failed"], 0);

@@ -11,7 +11,7 @@ fn linear() -> Workshop {
     let study = TWO_MASSES.replace("gap_m = 1.0e-3", "gap_m = 1.0e3").replace("[3.0, 14.0]", "[4.0, 6.0]")
         + "\n[continuation]\nmax_step_hz = 0.005\n[search]\nfrequencies = 2\nstarts = 1\ntrials = 0\n";
     let workshop = Workshop::with(&study);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     workshop
 }
 
@@ -279,7 +279,7 @@ fn what_a_harmonic_cannot_tell_is_told() {
 fn the_orbit_is_found_by_its_waveform() {
     let both = "[response]\npoint = \"first\"\nperiod_multiples = [1, 2]";
     let workshop = Workshop::changed(TWO_MASSES, "[response]\npoint = \"first\"", both);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let simulate = ["simulate", "study.toml", "--frequency", "5.6", "--transient-periods", "300"];
     let record = ["--periods", "30", "--samples-per-period", "1000", "--out", "motion"];
     assert_success(&workshop.hammerbeam(&[&simulate[..], &record].concat()));

@@ -44,7 +44,7 @@ tolerance = {tolerance:e}
 /// orbit is several millionths of the state at phase 0.
 fn verified(phase_rad: f64, tolerance: f64) -> u64 {
     let workshop = study(phase_rad, tolerance);
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.compute(&["--json"]);
     assert_success(&run);
     let output = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
     assert_success(&output);
@@ -107,7 +107,7 @@ trials = 0
 max_step_hz = 0.01
 "#,
     );
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let run = workshop.compute(&[]);
     assert_success(&run);
     let (_, branches) = stored(&workshop);
     let rows: Vec<_> =

@@ -28,7 +28,7 @@ max_step_hz = 1e-3
 #[test]
 fn a_run_over_an_undamped_resonance_has_both_sides_of_it_and_ends() {
     let workshop = undamped([0.13, 0.19]);
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let run = workshop.compute(&[]);
     assert_success(&run);
     let reported = "the amplitude has no bound: mode 1 (0.159155 Hz) has no damping";
     assert_eq!(stdout(&run).matches(reported).count(), 2, "{}", stdout(&run));
@@ -71,7 +71,7 @@ side = "below"
 gap_m = 0.013
 "#,
     );
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let run = workshop.compute(&["--json"]);
     assert_success(&run);
     let report: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
     assert_eq!(report["branches"].as_array().unwrap().len(), 2, "{report}");
@@ -89,10 +89,10 @@ fn free_vibrations_that_repeat_with_the_motion_are_one_solution_and_no_branch() 
     let document: serde_json::Value = serde_json::from_str(&stdout(&orbit)).unwrap();
     assert_eq!(document["solutions"].as_array().unwrap().len(), 1, "{document}");
     assert!(stderr(&orbit).contains(reason), "{}", stderr(&orbit));
-    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]);
+    let run = workshop.compute(&[]);
     assert_success(&run);
     assert!(stdout(&run).contains(reason), "{}", stdout(&run));
-    let again = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+    let again = workshop.compute(&["--json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout(&again)).unwrap();
     assert_eq!(document["branches"].as_array().unwrap().len(), 1, "{document}");
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));

@@ -6,8 +6,6 @@ use std::{collections::BTreeMap, fs, sync::LazyLock};
 use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
-const RUN: [&str; 5] = ["run", "study.toml", "--out", "results", "--no-figures"];
-
 /// The example with longer steps and a shorter search: some hundred rows of each piece.
 static EXAMPLE: LazyLock<String> = LazyLock::new(|| {
     let quick = "[search]\nfrequencies = 4\ntrials = 0\n[continuation]\nmax_step_hz = 0.0005\n\n";
@@ -20,7 +18,7 @@ static EXAMPLE: LazyLock<String> = LazyLock::new(|| {
 static ONE_THREAD: LazyLock<(Workshop, String)> = LazyLock::new(|| {
     assert_eq!(EXAMPLE.matches("steps = 200").count(), 2);
     let workshop = Workshop::with(&EXAMPLE);
-    let run = workshop.hammerbeam(&[&RUN[..], &["--jobs", "1"]].concat());
+    let run = workshop.compute(&["--jobs", "1"]);
     assert_success(&run);
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv", "--states"]));
     (workshop, stdout(&run))
@@ -170,7 +168,7 @@ fn a_grazing_curve_is_that_of_the_linear_amplitude() {
         "[[curve]]\nof = \"grazing\"\nnear_hz = 0.13\nparameter = \"stop.1.gap_m\"\nrange = [0.4, 2.0]\n";
     let (structure, _) = STUDY.split_once("[[stop]]").unwrap();
     let workshop = Workshop::with(&format!("{structure}{stop}{curve}"));
-    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.compute(&[]));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     let rows = table(&workshop, "curves.csv");
     assert!(rows.len() > 50, "{}", rows.len());
@@ -192,7 +190,7 @@ fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
     = \"excitation.amplitude_n\"\nrange = [0.9, 2.0]\n";
     let last = |study: &str, name: &str| {
         let workshop = Workshop::with(study);
-        assert_success(&workshop.hammerbeam(&RUN));
+        assert_success(&workshop.compute(&[]));
         assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
         table(&workshop, name)
     };
@@ -217,12 +215,12 @@ fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
 fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
     let (without, pieces) = EXAMPLE.split_once("[[vary]]").unwrap();
     let workshop = Workshop::with(without);
-    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.compute(&[]));
     let branches = workshop.csv("results");
     let (first, _) = pieces.split_once("[[curve]]").unwrap();
     let pieces_of = |study: String| {
         fs::write(workshop.path("study.toml"), study).unwrap();
-        let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures", "--json"]);
+        let run = workshop.compute(&["--json"]);
         assert_success(&run);
         let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
         let pieces = document["varied"].as_array().unwrap();
@@ -248,10 +246,10 @@ fn pieces_lie_in_the_order_of_the_study() {
     let (without, _) = EXAMPLE.split_once("[[vary]]").unwrap();
     let (_, later) = EXAMPLE.rsplit_once("[[vary]]").unwrap();
     let workshop = Workshop::with(&format!("{without}[[vary]]{later}"));
-    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.compute(&[]));
     let first = exported(&workshop);
     fs::write(workshop.path("study.toml"), &*EXAMPLE).unwrap();
-    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.compute(&[]));
     let both = exported(&workshop);
     assert_ne!(first, both);
     assert!(both == tables(&ONE_THREAD.0), "the first piece, computed last, does not come first");
@@ -275,7 +273,7 @@ fn pieces_are_the_same_for_any_number_of_threads() {
     assert!(lines[0] > 50 && lines[1] > 2 && lines[2] > 50, "{lines:?}");
     assert!(lines[3] > 2 && lines[4] > 2, "{lines:?}");
     let workshop = Workshop::with(&EXAMPLE);
-    assert_success(&workshop.hammerbeam(&[&RUN[..], &["--jobs", "3"]].concat()));
+    assert_success(&workshop.compute(&["--jobs", "3"]));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     assert!(one == tables(&workshop), "three threads give other rows");
 }

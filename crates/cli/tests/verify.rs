@@ -14,7 +14,7 @@ fn results() -> &'static Workshop {
     static RESULTS: OnceLock<Workshop> = OnceLock::new();
     RESULTS.get_or_init(|| {
         let workshop = Workshop::with(&format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.05\n"));
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+        assert_success(&workshop.compute(&[]));
         workshop
     })
 }
@@ -27,7 +27,7 @@ fn few() -> &'static Workshop {
         assert_ne!(narrow, TWO_MASSES);
         let few = "[continuation]\nmax_step_hz = 0.05\n[search]\nfrequencies = 1\nstarts = 1\ntrials = 0\n";
         let workshop = Workshop::with(&format!("{narrow}\n{few}"));
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+        assert_success(&workshop.compute(&[]));
         workshop
     })
 }
@@ -98,7 +98,7 @@ starts = 1
 max_step_hz = 0.05
 "#
         ));
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+        assert_success(&workshop.compute(&[]));
         let document = document(&workshop.hammerbeam(&["verify", "results", "--all", "--json"]));
         assert_eq!(document["agree"], true, "{amplitude_n} N, {rest}: {document}");
     }
@@ -233,7 +233,7 @@ fn touches_of_a_deep_contact_that_just_opens_agree() {
         trials = 0
         "#,
     );
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let weak: Vec<f64> =
         impact_velocities(&workshop.csv("results")).into_iter().filter(|v| *v < 2e-4).collect();
     assert!(weak.len() > 2, "no weak touches: {weak:?}");
@@ -273,7 +273,7 @@ fn the_force_of_a_contact_is_judged_by_its_own_depth() {
         max_step_hz = 0.0005
         "#,
     );
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let weak = values(&workshop.csv("results"), "max_contact_force_n").into_iter().filter(|f| *f < 1e-8);
     assert!(weak.count() > 2, "the spring is not just touched");
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
@@ -300,7 +300,7 @@ fn touches_of_a_damper_that_graze_or_lie_at_the_cut_agree() {
         let step = if extensive() { 6e-5 } else { 3e-4 };
         let rest = format!("{rest}[continuation]\nmax_step_hz = {step}\n");
         let workshop = Workshop::driven_mass(&format!("frequency_hz = [0.1, 0.4]\n{stop}{rest}"));
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+        assert_success(&workshop.compute(&[]));
         let output = workshop.hammerbeam(&["verify", "results", "--all"]);
         assert!(output.status.success(), "{damping}:\n{}", stdout(&output));
     }
@@ -345,7 +345,7 @@ fn bad_input_is_exit_code_2() {
 fn a_changed_row_of_a_branch_over_a_parameter_is_found() {
     let workshop =
         Workshop::with(&crate::common::mass_against_a_stop("law = \"linear\"\nstiffness_n_m = 5000.0"));
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let verify = ["verify", "results", "--all", "--json"];
     let agree = document(&workshop.hammerbeam(&verify));
     assert_eq!(agree["agree"], true, "{agree}");

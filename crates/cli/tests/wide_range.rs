@@ -1,7 +1,7 @@
 //! Ranges over many decades, and what cannot be resolved in them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use crate::common::{Workshop, assert_success, number, stderr};
+use crate::common::{COMPUTE, Workshop, assert_success, number, stderr};
 
 /// The mass of the other tests, and a stop that it reaches about its resonance only.
 fn study(high: &str) -> String {
@@ -17,7 +17,7 @@ fn study(high: &str) -> String {
 #[test]
 fn a_range_over_eight_decades_has_one_branch_from_end_to_end() {
     let workshop = Workshop::driven_mass(&study("1e6"));
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     for end in workshop.table("results/export/ends.csv") {
         assert_eq!((&end["branch"][..], &end["end"][..]), ("1", "range-end"));
@@ -42,8 +42,7 @@ fn a_range_beyond_what_can_be_resolved_is_refused() {
         let output = Workshop::driven_mass(&study(high)).hammerbeam(command);
         (output.status.code(), stderr(&output))
     };
-    for command in [&["check", "study.toml"][..], &["run", "study.toml", "--out", "results", "--no-figures"]]
-    {
+    for command in [&["check", "study.toml"][..], &COMPUTE] {
         let (code, reported) = tried(command, "1e10");
         // Ten million times sqrt(k/m)/(2 pi).
         assert!(

@@ -145,6 +145,11 @@ impl Workshop {
         self.command(arguments).output().unwrap()
     }
 
+    /// Computes the study into `results` and draws nothing.
+    pub fn compute(&self, more: &[&str]) -> Output {
+        self.hammerbeam(&[&COMPUTE[..], more].concat())
+    }
+
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::cargo_bin("hammerbeam").unwrap();
         command.current_dir(self.folder.path()).args(arguments);
@@ -178,7 +183,7 @@ impl Workshop {
     #[track_caller]
     pub fn exported(study: &str) -> Self {
         let workshop = Self::with(study);
-        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+        assert_success(&workshop.compute(&[]));
         assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
         workshop
     }
@@ -294,7 +299,7 @@ pub fn short_run() -> Workshop {
 /// A run of one short branch with more in its study.
 pub fn short_run_with(added: &str) -> Workshop {
     let workshop = Workshop::with(&format!("{}{added}", short_study()));
-    assert_success(&workshop.hammerbeam(&COMPUTE));
+    assert_success(&workshop.compute(&[]));
     workshop
 }
 

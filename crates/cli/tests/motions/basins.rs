@@ -22,7 +22,7 @@ pub const BASINS: [&str; 11] = [
 #[test]
 fn basins_match_the_branches_of_their_folder() {
     let workshop = Workshop::with(DUFFING);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let arguments: Vec<&str> = BASINS.iter().map(|word| if *word == "60" { "12" } else { word }).collect();
     let document = document(&workshop, &[&arguments[..], &["results", "--json"]].concat());
     let attractors = document["attractors"].as_array().unwrap();

@@ -9,7 +9,7 @@ use crate::common::{Workshop, assert_success};
 
 /// Attractors of a grid over the state of a mass, with the branches of a run beside it.
 fn attractors(workshop: &Workshop, frequency: &str, [x, y]: [&str; 2]) -> Vec<Value> {
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let basins = ["basins", "study.toml", "--frequency", frequency, "--x", x, "--y", y, "--grid", "10"];
     let found = document(workshop, &[&basins[..], &["--results", "results", "--json"]].concat());
     assert_eq!(found["cells_not_computed"], 0);

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::document;
-use crate::common::{Workshop, assert_bad_input, assert_success};
+use crate::common::{COMPUTE, Workshop, assert_bad_input, assert_success};
 
 /// `x'' + 0.02 x' + x + x^3 = 0.5 cos 2 pi f t`: at 0.6 Hz two harmonic attractors and one of three periods.
 const STUDY: &str = r#"
@@ -47,7 +47,7 @@ fn on_no_branch(attractors: &[Value]) -> Vec<&Value> {
 fn attractors_that_basins_have_met_are_followed_on_request() {
     let workshop = Workshop::with(STUDY);
     let run = |more: &[&str]| {
-        let words = [&["run", "study.toml", "--out", "results", "--no-figures", "--json"], more].concat();
+        let words = [&COMPUTE[..], &["--json"], more].concat();
         document(&workshop, &words)["branches"].as_array().unwrap().len()
     };
     assert_eq!(run(&[]), 1, "nothing is looked for but one harmonic branch");
@@ -69,8 +69,7 @@ fn attractors_that_a_sweep_has_met_are_followed_on_request() {
     let at = ["--from", "0.56", "--to", "0.64", "--step", "0.04", "--starts", "40"];
     let words = [&["sweep", "study.toml", "--longest-period", "6", "--out", "met"], &at[..]].concat();
     assert_success(&workshop.hammerbeam(&words));
-    let run = ["run", "study.toml", "--out", "results", "--no-figures", "--from", "met"];
-    assert_success(&workshop.hammerbeam(&run));
+    assert_success(&workshop.compute(&["--from", "met"]));
     let words = [&words[..], &["--results", "results", "--json"]].concat();
     let motions = document(&workshop, &words)["motions"].as_array().unwrap().clone();
     let periodic = motions.iter().filter(|motion| motion["class"] == "periodic");
@@ -81,6 +80,5 @@ fn attractors_that_a_sweep_has_met_are_followed_on_request() {
 #[test]
 fn a_folder_without_results_is_refused() {
     let workshop = Workshop::with(STUDY);
-    let run = ["run", "study.toml", "--out", "results", "--no-figures", "--from", "nowhere"];
-    assert_bad_input(&workshop.hammerbeam(&run), &["nowhere"]);
+    assert_bad_input(&workshop.compute(&["--from", "nowhere"]), &["nowhere"]);
 }

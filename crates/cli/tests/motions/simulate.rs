@@ -35,7 +35,7 @@ fn simulate_writes_samples_contacts_and_a_section() {
 #[test]
 fn simulate_begins_where_it_is_told() {
     let workshop = Workshop::changed(DUFFING, "[0.08, 0.5]", "[0.08, 0.3]");
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let start = ["simulate", "study.toml", "--frequency", "0.2", "--periods", "3", "--json", "--initial"];
     let of = |initial: &[&str]| document(&workshop, &[&start[..], initial].concat());
     let orbit = of(&["branch:1", "--results", "results"]);

@@ -9,7 +9,7 @@ use crate::common::{Workshop, assert_success};
 #[test]
 fn sweep_shows_hysteresis_and_names_the_branch() {
     let workshop = Workshop::with(DUFFING);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let range = ["sweep", "study.toml", "--from", "0.15", "--to", "0.35", "--step", "0.02"];
     let more = ["--down", "--results", "results", "--out", "out", "--json"];
     let document = document(&workshop, &[&range[..], &more].concat());
@@ -49,7 +49,7 @@ fn sweep_names_the_branch_of_a_subharmonic_motion_within_a_contact() {
         budget_solutions = 1500
         "#,
     );
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--no-figures"]));
+    assert_success(&workshop.compute(&[]));
     let sweep = ["sweep", "study.toml", "--from", "0.14", "--to", "0.14", "--results", "results", "--json"];
     let of = |initial: &str| {
         let found = document(&workshop, &[&sweep[..], &["--initial", initial]].concat());
